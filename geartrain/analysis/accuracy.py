@@ -36,7 +36,7 @@ _NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 @dataclass(frozen=True, slots=True)
 class MethodAccuracy(Shown):
-    """Run time and error of one method of one stage of the computation.
+    """Run time and error of one method for one stage of the computation.
 
     See Also
     --------
@@ -48,7 +48,7 @@ class MethodAccuracy(Shown):
     method: str
     """Name of the method."""
     seconds: float
-    """Time of one run [s]."""
+    """Run time [s]."""
     error: float | None
     """Maximum error in `unit`; None for the reference method."""
     unit: Literal["relative", "pitches", "deg"]
@@ -56,14 +56,14 @@ class MethodAccuracy(Shown):
     reference: str
     """Method whose values are the reference for the error."""
     prepared: float | None = None
-    """Time of the preparation before the run, such as the computation of tables [s]."""
+    """Time of preparation before the run, such as the computation of tables [s]."""
     ratio: float = 1.0
-    """Quotient of `seconds` and the run time of the fastest method of the stage."""
+    """Run time divided by the run time of the fastest method of the stage."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainAccuracy(Tabular, TrainResult):
-    """Run time and error of all methods on one train in one state.
+    """Run time and error of each method for one train in one state.
 
     See Also
     --------
@@ -93,13 +93,14 @@ class TrainAccuracy(Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each method: time, error and reference."""
+        """Table with a row for each method: stage, method, run time, error and reference."""
         names = [field.name for field in fields(MethodAccuracy)]
         return {name: [getattr(each, name) for each in self.methods] for name in names}
 
 
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
-    """Measure error and run time of every method that computes speeds, transmission functions, motion or torques.
+    """Measure the run time and the error of every method that computes speeds, transmission functions, motion or
+    torques.
 
     Parameters
     ----------

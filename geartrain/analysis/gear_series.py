@@ -148,25 +148,27 @@ def find_gears(
     steps: tuple[float, float] = (1.05, 2.0),
     single: bool = False,
 ) -> GearSearch:
-    """Find every gear that a choice of closed shift elements can produce, declared or not, and series of gears.
+    """Find all gears of a gearbox, declared or not, by enumeration of closed shift elements, and search for series of
+    gears.
 
     Parameters
     ----------
     train : GearTrain
         Train with clutches.
     output : str, optional
-        One of the declared outputs, by default the first that is not the input.
+        Name of an output; by default the first output that is not the input.
     gears : int
-        Number of forward gears of a series; below 2 no series is searched for.
+        Number of forward gears of a series; no series is searched for if it is below 2.
     steps : tuple of float
-        Minimum and maximum ratio of a gear over the ratio of the next.
+        Minimum and maximum step of a series: ratio of a gear divided by the ratio of the next gear.
     single : bool
-        True to admit only shifts in which one element opens and one closes.
+        True to allow only shifts in which one element opens and one closes.
 
     Returns
     -------
     GearSearch
-        Complete and exact: all ways to close the minimum number of elements that determines the speeds.
+        All gears, exact. Every combination of closed elements with the minimum number that determines the speeds is
+        examined.
 
     Raises
     ------
@@ -231,7 +233,8 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
         if comb(len(elements), size) > MOST_COMBINATIONS:
-            what = f"there are {comb(len(elements), size):,} ways to close {size} of {len(elements)} shift elements"
+            number = comb(len(elements), size)
+            what = f"{size} of {len(elements)} shift elements can be closed in {number:,} combinations"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(elements, size))

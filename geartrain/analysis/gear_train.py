@@ -43,7 +43,7 @@ class GearTrain:
     Raises
     ------
     DeclarationError
-        By the first method that needs a part which the declaration does not determine, such as a tree of turning pairs.
+        If a method needs a part that the declaration does not determine, such as the tree of turning pairs.
 
     See Also
     --------
@@ -74,7 +74,7 @@ class GearTrain:
     """Validated declaration. `geartrain.load` and `declare` build it from files and plain data."""
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Solve the speeds in one state, by propagation along components and exact elimination, and evaluate the
+        """Solve the speeds in one state by propagation along components and exact elimination, and evaluate the
         outputs.
 
         Parameters
@@ -82,7 +82,7 @@ class GearTrain:
         state : str, optional
             A declared state; None only if the train has no states.
         output : str, optional
-            An output or a link; only the circuits that drive it are solved.
+            Name of an output or a link; only the circuits that drive it are solved.
         method : {"auto", "exact", "sparse"}
             "auto" is exact unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
             float64 and reports residuals, condition numbers and errors; "floats" is its older name. If a train mixes
@@ -124,20 +124,20 @@ class GearTrain:
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
     ) -> Torques | TorqueCycle:
-        """Compute torques on links and pairs, and the power flow, under the loads of one state.
+        """Compute the torques on links and pairs, and the power flow, under the loads of one state.
 
-        Values are means, or are computed at each position over a number of revolutions.
+        The torques are mean values, or values at each position of a run over a number of revolutions.
 
         Parameters
         ----------
         state : str, optional
             A declared state; None only if the train has no states.
         turns : float, optional
-            Revolutions of the input, above 0. The torque is computed at every position of this run, with the
-            instantaneous ratio and friction of real teeth, pins and bearings. Without it, torques are exact at mean
-            speeds.
+            Revolutions of the input in the run, above 0. The torque is computed at every position of the run, with the
+            instantaneous ratio and friction of real teeth, pins and bearings. By default torques are computed exactly
+            at mean speeds.
         samples : int
-            Number of positions of such a run, at least 2; kinks and jumps are added.
+            Number of positions of the run, at least 2; positions at kinks and jumps are added.
         of : str, optional
             Link whose torque over the run is requested, by default the crank or input.
         on_done : callable, optional
@@ -178,16 +178,16 @@ class GearTrain:
         state : str, optional
             A declared state; None only if the train has no states.
         outputs : sequence of str
-            Outputs or links; by default all outputs, or all links if the train has no outputs.
+            Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore, so that real teeth do not contradict each other around a loop.
+            Pairs to ignore, so that real teeth do not overconstrain a loop.
         tolerance : float, optional
             Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
             evaluation.
         fast : bool, optional
-            True to use compiled kernels, equal to 1e-12 rad and about ten times as fast. By default they are used if
-            numba is installed and there are enough positions to justify loading it. Pairs that depend on each other
-            never use them.
+            True to use compiled kernels, which agree to 1e-12 rad and are about ten times as fast. By default they are
+            used if numba is installed and there are enough positions to justify loading it. Pairs that depend on each
+            other never use them.
 
         Returns
         -------
@@ -208,7 +208,7 @@ class GearTrain:
         return motion
 
     def report(self) -> Any:
-        """Build a document about the train: speeds, structure, teeth, torques, motion, uncertain data and errata.
+        """Build a report on the train: speeds, structure, teeth, torques, motion, uncertain data and errata.
 
         Returns
         -------
@@ -265,17 +265,17 @@ class GearTrain:
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
-        """Build a train from plain data; circuits and cases are found when they are first requested.
+        """Build a train from plain data; circuits and cases are computed when they are first requested.
 
         Parameters
         ----------
         data : mapping
-            The keys of a YAML declaration, docs/reference.md.
+            Declaration with the same keys as in YAML, docs/reference.md.
 
         Raises
         ------
         DeclarationError
-            If the data are invalid. The message names the place of every error.
+            If the data are invalid. The message gives the location of every error.
         """
         if "extends" in data or "reconstruct" in data:  # `read_declaration` rejects evidence
             from geartrain.train.declaration_files import read_declaration
@@ -300,7 +300,8 @@ class GearTrain:
 
     @cached_property
     def graph(self) -> Graph:
-        """Graph of networkx in the first state: links are nodes; turning pairs, gear pairs and couplings are edges.
+        """Kinematic graph of the first state, for networkx: links are nodes; turning pairs, gear pairs and couplings
+        are edges.
 
         `geartrain.analysis.build_train_graph` documents the attributes, and builds the graph of any state.
         """
@@ -345,7 +346,7 @@ class GearTrain:
         Parameters
         ----------
         output : str
-            One of the declared outputs.
+            Name of an output.
         state : str, optional
             A declared state; None only if the train has no states.
 
@@ -377,7 +378,7 @@ class GearTrain:
     def variants(
         self, counts: Mapping[str, Iterable[int]], outputs: Sequence[str] = (), state: str | None = None
     ) -> TrainVariants:
-        """Compute outputs for every combination of some tooth counts at once, by exact formulas.
+        """Compute outputs for all combinations of the given tooth counts at once, by exact formulas.
 
         Parameters
         ----------
@@ -410,17 +411,17 @@ class GearTrain:
         return find_variants(self.declaration, self.declaration.single_state(state), counts, outputs)
 
     def gearbox(self, output: str | None = None) -> Gearbox:
-        """Compute ratios, steps, speeds, slips, torques and recirculating power of all states of a train with clutches.
+        """Compute ratios, steps, speeds, slip, torques and recirculating power of all states of a train with clutches.
 
         Parameters
         ----------
         output : str, optional
-            One of the declared outputs, by default the first that is not the input.
+            Name of an output; by default the first output that is not the input.
 
         Returns
         -------
         Gearbox
-            Results of all states. Free and locked states are included: neutral and park.
+            Results of all states, including free states (neutral) and locked states (park).
 
         Raises
         ------
@@ -442,15 +443,15 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Findings of the design check: parts that cannot be built or are inadvisable (docs/buildability.md)."""
+        """Findings of the buildability check: parts that cannot be built or are inadvisable (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Phasing of the teeth in every loop of pairs, and angles at which to mount the wheels, from declared axis
-        positions.
+        """Assembly condition: phasing of the teeth in every loop of pairs at the declared axis positions, and mounting
+        angles of the wheels.
         """
         from geartrain.kinematics.phasing import find_phasing
 
@@ -460,9 +461,9 @@ class GearTrain:
     # ------------------------------------------------------------------------------------ loads, and motion in time
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Compute torques for a unit of output power at one link while another link drives.
+        """Compute the torques for a unit of output power at one link while another link drives.
 
-        The result has the efficiency of this power transmission, or reports self-locking.
+        The result contains the efficiency in this direction, or reports self-locking.
 
         Parameters
         ----------
@@ -500,18 +501,19 @@ class GearTrain:
         wear : tuple of float, optional
             Minimum and maximum wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
         over : float, optional
-            Revolutions of the input from which the maximum torque of each pair is taken, with the instantaneous ratios
-            and friction of teeth and pins. By default stresses are computed from the mean torque.
+            Revolutions of the input in a run whose maximum torque of each pair determines the stresses, with the
+            instantaneous ratios and friction of teeth and pins. By default stresses are computed from the mean torque.
 
         Returns
         -------
         geartrain.simulation.TrainStrength
-            Result with a verdict. If the loads do not determine the torques, all else is empty.
+            Result with a verdict. If the loads do not determine the torques, the other fields are empty.
 
         Raises
         ------
         QuestionError
-            If loads have no unit, if the duration is given twice or cannot be calculated, or if K is not a range.
+            If loads have no unit, if both `turns` and `years` are given, if the duration cannot be calculated, or if
+            `wear` is not a range.
         """
         strength = wing("simulation.strength.train_strength")
         found = strength.solve_strength(self.mechanics, state, strength.Service(turns, years, wear), over)
@@ -536,8 +538,8 @@ class GearTrain:
         """Simulate the motion in time with inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
         Rigid teeth are simulated by nonsmooth time stepping. Compliant teeth have stiffness and damping; their results
-        are peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Figures that
-        differ between the runs are marked, and all results are those of the second run.
+        are peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Results that
+        differ between the runs are marked. All reported results are from the second run.
 
         Parameters
         ----------
@@ -545,28 +547,30 @@ class GearTrain:
             Speed of the first input that turns, in its declared sense, as text such as "1 turn/s" or a number [rad/s];
             by default the declared drive.
         turns : float
-            Revolutions of that input that are evaluated, in its mean motion.
+            Number of evaluated revolutions of that input in its mean motion.
         state : str, optional
             A declared state; None only if the train has no states.
         skip : float
-            Preceding revolutions that are not evaluated.
+            Number of preceding revolutions that are not evaluated.
         steps : int, optional
-            Steps of the first run per revolution; by default 200 in the shortest period of a pair.
+            Number of time steps per revolution in the first run; by default 200 in the shortest period of a pair.
         restitution : float, optional
-            Coefficient of restitution of all impacts; it overrides the declared values.
+            Coefficient of restitution of all impacts, which replaces the declared values.
         outputs : sequence of str
             Outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore, so that real teeth do not contradict each other around a loop.
+            Pairs to ignore, so that real teeth do not overconstrain a loop.
         samples : int, optional
             Number of samples to record; by default 12 in the shortest period of a pair, at most 40000.
         fast : bool, optional
-            True to compile kernels (extra `fast`); by default if the run is long and numba is installed.
+            True to compile kernels (extra `fast`). By default they are compiled if the run is long and numba is
+            installed.
         on_done : callable
             Progress function, called with the additional share of the work that is done [0 to 1]. If it returns True,
             the run stops and the results of the first run are reported.
         model : {"rigid", "compliant"}
-            Model of the teeth. With "compliant" each pair that does not keep its ratio needs a `stiffness`.
+            Model of the teeth. With "compliant", a stiffness must be known for each pair that the rigid model treats as
+            a contact.
 
         Returns
         -------
@@ -598,7 +602,7 @@ class GearTrain:
         without: Sequence[str] = (),
         fast: bool | None = False,
     ) -> Any:
-        """Build a simulation that advances step by step and can be controlled in between; the steps are those of
+        """Build a simulation that advances step by step and can be controlled between steps. The steps are those of
         `dynamics`.
 
         Parameters
@@ -608,7 +612,7 @@ class GearTrain:
         step : float, optional
             Length of a step [s]; by default the step of the finer run of `dynamics`.
         fast : bool, optional
-            True to compile kernels (extra `fast`); None to do so if numba is installed.
+            True to compile kernels (extra `fast`). By default they are compiled if numba is installed.
 
         Returns
         -------
@@ -633,7 +637,7 @@ class GearTrain:
     # ----------------------------------------------------------------------------------------------------- other trains
 
     def with_teeth(self, counts: Mapping[str, int] | None = None, **more: int) -> GearTrain:
-        """Return the train with other tooth counts on some wheels.
+        """Return a copy of the train with other tooth counts on some wheels.
 
         Parameters
         ----------
@@ -663,7 +667,7 @@ class GearTrain:
         return GearTrain(with_counts(self.declaration, {**(counts or {}), **more}))
 
     def with_changes(self, changes: Mapping[str, Any] | None = None, **more: Any) -> GearTrain:
-        """Return the train with other values of any keys of its declaration.
+        """Return a copy of the train with other values of any keys of its declaration.
 
         Parameters
         ----------
@@ -682,7 +686,7 @@ class GearTrain:
         Raises
         ------
         DeclarationError
-            If a declaration does not allow the changes.
+            If the changed declaration is invalid.
 
         Examples
         --------
@@ -698,7 +702,7 @@ class GearTrain:
         return GearTrain(change_declaration(self.declaration, {**(changes or {}), **more}))
 
     def with_tooth_form(self, form: str, pairs: Sequence[str] = (), **parameters: Any) -> GearTrain:
-        """Return the train with teeth of another form.
+        """Return a copy of the train with teeth of another form.
 
         Parameters
         ----------
@@ -708,10 +712,10 @@ class GearTrain:
         pairs : sequence of str
             Names of gear pairs; by default all pairs of the train, including those that declare a form.
         **parameters : object
-            Parameters of the form as in a declaration, such as ``pressure_angle="25 deg"``; by default those of the
-            form. Triangular teeth have no defaults in a declaration. Here their `half_angle` is 30 deg, the
-            equilateral tooth of figures 3 to 5 of F. Sorge, "A note on the mechanics of ancient gear systems". Without
-            another clearance their `window` is 0.5, the middle between jamming and loss of contact (docs/teeth.md,
+            Parameters of the form as in a declaration, such as ``pressure_angle="25 deg"``; by default the defaults of
+            the form. Triangular teeth have no defaults in a declaration. Here the default of `half_angle` is 30 deg,
+            the equilateral tooth of figures 3 to 5 of F. Sorge, "A note on the mechanics of ancient gear systems". If
+            no clearance is given, `window` is 0.5, the middle between jamming and loss of contact (docs/teeth.md,
             section 5).
 
         Returns
@@ -754,7 +758,9 @@ class GearTrain:
 
     @property
     def unfolded(self) -> GearTrain:
-        """Train with each of its equal planets declared; the train itself if no link represents several (`copies`)."""
+        """Train in which each equal planet is declared as a separate link; the train itself if no link represents
+        several (`copies`).
+        """
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
@@ -799,22 +805,23 @@ class GearTrain:
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     """Load a train from a YAML file, the name of a shipped train, YAML text, or plain data.
 
-    All circuits and cases are found here, so that every error of the declaration is reported at once.
+    All circuits and cases are computed at once, so that every error of the declaration is reported.
 
     Parameters
     ----------
     source : str, Path or mapping
-        A path, the name of a shipped train (see `geartrain.shipped`), YAML of several lines, or its keys as plain data.
+        Path of a file, name of a shipped train (see `geartrain.shipped`), YAML text of several lines, or a declaration
+        as plain data.
 
     Returns
     -------
     GearTrain
-        Train whose circuits and cases are computed; all else is computed at the first request.
+        Train with its circuits and cases; all other results are computed when they are first requested.
 
     Raises
     ------
     DeclarationError
-        If the declaration is invalid. The message names the place (`file:line`) and the fix of every error.
+        If the declaration is invalid. The message gives the location (`file:line`) and the fix of every error.
 
     Examples
     --------

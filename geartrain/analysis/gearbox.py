@@ -213,12 +213,12 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
     source = next((link for link, speed in case.inputs.items() if speed), None)
     if source is None:
         what = f"'{declared.name}' has no input that turns"
-        why = "a ratio is the speed of an input over the speed of an output"
+        why = "a ratio is the speed of the input divided by the speed of the output"
         raise QuestionError(Problem(what, why, "declare a non-zero speed under `inputs`"))
     names = [name for name, each in case.outputs.items() if each.links(name, declared.frame)[0] != source]
     if output is None and not names:
         what = f"'{declared.name}' has no output"
-        why = "a ratio is the speed of the input over the speed of an output"
+        why = "a ratio is the speed of the input divided by the speed of an output"
         raise QuestionError(Problem(what, why, "declare the driven link under `outputs`"))
     if output is not None:
         check_choice("output", output, case.outputs)

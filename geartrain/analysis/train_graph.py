@@ -28,8 +28,8 @@ _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind",
 
 
 def _refuse(*_: object, **__: object) -> NoReturn:
-    what, why = "the graph of a train cannot be changed", "its results would not agree with the train"
-    fix = "build another train by with_teeth or with_changes, or change a graph.copy()"
+    what, why = "the graph of a train cannot be changed", "results of a changed graph would not agree with the train"
+    fix = "build another train with `with_teeth` or `with_changes`, or change a copy, `graph.copy()`"
     raise QuestionError(Problem(what, why, fix))
 
 
@@ -62,12 +62,13 @@ class _Attributes(LazyDict):
 
 
 def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
-    """Build the train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings are edges.
+    """Build the kinematic graph of a train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and
+    couplings are edges.
 
     Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
     carries its axis) and `speed`. Edges have `kind`, `label`, `declared` and `axis`, and pairs also `circuit`,
-    `carrier`, `ratio`, `form`, `mesh` and `efficiency` (docs/library.md, 2). All attributes except the declared ones
-    are computed when they are read, so a train that cannot be solved has a graph too.
+    `carrier`, `ratio`, `form`, `mesh` and `efficiency` (docs/library.md, 2). Attributes that are not declared are
+    computed when they are read, so that a train without a solution also has a graph.
 
     Parameters
     ----------

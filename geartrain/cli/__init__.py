@@ -1,4 +1,4 @@
-"""Command line: `VerbGroup` names the function or module of each command, which is imported when it runs.
+"""Command line. `VerbGroup` maps each command to its function or module, which is imported when the command runs.
 
 verbs           groups of commands, imported on request; exit codes
 common          options that commands share, loading of trains, output of results
@@ -27,7 +27,7 @@ from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
-    """The commands of `geartrain`."""
+    """Group of all commands of `geartrain`."""
 
     verbs = Verbs(
         {
@@ -102,7 +102,7 @@ def _root(
 
 
 def _start_lightly() -> None:
-    """Reduce the start time of short commands by less garbage collection and no search for plugins."""
+    """Reduce the run time of short commands: collect garbage less often, and do not search for pydantic plugins."""
     # modules and models are about 100,000 long-lived objects: a collection after every 700 new ones takes a tenth of
     # the time of a short command, and the final collection at exit takes a quarter
     gc.set_threshold(100_000, 20, 20)
@@ -112,7 +112,7 @@ def _start_lightly() -> None:
 
 
 def main(name: str = "geartrain") -> None:
-    """Run the command. Exit codes: 2 for errors of the input, reported on standard error; 3 for internal errors.
+    """Run the command line and exit: code 2 for invalid input, reported on standard error, and 3 for internal errors.
 
     name   program name in usage and help, which can be typed to start it again
     """

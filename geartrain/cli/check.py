@@ -14,7 +14,7 @@ def run(
     files: Files,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing for trains that pass.")] = False,
 ) -> None:
-    """Validate trains and verify every `expect`, `published` and `tolerance`; the exit code is the worst result.
+    """Validate trains and verify each `expect`, `published` and `tolerance`; exit with the highest code of all trains.
 
     Example: `geartrain check freeth-2021 train.yaml`.
     """

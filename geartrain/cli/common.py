@@ -28,7 +28,10 @@ Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of
 Out = Annotated[
     Path | None,
     typer.Option(
-        "--output-file", "-o", metavar="FILE", help="Write to FILE by its suffix; - or -.SUFFIX is standard output."
+        "--output-file",
+        "-o",
+        metavar="FILE",
+        help="Write to FILE in the format of its suffix; - or -.SUFFIX writes to standard output.",
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.")]
@@ -37,8 +40,8 @@ Fast = Annotated[
     bool | None,
     typer.Option("--fast/--no-fast", help="Compile inner loops with numba; default: only in long runs."),
 ]
-StateName = Annotated[str | None, typer.Option("--state", help="State to analyse; default all states.")]
-FirstState = Annotated[str | None, typer.Option("--state", help="State to analyse; default the first.")]
+StateName = Annotated[str | None, typer.Option("--state", help="State to analyse; default: all states.")]
+FirstState = Annotated[str | None, typer.Option("--state", help="State to analyse; default: the first.")]
 Names = list[str] | None
 Without = Annotated[
     Names, typer.Option("--without", help="Omit a gear pair, to open a closed loop of real teeth; may be repeated.")
@@ -63,22 +66,22 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return whether a state (default the first) is determined and as expected, and no teeth are faulty."""
+    """Return True if a state (default: the first) is determined and as expected, and no teeth have faults."""
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """Return the named state, or all states with computable speeds, with a note for each omitted state."""
+    """Return the named state, or all states with computable speeds; report each omitted state on standard error."""
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():
         for problem in case.problems:
-            tell(f"note: state {case.state} is left out: {problem}")
+            tell(f"note: state '{case.state}' is omitted: {problem}")
     return train.kinematics.usable_states
 
 
 def option_error(place: str, what: str, fix: str, why: str = "") -> QuestionError:
-    """Return the error of an argument or option of the command line."""
+    """Return an error that is reported at an argument or option of the command line."""
     return QuestionError(Problem(what, why, fix, place))
 
 
@@ -100,21 +103,21 @@ class Sink:
     path: Path | None = None
     """Path of the file; None for standard output."""
     force: bool = False
-    """Overwrite an existing file."""
+    """True to overwrite an existing file."""
     plain: bool = False
-    """Standard output was requested as `-`, and receives the content of a file."""
+    """True if standard output was requested as `-`; it then receives the content of a file."""
     form: str = ""
-    """Suffix of the content of standard output, as in `-.csv`."""
+    """Suffix that sets the format of standard output, as in `-.csv`."""
     theme: ThemeName = "light"
     """Colours of a picture."""
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file or of standard output in lower case; "" without one."""
+        """Suffix of the file or of standard output in lower case; "" if there is none."""
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a finished result atomically; report its name, followed by `said`, on standard error."""
+        """Write a complete result: to standard output, or atomically to the file, and report its name with `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -131,7 +134,7 @@ STANDARD = Sink()
 
 
 def is_standard(out: Path) -> bool:
-    """Return True for the names of standard output: `-`, and `-.csv` or another suffix."""
+    """Return True if a path denotes standard output: `-`, or `-` with a suffix such as `-.csv`."""
     return out.parent == Path() and out.stem == "-"
 
 
@@ -139,13 +142,14 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
     """Return the destination of a result, after checking that it can be written.
 
     allowed   allowed suffixes; empty for all
-    Raises `GearTrainError` for a file that cannot be written, and for an HTML page without the required packages.
+
+    Raises `GearTrainError` if the file cannot be written, or if packages that an HTML page needs are not installed.
     """
     if out is None:
         return STANDARD
     if is_standard(out):
         if option != "-o":
-            why = "standard output receives the result"
+            why = "standard output is reserved for the result of the command"
             raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
         return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
@@ -175,7 +179,9 @@ def check_distinct_outputs(*sinks: Sink) -> None:
         real = destination(each.path, each.force)
         if real in taken:
             why = "the second would overwrite the first"
-            raise GearTrainError(Problem("two results have the same file", why, "give two files", str(each.path)))
+            raise GearTrainError(
+                Problem("two results are written to the same file", why, "give two different files", str(each.path))
+            )
         taken.add(real)
 
 
@@ -189,7 +195,7 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Write documents as HTML or Markdown to a file, or print them as wide as the terminal, or 80 columns in a pipe."""
+    """Write documents to a file (HTML or Markdown), or print them at terminal width (80 columns in a pipe)."""
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":
@@ -208,7 +214,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if requested by option or suffix, else as documents; only the used form is computed."""
+    """Write a result as JSON if requested by option or suffix, else as documents; only the format used is computed."""
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -223,7 +229,7 @@ def draw(figure: Any, out: Sink) -> None:
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, "" without one; reject suffixes that are not allowed."""
+    """Return the suffix of an output file, or "" if it has none; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
@@ -238,7 +244,7 @@ def file_name(text: str, ending: str) -> Path:
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option that is a plain number, a percentage or ppm; exact."""
+    """Parse the value of an option as an exact fraction: a plain number, a percentage or ppm."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity
@@ -263,7 +269,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; empty without rows."""
+    """Format rows with the same keys as CSV with a header; an empty list gives an empty text."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

@@ -36,7 +36,7 @@ def write_template(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o.
+    """Write a small commented declaration that runs without changes, to KIND.yaml in this folder or to the file of -o.
 
     Example: `geartrain init planetary -o first.yaml`.
     """
@@ -59,15 +59,17 @@ def write_style(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Rewrite turning pairs by axis and gear pairs as `a ~ b`, or all of them in long form; comments are kept.
+    """Format declarations: turning pairs by axis and gear pairs as `a ~ b`, or all in long form; comments are kept.
 
     The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
     changed.
 
     Example: `geartrain format --check train.yaml`.
     """
-    if out is not None and (len(files) > 1 or check):
-        raise option_error("-o", "one file is written", "give one FILE, and omit --check")
+    if out is not None and check:
+        raise option_error("-o", "--check writes no file", "omit -o or --check")
+    if out is not None and len(files) > 1:
+        raise option_error("-o", f"{len(files)} files are given", "give one FILE, or omit -o", "-o writes one file")
     to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
@@ -93,7 +95,7 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
         complain(error)
         return NOT_USABLE
     lines = len(text.splitlines()), len(new.splitlines())
-    tell(f"{'would rewrite' if check else 'rewrote'} {file}: {lines[0]} lines, {lines[1]} now")
+    tell(f"{'would rewrite' if check else 'rewrote'} {file}: {lines[0]} lines before, {lines[1]} after")
     return VERDICT if check else GOOD
 
 

@@ -1,4 +1,4 @@
-"""`geartrain draw`: a train's plan, stick diagram, graph, speed diagram or dials as a picture."""
+"""`geartrain draw`: plan, stick diagram, graph, speed diagram or dials of a train as a picture."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ from geartrain.cli.option_values import turns as read_turns
 def run(
     file: File,
     kind: Annotated[
-        Literal["plan", "stick", "graph", "lever", "dials"], typer.Option("--kind", "-k", help="Kind of drawing.")
+        Literal["plan", "stick", "graph", "lever", "dials"],
+        typer.Option("--kind", metavar="KIND", help="Kind of drawing: plan, stick, graph, lever or dials."),
     ] = "plan",
     out: Annotated[
         Path | None,
@@ -35,13 +36,19 @@ def run(
             "--output-file",
             "-o",
             metavar="FILE",
-            help="Write an .svg, .png or .pdf to FILE (- is standard output); default NAME-KIND.svg.",
+            help="Write the drawing to FILE, as .svg, .png or .pdf (- is standard output); default: NAME-KIND.svg.",
         ),
     ] = None,
     state: Annotated[
-        str | None, typer.Option("--state", help="State to draw; default the first, for lever all states.")
+        str | None, typer.Option("--state", help="State to draw; default: the first, or all states for lever.")
     ] = None,
-    turns: Annotated[str, typer.Option("--turns", help="Revolutions of the driving link, such as 3, -1/4, 2.5.")] = "0",
+    turns: Annotated[
+        str,
+        typer.Option(
+            "--turns",
+            help="Position to draw, in revolutions of the driving link from the start, such as 3, -1/4 or 2.5.",
+        ),
+    ] = "0",
     theme: Theme = "light",
     force: Force = False,
     labels: Annotated[
@@ -51,7 +58,7 @@ def run(
         list[str] | None, typer.Option("--of", help="With dials: draw only this output; may be repeated.")
     ] = None,
 ) -> None:
-    """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials.
+    """Draw a train as a plan to scale, stick diagram, graph, speed diagram (lever) or dials.
 
     Example: `geartrain draw freeth-2021 --kind dials --turns 3 -o dials.svg`.
     """

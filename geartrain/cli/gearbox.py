@@ -1,4 +1,4 @@
-"""`geartrain gearbox`: all states of a train with clutches in one table, and a search for all possible gears."""
+"""`geartrain gearbox`: table of all states of a train with clutches, and search for all possible gears."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, give, si
 def run(
     file: File,
     output: Annotated[
-        str | None, typer.Option("--of", help="Output link; default the first output that is not the input.")
+        str | None, typer.Option("--of", help="Output link; default: the first output that is not the input.")
     ] = None,
     search: Annotated[
         bool, typer.Option("--search", help="Try every combination of clutches and brakes that determines the speeds.")
@@ -33,7 +33,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state.
+    """Tabulate ratio, step, speeds, slip, torques of clutches and brakes, and recirculating power of every state.
 
     Example: `geartrain gearbox zf-8hp70 --search --gears 8`.
     """

@@ -26,7 +26,7 @@ _HERE = "geartrain.cli.inspection"
 
 
 class InspectGroup(LazyGroup):
-    """Commands that print a train in other forms, for other tools or for a check."""
+    """Group of commands that print a train in other forms, for other tools or for checks."""
 
     verbs = Verbs({name: f"{_HERE}:{name}" for name in ("equations", "formula", "graph", "bench", "schema")})
 
@@ -52,7 +52,7 @@ def equations(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the Willis system of a train, one labelled equation a line, as text or LaTeX.
+    """Print the Willis system of a train as text or LaTeX, with one labelled equation per line.
 
     Example: `geartrain inspect equations planetary-24-18-60 --latex`.
     """
@@ -74,7 +74,7 @@ def formula(
         list[str] | None, typer.Option("--of", help="Output to derive a formula for; may be repeated.")
     ] = None,
     state: StateName = None,
-    inverse: Annotated[bool, typer.Option("--inverse", help="Also print ratios as input over output.")] = False,
+    inverse: Annotated[bool, typer.Option("--inverse", help="Also print each ratio as input / output.")] = False,
     sensitivities: Annotated[
         bool,
         typer.Option("--sensitivities", help="Print the sensitivity of each ratio to each tooth count, as formulas."),
@@ -84,7 +84,7 @@ def formula(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Derive each output in lowest terms as a formula in tooth counts and input speeds, and where it locks.
+    """Derive each output as a formula in tooth counts and input speeds, in lowest terms, with its locking condition.
 
     Example: `geartrain inspect formula wolfrom-175 --inverse`.
     """
@@ -109,12 +109,17 @@ def graph(
     file: File,
     form: Annotated[
         Literal["labels", "edges", "matrix", "dot", "graphml", "json"] | None,
-        typer.Option("--as", help="Format; default by the suffix of -o, else labels (edges above 48 links)."),
+        typer.Option(
+            "--as",
+            metavar="FORMAT",
+            help="Format: labels, edges, matrix, dot, graphml or json; default: by the suffix of -o, else labels, or "
+            "edges for more than 48 links.",
+        ),
     ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON.
+    """Print the graph of a train: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML or JSON.
 
     Example: `geartrain inspect graph pennestri-2002 -o train.dot`.
     """
@@ -143,13 +148,15 @@ def bench(
     state: StateName = None,
     samples: Annotated[
         int,
-        typer.Option("--samples", min=2, max=1_000_000, help="Number of angles of each pair, and of input positions."),
+        typer.Option(
+            "--samples", min=2, max=1_000_000, help="Number of driver angles per pair, and number of input positions."
+        ),
     ] = 10_000,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure accuracy against run time for a train: speeds, transmission functions, motion, torques.
+    """Measure the accuracy and run time of each method on a train: speeds, transmission functions, motion, torques.
 
     Example: `geartrain inspect bench moon-triangular`.
     """
@@ -172,15 +179,18 @@ def schema(
     ] = None,
     form: Annotated[
         Literal["json", "markdown", "answers"],
-        typer.Option("--as", help="Schema of declarations as JSON or Markdown, or schema of the answers by --json."),
+        typer.Option(
+            "--as",
+            help="JSON Schema of declarations (json), their reference (markdown), or JSON Schema of results (answers).",
+        ),
     ] = "json",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the JSON Schema of declarations, with which editors with a YAML plugin complete and validate them.
+    """Print the JSON Schema of declarations, which editors with a YAML plugin use to complete and validate them.
 
-    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
-    the keys of its JSON as a table.
+    With --as answers, print the JSON Schema of the --json output of all commands. With COMMAND, print the keys of its
+    JSON output as a table.
 
     Example: `geartrain inspect schema -o geartrain.schema.json`.
     """

@@ -38,7 +38,7 @@ Workers = Annotated[
     typer.Option(
         "--workers",
         metavar="N",
-        help="Number of processes (default one per core), or a dask scheduler such as tcp://host:8786.",
+        help="Number of processes (default: one per core), or the address of a dask scheduler, such as tcp://host:8786.",
     ),
 ]
 Resume = Annotated[bool, typer.Option("--resume", help="Resume an interrupted run.")]
@@ -47,25 +47,25 @@ COMPILING = "compiling kernels for this machine: 10 to 30 s, only once"
 
 
 class ProgressBar:
-    """Progress of a run on a terminal; without a terminal it is not displayed."""
+    """Progress bar of a run, displayed only on a terminal."""
 
     def __init__(self, shown: Progress, task: TaskID, patience: float) -> None:
         self._shown, self._task, self._from = shown, task, time.monotonic() + patience
 
     def advance(self, steps: int = 1) -> None:
-        """Add steps that are done."""
+        """Add a number of completed steps."""
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """Set the number of steps done and the total; a single step is not displayed."""
+        """Set the number of completed steps and the total; the bar is hidden if the total is 1 or less."""
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """Open a progress bar on standard error if that is a terminal, displayed after `patience` [s].
+    """Open a progress bar on standard error, displayed after `patience` [s] if standard error is a terminal.
 
-    A line above it reports the compilation of kernels, which is slow but happens only once.
+    A line above the bar reports the compilation of kernels, which is slow but happens only once.
     """
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
@@ -82,7 +82,7 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Options of a run: its workers, and whether an interrupted run is resumed."""
+    """Options of a run: its workers, and whether to resume an interrupted run."""
 
     workers: str | None
     """Number of processes, or address of a dask scheduler; None for one process per core."""
@@ -104,12 +104,12 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """Remove the journal of a complete run, or report how an interrupted run can be resumed."""
+    """Remove the journal of a complete run, or report how to resume an interrupted run."""
     if not cut:
         if journal is not None:
             journal.finish()
     elif journal is not None and len(journal):
-        tell(f"stopped; finished work is in {journal.path}: repeat the command with --resume to continue")
+        tell(f"stopped; finished work is in {journal.path}; repeat the command with --resume to continue")
     else:
         tell("stopped before any work was finished")
 
@@ -118,7 +118,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
     """Open the execution of one run: an executor, a journal if the folder is writable, and a progress bar.
 
-    The journal is next to the output file, and its name contains a hash of the question.
+    The journal is placed next to the output file, and its name contains a hash of the options in `question`.
     """
     from geartrain.numerics.work import Execution
 
@@ -155,7 +155,7 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
 
 
 def _check_others(path: Path, question: Mapping[str, Any]) -> None:
-    """Refuse to resume if the folder contains only journals of the same command with other options."""
+    """Raise `QuestionError` if the folder contains journals of the same command with other options."""
     from geartrain.errors import QuestionError
     from geartrain.numerics.work import another_question
 
@@ -170,30 +170,34 @@ def _check_others(path: Path, question: Mapping[str, Any]) -> None:
 TURNS, SKIP = "10", "1"
 Rate = Annotated[
     str | None,
-    typer.Option("--rate", help="Input speed in turns per second, or such as '30 rpm'; default the declared drive."),
+    typer.Option(
+        "--rate", help="Input speed, in turns per second or with a unit such as '30 rpm'; default: the declared drive."
+    ),
 ]
 Turns = Annotated[
-    str | None, typer.Option("--turns", help=f"Revolutions of the driving link to evaluate; default {TURNS}.")
+    str | None, typer.Option("--turns", help=f"Revolutions of the driving link to evaluate; default: {TURNS}.")
 ]
-Skip = Annotated[str | None, typer.Option("--skip", help=f"Revolutions to simulate before evaluation; default {SKIP}.")]
+Skip = Annotated[
+    str | None, typer.Option("--skip", help=f"Revolutions to simulate before evaluation; default: {SKIP}.")
+]
 Steps = Annotated[
     int | None,
     typer.Option(
         "--steps",
         min=1,
         max=MOST_COUNT,
-        help="Time steps per revolution of the driving link; default by its tooth counts.",
+        help="Time steps per revolution of the driving link; the default depends on the tooth counts.",
     ),
 ]
 Restitution = Annotated[
     str | None,
     typer.Option(
-        "--restitution", help="Coefficient of restitution of every impact, 0 to 1; default as declared, or 0."
+        "--restitution", help="Coefficient of restitution of every impact, 0 to 1; default: as declared, or 0."
     ),
 ]
 ToothModel = Annotated[
     Literal["rigid", "compliant"] | None,
-    typer.Option("--model", help="Tooth model: rigid (default), or compliant by tooth stiffness."),
+    typer.Option("--model", help="Tooth model: rigid (default), or compliant (with tooth stiffness)."),
 ]
 
 _MOST_TURNS = 1e9
@@ -202,7 +206,7 @@ _WHOLE = 1_000_000  # length of a progress bar
 
 @dataclass(frozen=True)
 class TimeRequest:
-    """Options of a simulation in the time domain; None for options that are not given."""
+    """Options of a simulation in the time domain; options that are not given are None."""
 
     rate: str | None = None
     turns: str | None = None
@@ -214,9 +218,7 @@ class TimeRequest:
     fast: bool | None = None
 
     def arguments(self) -> dict[str, Any]:
-        """Return the arguments of `GearTrain.dynamics`. Raises `GearTrainError` for values that are invalid or out of
-        range.
-        """
+        """Return the arguments of `GearTrain.dynamics`. Raises `GearTrainError` for a value that is not allowed."""
         turns, skip = TURNS if self.turns is None else self.turns, SKIP if self.skip is None else self.skip
         return {
             "rate": None if self.rate is None else input_rate(self.rate),
@@ -250,7 +252,7 @@ def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """Record the first Ctrl-C in a list; the second one interrupts as usual."""
+    """Record the first Ctrl-C in a list; the second Ctrl-C interrupts as usual."""
     came: list[int] = []
 
     def note(number: int, frame: Any) -> None:

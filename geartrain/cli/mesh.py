@@ -1,4 +1,4 @@
-"""`geartrain mesh`: verdict, motion and losses of a pair of wheels without a train, and outlines of its wheels."""
+"""`geartrain mesh`: verdict, motion and losses of a single pair of wheels, and outlines of its wheels."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 FORMS = tuple(name for name in TOOTH_FORMS if name != "ideal")
 DEFAULT = "involute"
 _TRIANGULAR = ("backwards", "inertia", "load", "vary", "objective", "free", "within", "cutting", "at")
-"""Options of triangular teeth only."""
+"""Options that apply only to triangular teeth."""
 _COMPARED = (
     "z1",
     "z2",
@@ -73,7 +73,7 @@ _COMPARED = (
     "out",
     "force",
 )
-"""Options of a comparison."""
+"""Options that apply to a comparison of tooth forms."""
 _TEETH, _OUTLINE, _RESULT = "Triangular teeth", "Outline of one wheel", "Output"
 
 
@@ -98,26 +98,26 @@ def run(
         bool,
         typer.Option(
             "--compare",
-            help="Compare losses and stresses of several forms (default six) with the 20 degree involute. "
-            "Parameters: arcs, pressure_angle.",
+            help="Compare losses and stresses of several tooth forms (default: six forms) with the 20 degree involute. "
+            "-p then accepts only arcs and pressure_angle.",
         ),
     ] = False,
-    internal: Annotated[bool, typer.Option("--internal", help="Make the second wheel a ring.")] = False,
+    internal: Annotated[bool, typer.Option("--internal", help="Make the second wheel a ring gear.")] = False,
     shaft_angle: Annotated[
         str | None, typer.Option("--shaft-angle", help="Make bevel wheels with this shaft angle, such as 90deg.")
     ] = None,
     helix: Annotated[
-        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal modules.")
+        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; all modules are then normal modules.")
     ] = None,
     module: Annotated[
-        str | None, typer.Option("--module", help="Module (pitch diameter over tooth count), such as 2mm.")
+        str | None, typer.Option("--module", help="Module (pitch diameter divided by tooth count), such as 2mm.")
     ] = None,
     friction: Annotated[
         str,
         typer.Option(
             "--friction",
             help="Coefficient of friction, or a friction law: buckingham, dokos, "
-            "'stribeck,static=0.2,...', or a table.",
+            "'stribeck,static=0.2,...' or 'table,...'.",
         ),
     ] = "0",
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
@@ -125,7 +125,9 @@ def run(
     backwards: Annotated[
         bool,
         typer.Option(
-            "--backwards", help="Turn the driving wheel backwards, on the back flanks.", rich_help_panel=_TEETH
+            "--backwards",
+            help="Turn the driving wheel backwards, with contact on the back flanks.",
+            rich_help_panel=_TEETH,
         ),
     ] = False,
     inertia: Annotated[
@@ -143,7 +145,7 @@ def run(
         typer.Option(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
-            help="Tabulate the pair over one or two of: friction, z1, z2 and the numbers that --keys lists.",
+            help="Tabulate results for a range of friction, z1, z2 or a key listed by --keys; may be given twice.",
             rich_help_panel=_TEETH,
         ),
     ] = None,
@@ -151,8 +153,8 @@ def run(
         str | None,
         typer.Option(
             "--objective",
-            help="Find sizes that minimise loss, error or impact, or maximise the jam margin (jam); one, or two "
-            "separated by a comma.",
+            help="Find sizes that minimise loss, error or impact, or maximise the jam margin (jam); give one "
+            "objective, or two separated by a comma.",
             rich_help_panel=_TEETH,
         ),
     ] = None,
@@ -161,7 +163,7 @@ def run(
         typer.Option(
             "--free",
             metavar="NAME[=LOW:HIGH]",
-            help="With --objective: free parameter radii, window or half_angle; default radii.",
+            help="With --objective: vary radii, window or half_angle; may be repeated; default: radii.",
             rich_help_panel=_TEETH,
         ),
     ] = None,
@@ -170,7 +172,8 @@ def run(
         typer.Option(
             "--within",
             metavar="NAME=LIMIT",
-            help="With --objective: limit of loss, error, impact, jam, window_width, backlash or stops.",
+            help="With --objective: limit on loss, error, impact, jam, window_width, backlash or stops; "
+            "may be repeated.",
             rich_help_panel=_TEETH,
         ),
     ] = None,
@@ -179,7 +182,7 @@ def run(
         typer.Option(
             "--cutting",
             metavar="KIND=SIZE",
-            help="With --within stops=5%: cutting error as in montecarlo, such as 'pitch_deviation=1 %'.",
+            help="With --within stops=5%: cutting error, given as in montecarlo, such as 'pitch_deviation=1 %'.",
             rich_help_panel=_TEETH,
         ),
     ] = None,
@@ -188,20 +191,21 @@ def run(
         typer.Option(
             "--profile",
             metavar="FILE",
-            help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.",
+            help="Write the outline of a whole wheel to scale, as .svg, .dxf or .csv.",
             rich_help_panel=_OUTLINE,
         ),
     ] = None,
     wheel: Annotated[
-        int, typer.Option("--wheel", min=1, max=2, help="Number of the wheel, 1 or 2.", rich_help_panel=_OUTLINE)
+        int,
+        typer.Option("--wheel", min=1, max=2, help="Number of the wheel to write, 1 or 2.", rich_help_panel=_OUTLINE),
     ] = 1,
     blank: Annotated[
         Names,
         typer.Option(
             "--blank",
             metavar="KEY=LENGTH",
-            help="Size of the wheel: bore, tolerance (of chords, default 0.001mm), clearance (at the bottom), fillet, "
-            "rim; may be repeated.",
+            help="Size of the wheel: bore, tolerance (of chords; default: 0.001mm), clearance (bottom clearance), "
+            "fillet or rim; may be repeated.",
             rich_help_panel=_OUTLINE,
         ),
     ] = None,
@@ -210,8 +214,8 @@ def run(
         typer.Option(
             "--plot",
             metavar="FILE",
-            help="Draw flanks, path of contact and losses; for triangular teeth the transmission function, sweep or "
-            "designs.",
+            help="Plot flanks, path of contact and losses; for forms without a path of contact, transmission "
+            "function and efficiency; with --vary or --objective, the sweep or the designs.",
             rich_help_panel=_RESULT,
         ),
     ] = None,
@@ -220,8 +224,8 @@ def run(
         typer.Option(
             "--at",
             metavar="ANGLE",
-            help="Draw triangular wheels in contact to the file of --plot, the first at this angle from the line of "
-            "centres.",
+            help="With --plot: draw triangular wheels in contact, with the driving tooth at this angle from the line "
+            "of centres.",
             rich_help_panel=_RESULT,
         ),
     ] = None,
@@ -230,7 +234,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Analyse one pair of wheels over a pitch, without a train: verdict, motion, losses, stresses, outlines.
+    """Analyse a single pair of wheels over one pitch: verdict, motion, losses, stresses and outlines.
 
     Example: `geartrain mesh 24 36 --form cycloidal -p rolling_fraction=0.4 --friction 0.1`.
     """
@@ -272,7 +276,9 @@ def run(
     if vary:
         for option, given in {"--at": at, "--profile": profile}.items():
             if given is not None:
-                raise option_error(option, "only one pair can be drawn", "omit --vary")
+                raise option_error(
+                    option, "it applies to one pair", f"omit {option} or --vary", "--vary evaluates several"
+                )
         sweep(pair, vary, picture, json, to)
         return
     mesh, operation = pair.mesh(), None
@@ -303,7 +309,7 @@ def _applicable(name: str, model: type[ToothForm]) -> set[str]:
 
 
 def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
-    """Refuse options on the command line that do not apply."""
+    """Raise `QuestionError` if an option on the command line does not apply."""
     for option in context.command.params:
         source = context.get_parameter_source(option.name or "")
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
@@ -319,7 +325,10 @@ def _profile_sink(profile: Path | None, force: bool) -> Sink:
 
 
 def _figure(mesh: GearMesh, at: str | None) -> Figure:
-    """Plot flanks and losses along the path of contact, or the motion over a pitch for forms without a path."""
+    """Plot flanks, path of contact and losses; without a path of contact, transmission function and efficiency.
+
+    With `at`, draw triangular teeth at that driver angle.
+    """
     from geartrain.drawing import shapes_figure, teeth_figure, transmission_figure, triangular_figure
     from geartrain.teeth.rubbed_transmission import pair_friction
 
@@ -375,7 +384,7 @@ def _compare(
 
 
 def _arcs(text: str) -> tuple[float, float]:
-    """Parse arcs of approach and recess [pitch]; one number sets both."""
+    """Parse the arcs of approach and recess [pitch]; a single number sets both."""
     from geartrain.teeth.form_comparison import arcs_error
 
     parts = text.split(",")

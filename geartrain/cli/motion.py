@@ -41,7 +41,11 @@ if TYPE_CHECKING:
 def run(
     file: File,
     turns: Annotated[
-        str, typer.Option("--turns", help="Revolutions of the driving link, or 'period'; negative to turn backwards.")
+        str,
+        typer.Option(
+            "--turns",
+            help="Revolutions of the driving link, negative to turn backwards, or 'period' for one common period.",
+        ),
     ] = "20",
     samples: Annotated[
         int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions.")
@@ -52,16 +56,21 @@ def run(
     state: StateName = None,
     without: Without = None,
     phases: Annotated[
-        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of runs with random tooth phases.")
+        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of additional runs with random tooth phases.")
     ] = 0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed.")] = 1,
     tolerance: Annotated[
         float | None,
-        typer.Option("--tabulated", help="Interpolate transmission functions in tables of this accuracy (pitches)."),
+        typer.Option(
+            "--tabulated",
+            help="Interpolate transmission functions in tables with this accuracy, in pitches, such as 1e-9.",
+        ),
     ] = None,
-    estimates: Annotated[bool, typer.Option("--estimates", help="Add fast estimates and their errors.")] = False,
+    estimates: Annotated[
+        bool, typer.Option("--estimates", help="Add first-order estimates of peak and rms values, and their errors.")
+    ] = False,
     spectrum: Annotated[
-        bool, typer.Option("--spectrum", help="Add spectral lines by exact order, with their sources.")
+        bool, typer.Option("--spectrum", help="Add the spectral lines of each output, with exact orders and sources.")
     ] = False,
     fast: Fast = None,
     json: Json = False,
@@ -71,7 +80,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position.
+    """Compute transmission error and speed of outputs with real teeth and pins; -o x.csv writes every position.
 
     Example: `geartrain motion moon-triangular --of moon --turns 20`.
     """
@@ -115,13 +124,13 @@ def _turns(text: str, motion: Motion) -> float:
         return float(read_turns("--turns", text))
     if motion.period is None:
         raise option_error(
-            "--turns", "a common period does not exist", "give a number of revolutions", "no speed ripples"
+            "--turns", "the speeds have no common period", "give a number of revolutions", "they are constant"
         )
     return float(motion.period)
 
 
 def _partial(to: Sink) -> Sink:
-    """Return the file for the figures of an interrupted run; CSV tables have their own partial file."""
+    """Return the destination of partial results after an interruption; CSV tables have their own partial file."""
     if to.path is None or to.suffix == ".csv":
         return STANDARD
     from geartrain.numerics.files import partial_name
@@ -140,7 +149,7 @@ def _report(
     spectrum: bool,
     every_output: bool,
 ) -> None:
-    """Compute and write the figures, to the second destination if the run is interrupted."""
+    """Compute and write the results; after an interruption, write partial results to the second destination."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
     work = requested.samples * (1 + phases + estimates + spectrum)
@@ -182,7 +191,7 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
                     table.write(rows)
                     bar.advance(len(rows))
     except KeyboardInterrupt:
-        tell(f"stopped after {table.rows} of {requested.samples} positions: {table.partial}")
+        tell(f"stopped after {table.rows} of {requested.samples} positions; these are in {table.partial}")
         tell("repeat the command with --resume to continue")
         raise typer.Exit(INTERRUPTED) from None
     tell(f"wrote {out}")

@@ -1,4 +1,4 @@
-"""Parsers of option values, which check that numbers are finite and in the range of the option, and themes.
+"""Parsers of option values, which check that numbers are finite and in the allowed range, and the option --theme.
 
 An error in a pair of `geartrain mesh` is reported at the option that causes it.
 """
@@ -24,7 +24,7 @@ Theme = Annotated[
 Minimum = Literal["0", "above 0"] | None
 _MOST = 1e30  # squares and products of such numbers are floats
 MOST_COUNT = 10**9
-"""Maximum of any count; a larger one would not finish within a lifetime."""
+"""Maximum of any count; a run with a larger count would not end within a lifetime."""
 
 
 def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> float:
@@ -36,13 +36,13 @@ def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum
 
 
 def read_quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> Quantity:
-    """Parse a quantity and return it as it was written; see `quantity`."""
+    """Parse a quantity and return it as written; see `quantity`."""
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
         raise value_error(error, place) from None
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
-        fix = f"give one between {1 / _MOST:g} and {_MOST:g} in SI units"
+        fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise GearTrainError(Problem(f"{text} is out of range", "its square would overflow or underflow", fix, place))
     if minimum == "above 0" and found.value <= 0:
         raise GearTrainError(Problem(f"{text} is not above 0", "", f"give a {dimension} above 0", place))
@@ -69,7 +69,7 @@ def restitution(text: str) -> float:
 
 
 def input_rate(text: str) -> float:
-    """Parse a speed of the input [rad/s]; a plain number is in revolutions per second."""
+    """Parse an input speed and return it in rad/s; a plain number is in revolutions per second."""
     found = read_quantity("--rate", text, "speed", plain=True, minimum="above 0")
     # a plain number is in turns per second, not in rad/s
     return tau * float(found.value) if found.unit is None else found.si
@@ -89,13 +89,13 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
             f" from {low:g} to {high:g}" if inf not in (-low, high) else f" of {low:g} or more" if low > -inf else ""
         )
         raise GearTrainError(
-            Problem(f"'{text}' is not a valid {what}", "", f"give one{bounds}, such as {such_as}", place)
+            Problem(f"'{text}' is not a valid {what}", "", f"give a value{bounds}, such as {such_as}", place)
         )
     return found
 
 
 def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, high: float = _MOST) -> float:
-    """Parse a plain number within a range, large enough that its square does not underflow. Raises `GearTrainError`."""
+    """Parse a plain number within a range; reject a number whose square would underflow. Raises `GearTrainError`."""
     found = float(exact(place, text, what, such_as, low, high))
     if found and abs(found) < 1 / _MOST:
         raise GearTrainError(
@@ -105,7 +105,7 @@ def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, hi
 
 
 def turns(place: str, text: str) -> Fraction:
-    """Parse a number of revolutions of an input, of either sign."""
+    """Parse a number of revolutions of an input, positive or negative."""
     from geartrain.dynamics.motion.motion_run import MOST_TURNS
 
     return exact(place, text, "number of turns", "4 or -1/2", -MOST_TURNS, MOST_TURNS)
@@ -116,7 +116,9 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: in
     found = exact(place, text, what, such_as, low, high)
     if found.denominator != 1:
         raise GearTrainError(
-            Problem(f"'{text}' is not a valid {what}", "it is not an integer", f"give one such as {such_as}", place)
+            Problem(
+                f"'{text}' is not a valid {what}", "it is not an integer", f"give an integer such as {such_as}", place
+            )
         )
     return int(found)
 
@@ -128,7 +130,7 @@ def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return the error with the option that caused it, unless it already names a place."""
+    """Return the error with `place`, the option that caused it, in every problem that has no place."""
     from dataclasses import replace
 
     return GearTrainError(

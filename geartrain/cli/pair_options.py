@@ -1,4 +1,4 @@
-"""Values of the options of `geartrain mesh`: parameters of a tooth form, wheels, friction, the outline of a wheel.
+"""Parsers for options of `geartrain mesh`: parameters of the tooth form, wheels, friction, outline of a wheel.
 
 The parameters are the keys of `tooth_form` in a declaration, validated by the model of the form.
 """
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
 
 COUNTS = "Z1 Z2"
-"""Place of errors in the tooth counts."""
+"""Location at which errors in the tooth counts are reported."""
 PAIR = ("friction", "z1", "z2")
-"""Numbers that can be varied besides the parameters of the form."""
+"""Quantities that can be varied in addition to the parameters of the form."""
 
 
 # ------------------------------------------------------------------------------------------------- parameters of a form
@@ -43,7 +43,7 @@ def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
     """Return the parameters of a form that describe one pair, by name.
 
     Forms that keep their design at any centre distance have no parameter for it. Parameters for the time domain are
-    left out.
+    omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden}
@@ -68,21 +68,21 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
 
 
 def _meaning(field: FieldInfo) -> str:
-    """Return the description of a parameter, in which a list is written as a pair of values with a comma."""
+    """Return the description of a parameter, with a list described as two values separated by a comma."""
     text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
     words = [word for word in _words(field.annotation) if word not in text]
     return f"{text}: {', '.join(words)}" if words else text
 
 
 def _words(annotation: Any) -> list[str]:
-    """Return the words among which the value of a field is chosen."""
+    """Return the words that are allowed as values of a field."""
     if get_origin(annotation) is Literal:
         return [each for each in get_args(annotation) if isinstance(each, str)]
     return [word for each in get_args(annotation) for word in _words(each)]
 
 
 def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fix: str = "") -> dict[str, str]:
-    """Parse KEY=VALUE options to a mapping. Raises `QuestionError` for an unknown key and for a key given twice."""
+    """Parse KEY=VALUE options to a mapping. Raises `QuestionError` if a key is unknown or given twice."""
     found: dict[str, str] = {}
     for text in texts:
         name, equals, value = map(str.strip, text.partition("="))
@@ -104,9 +104,9 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
 
 
 def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
-    """Create the tooth form from its parameters, with defaults for those that a declaration requires.
+    """Create the tooth form from its parameters, with defaults for parameters that a declaration must give.
 
-    Raises `GearTrainError` with the place `-p KEY`.
+    Raises `GearTrainError` with the location `-p KEY`.
     """
     fields = model.model_fields
     try:
@@ -121,14 +121,18 @@ def _name(model: type[ToothForm]) -> str:
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """Return the error at `-p KEY` if its place is the key of a parameter; `place` and `fix` are used without one."""
+    """Return the error with the location `-p KEY` if a problem names a key, else `place`; add `fix` where there is
+    none.
+    """
     return GearTrainError(
         replace(each, place=f"-p {each.place}" if each.place else place, fix=each.fix or fix) for each in error.problems
     )
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert a value as in a declaration: a list if it has a comma, an integer if one can be chosen."""
+    """Convert a value as in a declaration: to a list if it contains a comma, to an integer if the field allows this
+    integer.
+    """
     if given.isdigit() and int(given) in get_args(field.annotation):
         return int(given)
     return [part.strip() for part in given.split(",")] if "," in given else given
@@ -140,7 +144,7 @@ def _value(field: FieldInfo, given: str) -> Any:
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
     """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
     if internal and angle is not None:
-        why, fix = "a ring and its pinion have parallel axes", "give --internal or --shaft-angle"
+        why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise GearTrainError(Problem("a ring is not a bevel wheel", why, fix, "--shaft-angle"))
     return None if angle is None else quantity("--shaft-angle", angle, "angle")
 
@@ -151,11 +155,12 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
         raise GearTrainError(
-            Problem("bevel wheels have no helix angle", why, "give --shaft-angle or --helix", "--helix")
+            Problem("bevel wheels have no helix angle", why, "omit --shaft-angle or --helix", "--helix")
         )
     if not 0 <= angle < pi / 2:
-        what = f"a helix angle of {helix} is outside 0 to 90 deg"
-        raise GearTrainError(Problem(what, "it is measured from the axis", "give for example --helix 20deg", "--helix"))
+        what = f"a helix angle of {helix} is out of range"
+        why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
+        raise GearTrainError(Problem(what, why, "give for example --helix 20deg", "--helix"))
     return angle
 
 
@@ -165,7 +170,7 @@ def read_module(module: str | None) -> float | None:
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create two wheels without a size for conjugate teeth. Raises `GearTrainError`."""
+    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError`."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
@@ -178,12 +183,12 @@ def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> Wh
 
 @dataclass(frozen=True)
 class PairRequest:
-    """A pair of wheels as described by options, some of which can be varied."""
+    """Pair of wheels described by options, some of which can be varied."""
 
     model: type[ToothForm]
     teeth: tuple[int, int]
     own: Mapping[str, str]
-    """Parameters of the form by key."""
+    """Parameters of the tooth form by key."""
     module: float | None = None
     """Module [m]; None if not given."""
     friction: str = "0"
@@ -196,7 +201,7 @@ class PairRequest:
     """Helix angle [rad]."""
 
     def mesh(self, **varied: str) -> GearMesh:
-        """Create the pair in mesh, with some parameters replaced by varied values.
+        """Create the pair in mesh, with some parameters replaced by the values in `varied`.
 
         Raises `GearTrainError` if the form cannot mesh in this pair.
         """
@@ -232,7 +237,9 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """Create the wheels of a pair without a train; normal module in m, helix angle of the first wheel in rad."""
+    """Create the wheels of a pair without a train; `module` is normal [m], `helix` is the angle of the first wheel
+    [rad].
+    """
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
 
@@ -249,11 +256,11 @@ def two_wheels(
 
 
 BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
-"""Sizes of a wheel that do not follow from its tooth form; `clearance`, `fillet` and `rim` only for conjugate teeth."""
+"""Sizes of a wheel that its tooth form does not determine; `clearance`, `fillet` and `rim` only for conjugate teeth."""
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel and return it; empty if no file is named.
+    """Write the outline of a wheel and return it in a list, which is empty if no file is named.
 
     `blank` contains sizes of the wheel by name.
     """
@@ -295,9 +302,7 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient. Raises `GearTrainError` if a friction law is given with an option that needs a
-        number.
-        """
+        """Return the coefficient. Raises `GearTrainError` if a friction law is given; `option` needs a number."""
         if self.law is not None:
             what = f"{option} needs a coefficient of friction"
             raise GearTrainError(
@@ -306,7 +311,9 @@ class PairFrictionOption:
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return the mesh with this friction at the speed of its driver. Raises `GearTrainError` if that is unknown."""
+        """Return the mesh with this friction. Raises `GearTrainError` if a friction law needs an unknown speed or
+        module.
+        """
         if self.law is None:
             return mesh
         radius = mesh.pitch_radius
@@ -314,7 +321,7 @@ class PairFrictionOption:
             missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
             what = f"the friction law '{self.law.law}' depends on the sliding speed"
-            why = f"unknown: {' and '.join(lacking.values())}"
+            why = f"it cannot be computed without {' and '.join(lacking.values())}"
             raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts
@@ -325,7 +332,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction or the friction law that a text names. Raises `GearTrainError`."""
+    """Parse a coefficient of friction, or the name and parameters of a friction law. Raises `GearTrainError`."""
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))

@@ -1,4 +1,4 @@
-"""`geartrain pin`: the transmission function of a pin in a slot or in a follower."""
+"""`geartrain pin`: transmission function of a pin in a slot or in a follower."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute mean ratio, amplitude and extreme speeds of a pin in a slot or in a follower.
+    """Compute the mean ratio, amplitude and extreme speeds of a pin in a slot or in a follower.
 
     Example: `geartrain pin 9.6mm 1.1mm`.
     """

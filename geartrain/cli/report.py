@@ -1,4 +1,4 @@
-"""`geartrain report` and `compare`: a report on a train, and the outputs of several trains in one table."""
+"""`geartrain report`, a report on a train, and `geartrain compare`, a table of the outputs of several trains."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def report(
     everything: Annotated[
         bool, typer.Option("--all", help="Print all sections, including formulas, circuits and sources.")
     ] = False,
-    view: Annotated[bool, typer.Option("--view", help="Include the animated train in the page.")] = False,
+    view: Annotated[bool, typer.Option("--view", help="Include the animated train in the HTML page.")] = False,
     force: Force = False,
 ) -> None:
-    """Report on trains as text on the terminal (80 columns in a pipe), or as .md, .html or .json by the suffix of -o.
+    """Report on trains as text (80 columns in a pipe), or as .md, .html or .json, depending on the suffix of -o.
 
     An .html page also contains pictures of the plan and the dials if the extra 'plot' is installed.
 
@@ -112,7 +112,7 @@ def compare(
     out: Out = None,
     json: Json = False,
     everything: Annotated[
-        bool, typer.Option("--all", help="Compare all outputs, not only those with a dial or target.")
+        bool, typer.Option("--all", help="Compare all outputs, not only outputs with a dial or target.")
     ] = False,
     force: Force = False,
 ) -> None:

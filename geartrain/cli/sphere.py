@@ -41,34 +41,50 @@ def run(
     gears: Annotated[
         str,
         typer.Option(
-            "--gears", help="Places of gears: faces, vertices, faces+vertices, faces+edges, faces+vertices+edges."
+            "--gears",
+            help="Positions of the gears: faces, vertices, faces+vertices, faces+edges or faces+vertices+edges.",
         ),
     ] = "faces",
-    teeth: Annotated[str | None, typer.Option("--teeth", help="Tooth counts by kind, such as 5=20,3=12.")] = None,
+    teeth: Annotated[
+        str | None, typer.Option("--teeth", help="Tooth counts by kind of gear, such as 5=20,3=12.")
+    ] = None,
     drop: Annotated[
-        list[str] | None, typer.Option("--drop", help="Kind, gear or mesh to omit; may be repeated.")
+        list[str] | None, typer.Option("--drop", help="Kind of gear, single gear or mesh to omit; may be repeated.")
     ] = None,
     exact: Annotated[bool, typer.Option("--exact", help="Move the axes until all pitches are equal.")] = False,
     graph: Annotated[
         Path | None, typer.Option("--graph", help="File with a graph of gears, two names per line.")
     ] = None,
-    aim: Annotated[str, typer.Option("--aim", help="With --graph: aim at equal 'pitch' or closed 'phases'.")] = "pitch",
-    minimum: Annotated[int, typer.Option("--min-teeth", help="With --graph: minimum tooth count of a gear.")] = 12,
+    aim: Annotated[
+        str,
+        typer.Option(
+            "--aim",
+            help="With --graph: condition to satisfy exactly, equal pitches (pitch) or closure of all loops (phases).",
+        ),
+    ] = "pitch",
+    minimum: Annotated[int, typer.Option("--min-teeth", help="With --graph: tooth count of the smallest gear.")] = 12,
     radius: Annotated[
-        str, typer.Option("--radius", help="Radius of the sphere, or pitch radius of a wheel, such as 5=1.25.")
+        str, typer.Option("--radius", help="Radius of the sphere, or pitch radius of one kind of gear, such as 5=1.25.")
     ] = "1",
     suggest: Annotated[
-        int, typer.Option("--suggest", help="List the best tooth sets with at most this many teeth.")
+        int,
+        typer.Option(
+            "--suggest", help="List the best sets of tooth counts, with at most this number of teeth per gear."
+        ),
     ] = 0,
-    best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of suggestions.")] = 20,
-    survey: Annotated[bool, typer.Option("--survey", help="Print the table of solids.")] = False,
+    best: Annotated[
+        int, typer.Option("--best", min=1, max=100_000, help="With --suggest: number of sets to list.")
+    ] = 20,
+    survey: Annotated[
+        bool, typer.Option("--survey", help="Print a table of 19 solids with gears on all faces.")
+    ] = False,
     json: Json = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the sphere and its gears to this file.")] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Determine mobility, gridlock, closure of the teeth and sizes of gears on a sphere; -o x.yaml writes a train.
+    """Determine mobility, gridlock, tooth closure and sizes of gears on a sphere; -o x.yaml writes a declaration.
 
     Example: `geartrain sphere icosidodecahedron --teeth 5=20,3=12`.
     """
@@ -83,8 +99,10 @@ def run(
     if survey:
         _survey(json, to)
         return
-    if (solid is None) == (graph is None):
-        raise option_error("SOLID", "the gears are not given, or twice", "give a solid, --graph or --survey")
+    if solid is None and graph is None:
+        raise option_error("SOLID", "no gears are given", "give a solid, --graph or --survey")
+    if solid is not None and graph is not None:
+        raise option_error("SOLID", "a solid and --graph are given", "omit one of them", "both place the gears")
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
@@ -104,11 +122,11 @@ def run(
 
 
 def _check_listed(to: Sink, picture: Sink) -> None:
-    """Reject output options that need one sphere, when a list is requested."""
+    """Reject -o x.yaml and --plot if a list is requested, because they need a single sphere."""
     if to.suffix in _YAML:
-        raise option_error("-o", "a list of tooth sets cannot be written as a train", "use .md, .html or .json")
+        raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
     if picture.path is not None:
-        raise option_error("--plot", "a list of spheres cannot be drawn", "omit --plot, --suggest and --survey")
+        raise option_error("--plot", "a list of results cannot be drawn", "omit --plot, or --suggest and --survey")
 
 
 def _survey(json: bool, to: Sink) -> None:
@@ -152,7 +170,7 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """Parse tooth counts by kind, `5=20,3=12`, or one count for all."""
+    """Parse tooth counts by kind of gear, such as `5=20,3=12`, or one count for all gears."""
     if text is None:
         return None
     try:
@@ -161,11 +179,11 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
         pairs = (part.partition("=") for part in text.split(","))
         return {kind.strip(): int(count) for kind, _, count in pairs}
     except ValueError:
-        raise option_error("--teeth", f"'{text}' is not a list of tooth counts", "write it as 5=20,3=12") from None
+        raise option_error("--teeth", f"'{text}' is not a list of tooth counts", "write 20, or 5=20,3=12") from None
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """Return the radius of the sphere, given directly or by the pitch radius of one kind of wheel."""
+    """Return the radius of the sphere, given directly or by the pitch radius of one kind of gear."""
     from geartrain.spherical.gear_sizes import size_gears
     from geartrain.spherical.pitch_cones import sphere_radius
 

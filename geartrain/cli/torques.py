@@ -47,33 +47,43 @@ def run(
     turns: Annotated[
         str | None,
         typer.Option(
-            "--turns", help="Compute torque over this many revolutions of the driving link, or over the 'period'."
+            "--turns",
+            help="Revolutions of the driving link over which torque is computed, or 'period' for one common period.",
         ),
     ] = None,
     samples: Annotated[
         int,
-        typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions, besides kinks and jumps."),
+        typer.Option(
+            "--samples", min=2, max=MOST_COUNT, help="Number of input positions, in addition to kinks and jumps."
+        ),
     ] = 20_000,
     link: Annotated[
-        str | None, typer.Option("--of", help="With --turns: link whose torque is computed; default the crank.")
+        str | None, typer.Option("--of", help="With --turns: link whose torque is computed; default: the crank.")
     ] = None,
     trials: Annotated[
-        int | None, typer.Option("--trials", help="Number of runs with random friction by its declared deviation.")
+        int | None,
+        typer.Option(
+            "--trials",
+            help="With --turns: number of trials with random friction, drawn with the declared standard deviation.",
+        ),
     ] = None,
     seed: Seed = 1,
     workers: Workers = None,
     resume: Resume = False,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", help="Draw the power flow of one state, or with --turns its torque, to this file."),
+        typer.Option(
+            "--plot",
+            help="Draw the power flow of one state to this file, or with --turns the torque over these revolutions.",
+        ),
     ] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque.
+    """Compute torques of links and pairs, power flow, losses, efficiency and crank torque under the declared loads.
 
-    With -o x.csv and --turns, write the torque at every position.
+    With --turns and -o x.csv, write the torque at every position.
 
     Example: `geartrain torques norton-compound --plot power.svg`.
     """
@@ -86,7 +96,7 @@ def run(
     tabled = to.suffix == ".csv"
     if turns is None and (tabled or link is not None or trials is not None):
         which = "-o" if tabled else "--of" if link is not None else "--trials"
-        raise option_error(which, "no revolutions are given", "give --turns too")
+        raise option_error(which, "the number of revolutions is missing", "give --turns too")
     if resume and trials is None:
         raise option_error("--resume", "only friction trials can be resumed", "give --trials too")
     train = load(file)
@@ -114,7 +124,7 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Compute the torque over some revolutions in the one state with loads."""
+    """Compute the torque over the requested revolutions in the requested state, or in the only state with loads."""
     state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
@@ -122,7 +132,10 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
             raise option_error(
-                "--turns", "a common period does not exist", "give a number of revolutions", "no torque ripples"
+                "--turns",
+                "the torque has no period",
+                "give a number of revolutions",
+                "it is constant, or cannot be determined",
             )
         span = float(period)
     else:
@@ -157,7 +170,9 @@ def _friction_trials(
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
     """Return the state that was requested, or the only one with loads."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
-    if len(loaded) != 1:
+    if not loaded:
+        raise option_error(option, "no state has loads", "declare `loads`", "torques follow from loads")
+    if len(loaded) > 1:
         names = ", ".join(train.states)
         done = {"--plot": "drawn", "--turns": "simulated"}[option]
         raise option_error(option, f"only one state can be {done}", f"give --state with one of {names}")
@@ -169,16 +184,18 @@ def _table(found: TorqueCycle) -> str:
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
-        raise GearTrainError(Problem("the torque cannot be written", found.verdict.text, "declare loads"))
+        raise GearTrainError(
+            Problem("the torque cannot be written", found.verdict.text, "declare loads that the input can move")
+        )
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]
     return csv_text(header, zip(*(column.tolist() for column in columns), strict=True)).rstrip("\n")
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """Draw the torque over the requested revolutions, or the power flow.
+    """Draw the torque over the requested revolutions, or the power flow if no revolutions are requested.
 
-    The power flow is that under the declared loads, or without loads that of a unit of power from input to output.
+    The power flow is computed for the declared loads; without loads, for a unit of power from input to output.
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit

@@ -1,4 +1,4 @@
-"""`geartrain mesh --form triangular --vary` and the operation of a pair with triangular teeth."""
+"""Parameter sweep of `geartrain mesh --form triangular --vary`, and parser of inertia, speed and load."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 VARIED = (*parameters_of(Triangular), *PAIR)
-"""Numbers that can be varied: parameters of the form, friction and tooth counts."""
+"""Quantities that can be varied: parameters of the form, friction and tooth counts."""
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
-    """Parse the operating conditions of a pair."""
+    """Parse the inertia and load of the driven wheel and the speed of the driving wheel."""
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
@@ -33,7 +33,7 @@ def read_operation(inertia: str | None, rate: str | None, load: str | None) -> P
 
 
 def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """Run a parameter sweep and write it as a table and as a picture."""
+    """Run a parameter sweep and write its results as a table and as a picture."""
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
@@ -102,7 +102,7 @@ def _number(text: str) -> tuple[float, str]:
     except ValueError:
         value = math.nan
     if match is None or not math.isfinite(value):
-        raise option_error("--vary", f"'{text}' is not a number", "write it as 1.01, or with a unit as 30deg")
+        raise option_error("--vary", f"'{text}' is not a number", "write a number such as 1.01, or with a unit 30deg")
     return value, match[2] or ""
 
 

@@ -1,4 +1,4 @@
-"""Groups of commands that are imported on request, and the exit code of every way to end.
+"""Groups of commands that are imported on request, and exit codes of the command line.
 
 An internal error never has the exit code of a verdict.
 """
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 Command = Any
-"""A click command; typer contains click or imports it, depending on its version."""
+"""Command of click. Depending on its version, typer contains click or imports it."""
 
 
 class Verbs(Mapping[str, Command]):
@@ -128,7 +128,7 @@ class Verbs(Mapping[str, Command]):
 
 
 class LazyGroup(TyperGroup):
-    """A group of commands that are imported when they are requested."""
+    """Group of commands that are imported when they are requested."""
 
     verbs: ClassVar[Verbs]
 
@@ -137,7 +137,7 @@ class LazyGroup(TyperGroup):
         self.commands = self.verbs  # type: ignore[assignment]
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command that is named. Raises `QuestionError` for an unknown name."""
+        """Return the named command. Raises `QuestionError` if the name is unknown."""
         name = args[0]
         if name not in self.verbs and not name.startswith("-") and not ctx.resilient_parsing:
             fix = suggest(name, self.verbs, f"`{ctx.command_path} --help` lists the commands")
@@ -150,7 +150,7 @@ class LazyGroup(TyperGroup):
 
 FAULT, READER_GONE = 3, 141
 TRACEBACK = "GEARTRAIN_TRACEBACK"
-"""Environment variable that also prints the traceback of an internal error, if it is set."""
+"""Environment variable; if it is set, the traceback of an internal error is also printed."""
 
 _DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQUOT", errno.ENOSPC)}
 
@@ -160,10 +160,12 @@ class _ReaderGoneError(Exception):
 
 
 class EndingGroup(TyperGroup):
-    """A group of commands that handles closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
+    """Group of commands that handles closed pipes and Ctrl-C itself, because typer would exit with the code of a
+    verdict.
+    """
 
     def make_context(self, *given: Any, **more: Any) -> Any:
-        """Parse the command line; `--help` and `--version` end here."""
+        """Parse the command line; `--help` and `--version` exit here."""
         with _translated_exits():
             return super().make_context(*given, **more)
 
@@ -175,7 +177,7 @@ class EndingGroup(TyperGroup):
 
 @contextmanager
 def _translated_exits() -> Iterator[None]:
-    """Convert exceptions that typer would report differently."""
+    """Convert exceptions that typer would report in another form."""
     try:
         yield
     except BrokenPipeError:
@@ -190,9 +192,9 @@ def _translated_exits() -> Iterator[None]:
 
 
 def usage_problem(error: Any) -> Problem:
-    """Return the problem of a usage error of typer, in the form of all other errors.
+    """Return the problem that describes a usage error of typer, in the form of all other errors.
 
-    An error is known by its attributes, because its class is in click or in typer, depending on the version of typer.
+    The error is recognised by its attributes, because its class is in click or in typer, depending on the version.
     """
     context, param = error.ctx, getattr(error, "param", None)
     see = f"`{f'{context.command_path} ' if context else ''}--help` lists the arguments and options"

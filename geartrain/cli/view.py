@@ -41,19 +41,19 @@ if TYPE_CHECKING:
 
 _MOST_ANGLES = 2_000_000  # angles of all links together, before samples are selected
 
-Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="FILE2")]
+Other = Annotated[str | None, typer.Argument(help="Second train, shown next to the first.", metavar="FILE2")]
 Page = Annotated[
     Path | None,
     typer.Option(
         "--output-file",
         "-o",
         metavar="FILE",
-        help="Write to FILE (- is standard output); default NAME.html in this folder.",
+        help="Write the page to FILE (- is standard output); default: NAME.html in this folder.",
     ),
 ]
 Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: revolutions of the driving link to show.")]
 Embed = Annotated[
-    bool, typer.Option("--embed", help="Write only the picture with three buttons, for a frame in another page.")
+    bool, typer.Option("--embed", help="Write only the animation and three buttons, to embed in another page.")
 ]
 Kiosk = Annotated[bool, typer.Option("--kiosk", help="Write a full-screen page that runs by itself, for a museum.")]
 
@@ -103,7 +103,7 @@ def view(
         tell("no browser could be started; open the file manually")
     for run in runs:
         if run is not None and not run.complete:
-            tell(f"stopped after {run.turns[-1]:.4g} revolutions; the page shows these")
+            tell(f"stopped after {run.turns[-1]:.4g} revolutions; the page shows these revolutions")
             raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in taken) else VERDICT)
 
@@ -115,11 +115,14 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
     if shown == "embed" and to.path is not None:
         frame = frame_of(to.path.name, scenes[0].title or scenes[0].name)
-        tell(f"copy it next to your page, and add to your page:\n{frame}")
+        tell(f"copy the file next to your page, and add this element to your page:\n{frame}")
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout of a page. Raises `QuestionError` for two layouts, or for two trains in a layout for one."""
+    """Return the layout of a page.
+
+    Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
+    """
     if embed and kiosk:
         raise QuestionError(
             Problem("--embed and --kiosk are given together", "a page has one layout", "omit one of them", "view")
@@ -135,10 +138,10 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raise `QuestionError` for options of dynamics without --dynamics, or with two trains."""
+    """Raise `QuestionError` if options of --dynamics are given without it, or --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
         what, why = (
-            "options of --dynamics are given without it",
+            "options of --dynamics are given without --dynamics",
             "without --dynamics the page shows the kinematics only",
         )
         raise QuestionError(Problem(what, why, "add --dynamics, or omit these options"))
@@ -148,13 +151,13 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation that is shown, sampled at every step of its coarser run if the data are not too large."""
+    """Run the simulation to be shown; every step of its coarser run is a sample, unless the data are too large."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the displayed states: the named one, else all, or only the first."""
+    """Return the states to be shown: the named state; otherwise the first state if `first` is True, or all states."""
     if state is not None:
         return (state,)
     names = train.states or (None,)
@@ -176,14 +179,14 @@ def _page_sink(path: Path, force: bool) -> Sink:
 def watch(
     file: Annotated[str, typer.Argument(help="YAML file to watch.", metavar="FILE")],
     port: Annotated[
-        int, typer.Option("--port", min=0, max=65535, help="Port of the local server; 0 takes a free one.")
+        int, typer.Option("--port", min=0, max=65535, help="Port of the local server; 0 selects a free port.")
     ] = 0,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
 ) -> None:
-    """Show report and animation side by side in a browser, updated whenever the file is saved; Ctrl-C ends it.
+    """Show report and animation side by side in a browser, updated whenever the file is saved; Ctrl-C ends the server.
 
-    The page is served on this machine only, and keeps camera, crank and state. Errors in the file are displayed above
-    the last valid version.
+    The page is served on this machine only. Updates keep the camera, the crank position and the state. Errors in the
+    file are displayed above the last valid version.
 
     Example: `geartrain watch train.yaml --open`.
     """
@@ -191,13 +194,14 @@ def watch(
 
     path = Path(file)
     if not path.is_file():
-        what, fix = f"file '{file}' does not exist", "give an existing file, such as one of `geartrain init planetary`"
+        what = f"file '{file}' does not exist"
+        fix = "give an existing file; `geartrain init planetary` creates an example"
         raise QuestionError(Problem(what, "only a saved file can be watched", fix))
     server = LiveServer(lambda: _pages(path), lambda: _files(path), port)
     server.refresh()
-    tell(server.error or f"{file} is shown at {server.address} until Ctrl-C ends it")
+    tell(server.error or f"{file} is shown at {server.address}; press Ctrl-C to stop")
     if server.error:
-        tell(f"it is shown at {server.address} once the file is corrected, until Ctrl-C ends it")
+        tell(f"it will be shown at {server.address} when the file is corrected; press Ctrl-C to stop")
     if open_it and not webbrowser.open(server.address):
         tell("no browser could be started; open the address manually")
     server.run(lambda error: tell(error or f"{file} is updated"))
@@ -216,7 +220,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """Return the file and those that it extends; only the file if it cannot be read."""
+    """Return the file and all files that it extends; only the file if it cannot be read."""
     from geartrain.train.declaration_files import files_of
 
     try:

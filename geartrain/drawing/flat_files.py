@@ -129,26 +129,26 @@ OUTLINES = (".svg", ".dxf", ".csv")
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:
-    """Return the outline of a wheel as the text of a file, 1:1 in mm.
+    """Return the outline of a wheel as the text of an SVG, DXF or CSV file, at scale 1:1 in mm.
 
     Parameters
     ----------
     wheel : WheelOutline
-        Contours of a wheel, as `geartrain.teeth` gives them.
+        Outline of the wheel, from `GearMesh.wheel_outline`.
     suffix : {".svg", ".dxf", ".csv"}
-        What it is written as: DXF has closed polylines with arcs, CSV a row a point.
+        File format. DXF contains closed polylines with arcs, CSV one row per point.
 
     Returns
     -------
     str
-        The content of the file.
+        Content of the file.
 
     Raises
     ------
     MissingExtraError
         If the library that writes DXF is not installed.
     GearTrainError
-        For any other suffix.
+        If the suffix is not one of these.
 
     Examples
     --------

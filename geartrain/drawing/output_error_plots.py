@@ -75,16 +75,17 @@ _Drawer = Callable[[Any, _Trace], None]
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """Draw the motion of outputs: angles against mean motions, deviations and speeds; backward motion is red.
+    """Draw the angle, deviation from mean motion, and speed of outputs over a run; backward motion is red.
 
-    An output that deviates from uniform motion gets panels of its deviation and its speed. Over few turns a panel of
-    its angle is added, over many turns a panel of its backward motion, if any. Outputs that move uniformly are drawn
-    only if all do, each in one panel: its angle over few turns, otherwise its speed.
+    For each output that deviates from uniform motion, panels show its deviation and its speed. A run of few turns has a
+    further panel with the angle, a run of many turns a further panel with the backward motion, if any. Outputs that
+    move uniformly are drawn only if all outputs do, each in one panel: the angle for few turns, otherwise the speed.
 
     Parameters
     ----------
     run : MotionRun
-        Outputs, turns and positions to follow; the run may be new.
+        Run that defines outputs, turns and positions. The motion is computed again, so `run.run` need not have been
+        called.
     on_done : callable
         Called with the number of positions computed since the previous call.
     title : str
@@ -93,8 +94,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     Returns
     -------
     matplotlib.figure.Figure
-        Angles and deviations [deg] and speeds over their means, against turns of the input. At most twelve outputs
-        are drawn: those with the largest deviations, or the first twelve if all move uniformly.
+        Angles and deviations [deg], and speeds divided by their means, against turns of the input. At most twelve
+        outputs are drawn: those with the largest deviations, or the first twelve if all move uniformly.
 
     Examples
     --------
@@ -115,7 +116,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
-    """Draw the motion of outputs over some turns of the input: `motion_figure` of a new run.
+    """Draw the motion of outputs over some turns of the input with `motion_figure`.
 
     Parameters
     ----------
@@ -331,7 +332,7 @@ class _Loss(NamedTuple):
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    """Draw the crank torque over the run with its mean and extremes, and below it the losses by part.
+    r"""Draw the requested torque over a run with its mean and extremes, and the losses of the parts below it.
 
     Parameters
     ----------
@@ -343,18 +344,18 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Torque, and losses as equivalent torque (power over the mean speed of the link) [N m, or without unit], against
-        turns of the input; shaded where the train locks.
+        Torque, and losses as equivalent torque (power divided by the mean speed of the link) [N m, or plain number],
+        against turns of the input. Intervals in which the train locks are shaded.
 
     Raises
     ------
     QuestionError
-        If the torque is not known at any position.
+        If the torque is unknown at all positions.
 
     Examples
     --------
     >>> import geartrain
-    >>> train = geartrain.load("extends: planetary-24-18-60\\nloads: {carrier: -10 N m}\\nname: loaded")
+    >>> train = geartrain.load("extends: planetary-24-18-60\nloads: {carrier: -10 N m}\nname: loaded")
     >>> torque_cycle_figure(train.torques(turns=1, samples=20)).axes[0].get_ylabel()
     'torque at sun (N m)'
     """

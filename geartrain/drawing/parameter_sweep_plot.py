@@ -80,11 +80,11 @@ def sweep_figure(
     title: str = "",
     units: Mapping[str, str] | None = None,
 ) -> Figure:
-    """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
+    """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; NaN values are omitted.
 
-    For one parameter, draw panels of mean efficiency, transmission error and speed ratios over it, with bands for the
-    verdicts behind them. For two, draw a map of the mean efficiency, blank where the pair does not turn, with the
-    faults hatched. The scale fits the pairs that run.
+    For one parameter, panels show mean efficiency, transmission error and speed ratios against the parameter, with a
+    background band for each verdict. For two parameters, a map shows the mean efficiency; it is blank where the pair
+    does not turn, and faults are hatched. The scale covers the pairs that run.
 
     Parameters
     ----------
@@ -105,12 +105,12 @@ def sweep_figure(
     Returns
     -------
     matplotlib.figure.Figure
-        Panels, or a map.
+        Figure with panels for one parameter, or a map for two.
 
     Raises
     ------
     QuestionError
-        For arrays of different shapes, and without data.
+        If arrays have different shapes or contain no data.
 
     Examples
     --------
@@ -129,7 +129,7 @@ def sweep_figure(
             Problem(
                 f"cannot draw a sweep of {len(places)} parameters and {len(values)} columns with arrays of shapes "
                 f"{sorted(shapes)}",
-                "all arrays must have one shape",
+                "a sweep has one or two parameters, and arrays of one shape that are not empty",
                 "pass one parameter with arrays (n,), or two with grids (n, m), and at least one column",
             )
         )

@@ -42,26 +42,26 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Draw the power flow as a Sankey diagram: bands as wide as their powers, recirculating power running back above.
+    """Draw the power flow as a Sankey diagram, with recirculating power in bands that return above the others.
 
     Parameters
     ----------
     flow : PowerFlow or Torques
-        Power flow, or the torques that cause it; powers are absolute (docs/torques.md, 7).
+        Power flow, or the torques that cause it. Power is torque times absolute speed (docs/torques.md, 7).
     title : str
         Title above the picture.
     watts : float, optional
-        Watts per unit of power, if known; otherwise powers are printed as shares of the power put in.
+        Watts per unit of power, if known. By default powers are printed as fractions of the power input.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Figure as large as its bands need.
+        Figure whose size depends on the number of bands.
 
     Raises
     ------
     GearTrainError
-        If no power flows, or if it passes too many nodes to be legible.
+        If no power flows, or if there are too many nodes for a legible figure.
 
     Examples
     --------
@@ -76,10 +76,14 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
-        raise GearTrainError(Problem("no power flows through the train", title, "declare `loads` on links that turn"))
+        raise GearTrainError(
+            Problem(
+                "no power flows through the train", "no load acts on a link that turns", "declare `loads` on such links"
+            )
+        )
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
-        raise GearTrainError(Problem(what, f"the maximum is {_MOST}", "draw a part of the train"))
+        raise GearTrainError(Problem(what, f"the maximum is {_MOST}", "declare a part of the train, and draw it"))
     words = _NodeLabels(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)

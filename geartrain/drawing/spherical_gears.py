@@ -27,23 +27,23 @@ _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 def sphere_figure(
     configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
-    """Draw every gear of a set on its sphere, seen from one side.
+    """Draw all gears of a set on their sphere, viewed from one side.
 
     Parameters
     ----------
     configuration : Configuration
-        Axes, kinds, teeth and meshes.
+        Axes, kinds, tooth numbers and meshes of the set.
     cones : array of shape (gears,)
         Half angle of each pitch cone [rad] (docs/sphere.md, equation 1).
     phases : sequence of float
-        Phase of each gear [pitch]: position of a tooth past the gear's own zero direction.
+        Phase of each gear [pitch]: angle of a tooth from the reference direction of the gear.
     view : tuple of three floats
-        Direction towards the reader.
+        Direction from the sphere to the viewer.
 
     Returns
     -------
     matplotlib.figure.Figure
-        One picture; gears on the far side are pale.
+        Picture of the sphere; gears on the far side are pale.
 
     Examples
     --------

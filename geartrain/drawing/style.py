@@ -83,7 +83,7 @@ Figure = ShownFigure
 
 
 def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName = "light") -> bytes:
-    """Return a figure as the bytes of an image file, the same bytes for the same figure and release of matplotlib.
+    """Return a figure as the bytes of an image file, reproducible with the same release of matplotlib.
 
     Parameters
     ----------
@@ -94,17 +94,17 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     dots : float
         Resolution of a .png [dots per inch], above 0.
     theme : {"light", "dark", "print"}
-        Colours: on white, on a dark background, or black and greys for a printer without colours.
+        Colours on white, colours on a dark background, or black and greys for print.
 
     Returns
     -------
     bytes
-        Content of the file; control characters in names are written out.
+        Content of the file; control characters in names are escaped.
 
     Raises
     ------
     GearTrainError
-        For another suffix.
+        If the suffix is not one of these.
 
     Examples
     --------
@@ -316,6 +316,6 @@ def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
             Problem(
                 f"'{train.name}' has {count} {what}, too many for this picture",
                 f"at most {most} {what} are legible on a page",
-                "draw a part of the train, or another kind of picture",
+                "declare a part of the train, or draw another kind of picture",
             )
         )

@@ -195,15 +195,17 @@ def teeth_figure(
     transmission : TriangularTransmission
         Transmission function of the pair.
     alpha1 : float, optional
-        Angle of the driving tooth from the line of centres [rad]; by default in the middle of the first interval.
-        If no tooth pair drives there, the moment at which some tooth of the driver is there.
+        Angle of the driving tooth from the line of centres [rad]; by default the middle of the first drive interval. If
+        no tooth pair drives at this angle, the figure shows the tooth pair in contact while a tooth of the driver is at
+        this angle.
     whole : bool, optional
-        Whether whole wheels are drawn or only the teeth near the contact; by default according to the tooth counts.
+        True to draw whole wheels, False to draw only the teeth near the contact. By default whole wheels are drawn if
+        they have few teeth.
 
     Returns
     -------
     matplotlib.figure.Figure
-        One picture with equal scales.
+        Picture with equal scales on both axes.
 
     Raises
     ------

@@ -24,7 +24,7 @@ def picture(
     labels: bool = True,
     outputs: Sequence[str] = (),
 ) -> Figure:
-    """Draw a picture of a train: plan to scale, stick diagram, kinematic graph, speed diagram or dials.
+    """Draw a picture of a train: plan to scale, stick diagram, kinematic graph, lever diagram or dials.
 
     Parameters
     ----------
@@ -35,9 +35,9 @@ def picture(
     state : str, optional
         Name of a state; by default the first, or all states for "lever".
     turns : Fraction
-        Turns of the input since the pose in which all angles are zero; used by "plan" and "dials".
+        Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
     labels : bool
-        Whether names and numbers are written.
+        True to add names and numbers.
     outputs : sequence of str
         Outputs whose dials are drawn; by default all.
 
@@ -49,7 +49,7 @@ def picture(
     Raises
     ------
     QuestionError
-        For a kind that does not fit the train, and for unknown states and outputs.
+        If the kind does not apply to the train, or if a state or output does not exist.
 
     Examples
     --------

@@ -55,7 +55,7 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Draw transmission error, speed ratio and efficiency of the drive flanks over two periods.
+    """Draw transmission error, speed ratio and efficiency of the drive flanks over two periods of the pair.
 
     Parameters
     ----------
@@ -67,7 +67,8 @@ def transmission_figure(transmission: TransmissionFunction, title: str) -> Figur
     Returns
     -------
     matplotlib.figure.Figure
-        Three panels over the driver's angle [deg], two without losses; kinks of the function are thin lines.
+        Three panels against the driver angle [deg], or two for a pair without losses. Thin lines mark the kinks of the
+        function.
 
     Examples
     --------
@@ -114,24 +115,24 @@ _BEYOND = 4.0  # maximum extension of an axis beyond the real path, over the ran
 
 
 def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
-    """Draw driven angle, speed ratio, sliding efficiency and moment arms of triangular teeth over the driver's angle.
+    """Draw driven angle, speed ratio, sliding efficiency and moment arms of triangular teeth against the driver angle.
 
-    Thin lines are the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of all
-    tooth pairs. The driver's angle decreases with time. The instant centre, which follows from the speed ratio, is read
-    on a second axis next to it. Moment arms are relative to the radii at which the mean ratio would roll, and dashed
-    for the driven wheel.
+    Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of
+    all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position of
+    the instant centre. Moment arms are relative to the pitch radii of the mean ratio; the moment arm of the driven
+    wheel is dashed.
 
     Parameters
     ----------
     transmission : TriangularTransmission
         Transmission function of the pair.
     friction : PairFriction, optional
-        Friction instead of the transmission function's own, where it depends on speed.
+        Friction that depends on speed; by default the friction coefficient of the transmission function.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Four panels, or three without friction, as nothing is lost then; angles in degrees.
+        Four panels, or three for a pair without friction, whose efficiency is 1; angles in degrees.
 
     Raises
     ------
@@ -385,17 +386,18 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Draw tooth forms of one pair side by side: flanks, path of contact, stress, heat, flash, sliding and loss.
+    """Compare tooth forms of one pair in a figure: flanks, path of contact, stress, heat, flash temperature, sliding
+    and loss.
 
     Parameters
     ----------
     paths : mapping of str to PathOfContact
-        Path of contact of each form (docs/shapes.md, equation 1), by its name.
+        Path of contact of each form (docs/shapes.md, equation 1), by name of the form.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Eight panels; lengths in modules, stress, heat, flash temperature and losses as in docs/shapes.md.
+        Eight panels; lengths in modules; stress, heat, flash temperature and losses as defined in docs/shapes.md.
 
     Raises
     ------
@@ -411,9 +413,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """
     if not paths:
         raise QuestionError(
-            Problem(
-                "none of the tooth forms can be drawn", "none of them can run", "change the arcs or the tooth counts"
-            )
+            Problem("no tooth form can be drawn", "none of them can run", "change the arcs or the tooth counts")
         )
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)

@@ -65,7 +65,7 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
     if missing:
         what = f"{mesh.label}: friction depends on the pitch-line speed, which is unknown"
         why = f"the declaration does not give {' or '.join(words for words, _ in missing)}"
-        fix = f"give {', and '.join(keys for _, keys in missing)}; or `friction` as a number"
+        fix = f"give {', and '.join(keys for _, keys in missing)}; or give `friction` as a number"
         return PairSpeed(None, Problem(what, why, fix, mesh.place))
     assert unit is not None
     assert radius is not None

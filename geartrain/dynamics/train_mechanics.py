@@ -31,7 +31,8 @@ DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
 @final
 @dataclass(frozen=True, eq=False)
 class TrainMechanics(Shown):
-    """Properties of a train that depend on its teeth and loads.
+    """Analysis of a declared train that depends on its teeth and loads: driving sides, transmission functions, load
+    cases.
 
     See Also
     --------
@@ -72,8 +73,8 @@ class TrainMechanics(Shown):
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train with each equal planet as a separate link, so that planets share loads; this train if it has no
-        copies.
+        """Train in which each equal planet is a separate link, so that the planets share loads; this train if no link
+        represents several planets.
         """
         # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
@@ -95,7 +96,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """Gear pairs with real teeth by name, with the first wheel driving; the teeth of a pair are built when it is
+        """Gear pairs with real teeth by name, with the first wheel driving. The teeth of a pair are computed when it is
         first read.
         """
         if not any(map(self.declaration.form_of, self.declaration.gears)):
@@ -109,12 +110,12 @@ class TrainMechanics(Shown):
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All gear pairs with real teeth, with the first wheel driving; all are built.
+        """All gear pairs with real teeth, with the first wheel driving, after their teeth are computed.
 
         Raises
         ------
         GearTrainError
-            If teeth cannot be built; it lists all such pairs.
+            If the teeth of a pair cannot be computed. The error lists all such pairs.
         """
         if not self.undriven:
             return ()
@@ -124,13 +125,13 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth, each as driven in the first state in which its driver is known."""
+        """Gear pairs with real teeth, each with the driver of the first state in which it is known."""
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 
     @cached_property
     def driven_ways(self) -> DrivenWays:
-        """Driving directions of every pair with real teeth, with the names of the states.
+        """Driving directions of every pair with real teeth, with the names of the states in which they occur.
 
         A pair with an undetermined driver has both directions.
         """
@@ -139,7 +140,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Problems that prevent real teeth from turning in a driving direction that occurs in some state."""
+        """Problems that prevent real teeth from turning in a driving direction that occurs in at least one state."""
         if not self.teeth:
             return ()
         from geartrain.teeth.gear_mesh import find_faults
@@ -147,7 +148,7 @@ class TrainMechanics(Shown):
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
-        """Return the gear pairs with real teeth as they are driven in one state.
+        """Return the gear pairs with real teeth, with their drivers in one state.
 
         Parameters
         ----------

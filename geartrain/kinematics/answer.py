@@ -30,8 +30,7 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """Closed loop of meshing wheels in the frame of one carrier, with the product of its speed ratios (docs/theory.md,
-    7).
+    """Closed loop of meshing wheels relative to one carrier, with the product of its speed ratios (docs/theory.md, 7).
 
     Examples
     --------
@@ -70,9 +69,10 @@ VerdictKind = Literal["determined", "free", "locked", "contradictory", "refused"
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Result):
-    """Verdict on a train with given inputs, decided by exact rank; the certificate is equation (22) of docs/theory.md.
+    """Verdict on whether the inputs determine the motion of a train, from the exact rank; the certificate is equation
+    (22) of docs/theory.md.
 
-    A verdict is a result, never an exception. It is true if its kind is `determined`.
+    A verdict is a result, not an exception. It is true if its kind is `determined`.
 
     Examples
     --------
@@ -85,20 +85,20 @@ class Verdict(Result):
     kind: VerdictKind
     """Kind of the verdict.
 
-    determined: every link's speed follows from the inputs. free: the speeds of `links` are undetermined. locked: the
-    input cannot move because of `loops` or `prescriptions`. contradictory: `prescriptions` exclude each other. refused:
-    speeds cannot be calculated in this state, because its locks form a linkage or would stop a rotation.
+    determined: the inputs determine the speed of every link. free: the speeds of `links` are undetermined. locked: the
+    input cannot move because of `loops` or `prescriptions`. contradictory: `prescriptions` contradict each other.
+    refused: speeds cannot be calculated in this state, because its locks form a linkage or would stop a rotation.
     """
     text: str
     """Verdict as a sentence, with its cause, in plain text."""
     links: tuple[str, ...] = ()
     """Links whose speeds are undetermined; empty unless the train is free or partly locked."""
     fixes: tuple[str, ...] = ()
-    """Links whose speeds, if they were prescribed too, would determine all other speeds."""
+    """Links whose speeds would determine all other speeds if they were also prescribed."""
     prescriptions: tuple[str, ...] = ()
     """Links of the inputs, brakes and clutches that cause a lock or a contradiction."""
     loops: tuple[Loop, ...] = ()
-    """Loops with a ratio product other than 1, which lock the train or a part of it."""
+    """Loops with a ratio product other than 1, which lock the train or a part of the train."""
 
     def _summary(self) -> str:
         return str(self)
@@ -130,10 +130,11 @@ class RowResiduals(TypedDict, total=False):
 
 @dataclass(frozen=True, slots=True)
 class Answer(FrozenFields, Tabular, TrainResult):
-    """Solution of a train in one state: speeds by the Willis system, equations (4) and (5) of docs/theory.md.
+    """Solution of a train in one state: speeds from the Willis equations (4) and (5) of docs/theory.md.
 
-    True if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs agree
-    with their expectations. `answer[name]` is the speed of an output or a link; `KeyError` if it is not determined.
+    It is true if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs
+    agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if the
+    speed is not determined.
 
     Examples
     --------
@@ -167,7 +168,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     unit: str
     """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
     verdict: Verdict
-    """Verdict on the speeds: determined, or the reason why they are not."""
+    """Verdict on the speeds: determined, or the reason why they are not determined."""
     speeds: Mapping[str, SpeedValue]
     """Link -> determined speed [`unit`]. Speeds are Fractions or floats (`LongFloat` above 1e308), depending on
     `method`.
@@ -181,13 +182,14 @@ class Answer(FrozenFields, Tabular, TrainResult):
     method: str
     """Method of solution: "exact", or float64 by sparse LU factorisation or by rounding exact speeds."""
     accuracy: Mapping[str, SpeedAccuracy]
-    """Link -> error [`unit`] and condition number of its speed. Computed at the first access; empty for exact speeds.
+    """Link -> error estimate [`unit`] and condition number of its speed. Computed at the first access; empty for exact
+    speeds.
     """
     work: int
     """Number of circuits that were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
-    """Row label of `WillisSystem.matrix` -> |b - A w| over |A| |w| [1]. Computed at the first access; empty if the
-    matrix was not used.
+    """Row label of `WillisSystem.matrix` -> relative residual |b - A w| / (|A| |w|) [1]. Computed at the first access;
+    empty if the matrix was not used.
     """
     expected: str = "determined"
     """Expected kind of verdict, as named by the state's `expect`."""

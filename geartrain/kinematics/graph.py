@@ -101,20 +101,19 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """Return the adjacency matrix with the number of edges between every two links.
+    """Return the adjacency matrix of the links, with the number of edges between every two links.
 
     Parameters
     ----------
     graph : networkx.MultiGraph
         `GearTrain.graph`.
     kinds : iterable of str
-        Kinds of edges that are counted: revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel; default
-        all.
+        Kinds of edges to count: revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel; by default all.
 
     Returns
     -------
     LabelledArray
-        Axes (link, neighbour), whole numbers.
+        Matrix with axes (link, neighbour); integers.
 
     Examples
     --------
@@ -148,7 +147,7 @@ def to_dot(graph: Graph) -> str:
     Returns
     -------
     str
-        A graph in the DOT language.
+        Graph in the DOT language.
 
     Examples
     --------
@@ -166,7 +165,7 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text with kind, label and, for gear pairs, the two wheels.
+    """Return the graph as GraphML text. Edges have a kind and a label, and gear pairs the names of their wheels.
 
     Parameters
     ----------
@@ -176,7 +175,7 @@ def to_graphml(graph: Graph) -> str:
     Returns
     -------
     str
-        A document that `networkx.parse_graphml` reads.
+        GraphML document for `networkx.parse_graphml`.
 
     Examples
     --------
@@ -191,7 +190,7 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON with kind, label and, for gear pairs, the two wheels.
+    """Return the graph as node-link JSON. Edges have a kind and a label, and gear pairs the names of their wheels.
 
     Parameters
     ----------
@@ -201,7 +200,7 @@ def to_json(graph: Graph) -> str:
     Returns
     -------
     str
-        JSON with `nodes` and `edges`, as `networkx.node_link_data` gives them.
+        JSON with `nodes` and `edges`, in the form of `networkx.node_link_data`.
 
     Examples
     --------

@@ -55,7 +55,7 @@ def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedVal
 
 @dataclass(frozen=True, slots=True)
 class TargetResult(Result):
-    """Comparison of an output with one target. A positive error means that the output is fast.
+    """Comparison of an output with one target. A positive error means that the output is faster than the target.
 
     Examples
     --------
@@ -78,16 +78,17 @@ class TargetResult(Result):
     )
 
     goal: RatioGoal
-    """Required speed [unit of the train], with the information whether its sign is compared."""
+    """Required speed [unit of the train], and whether its sign is compared."""
     error: SpeedValue
-    """Output over target minus 1 [1], of magnitudes if the sign is not compared; the output itself if the target is 0.
+    """Output divided by target, minus 1 [1]; the magnitudes are compared if the sign is not. It is the output itself if
+    the target is 0.
     """
     days_per_century: float | None
-    """Gain of the pointer in time [days per 36525 days]; None if the unit of speeds contains no time, if the target is
-    0, or beyond the range of float64.
+    """Gain of the pointer in time [days per 36525 days]. None if the unit of speeds does not contain a time, if the
+    target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
-    """Gain of the pointer in angle during one unit of time [deg]; None beyond the range of float64."""
+    """Gain of the pointer in angle during one unit of time [deg]; None if the value exceeds the range of float64."""
     met: bool | None
     """True if `error` is within the declared tolerance; None if no tolerance is declared."""
 
@@ -108,7 +109,7 @@ class TargetResult(Result):
 
     @property
     def ppm(self) -> float | None:
-        """Relative error [ppm]; None if the target is 0, or beyond the range of float64."""
+        """Relative error [ppm]; None if the target is 0, or if the value exceeds the range of float64."""
         return as_plain_product(self.error, 10**6) if self.speed else None
 
 
@@ -183,7 +184,7 @@ class OutputResult(Result):
     (`LongFloat` above 1e308) if solved in floats; None if undetermined.
     """
     ratio: SpeedValue | None
-    """Output over input speed, if exactly one input has a non-zero speed."""
+    """Output speed divided by input speed; None unless exactly one input has a non-zero speed."""
     expect_holds: bool | None
     """True if the speed agrees with the declared `expect`; None if none is declared."""
     published_holds: bool | None
@@ -191,11 +192,11 @@ class OutputResult(Result):
     targets: tuple[TargetResult, ...]
     """Comparisons with the declared targets."""
     bookkeeping: bool
-    """True for a sum of joint speeds about non-parallel axes, which is not a rotation."""
+    """True for a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
 
     @property
     def found(self) -> SpeedValue | None:
-        """Quantity to compare with the `published` value; None if it is undefined or no value is declared."""
+        """Value that is compared with the `published` value; None if it is undefined, or if no value is published."""
         published = self.output.published
         return None if published is None else as_published(published, self.speed, self.ratio)
 
@@ -220,7 +221,9 @@ class OutputResult(Result):
 
     @property
     def holds(self) -> bool:
-        """False if the output does not agree with an `expect`, a `published` value or the tolerance of a target."""
+        """False if the output does not agree with an `expect`, a `published` value or the tolerance of a target;
+        otherwise True.
+        """
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
         return False not in judged
 
@@ -352,7 +355,7 @@ def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> Tar
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity(Result):
-    """Effect of one tooth fewer and one tooth more of an uncertain wheel on an output, by exact solution.
+    """Exact effect of one tooth fewer and one tooth more of an uncertain wheel on the speed of an output.
 
     Examples
     --------
@@ -376,11 +379,11 @@ class Sensitivity(Result):
     output: str
     """Name of the output."""
     less: float | None
-    """Relative change of the output's speed with one tooth fewer [ppm]; None if the train can then not turn, or the
+    """Relative change of the output's speed with one tooth fewer [ppm]; None if the train then cannot turn, or if the
     output is at rest.
     """
     more: float | None
-    """Relative change of the output's speed with one tooth more [ppm]; None if the train can then not turn, or the
+    """Relative change of the output's speed with one tooth more [ppm]; None if the train then cannot turn, or if the
     output is at rest.
     """
 

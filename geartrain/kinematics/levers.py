@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Lever(Shown):
-    """Lever of one epicyclic gear set: points on a line with w_m = w_k + x_m u for each member m.
+    """Lever diagram of one epicyclic gear set: each member m is a point x_m on a line, with speed w_m = w_k + x_m u.
 
     See Also
     --------
@@ -39,8 +39,7 @@ class Lever(Shown):
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
-    """Return the lever of every elementary epicyclic set: links that mesh relative to a moving carrier, coaxial with
-    it.
+    """Return the lever of every elementary epicyclic set: coaxial links that mesh relative to one moving carrier.
 
     Parameters
     ----------
@@ -54,7 +53,7 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
     Returns
     -------
     list of Lever
-        One for each set. Planets are members only if the set has fewer than two coaxial links.
+        Lever of each set. Planets are members only if the set has fewer than two coaxial links.
 
     References
     ----------

@@ -126,7 +126,7 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
                     "link coaxial with the carrier on which it turns, with the coupling "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
-                why = f"each of the {train.links[bearer].copies} links '{bearer}' would need an own '{link}'"
+                why = f"each of the {train.links[bearer].copies} links '{bearer}' would need its own '{link}'"
                 yield Problem(what, why, fix, train.place("links", link))
             continue
         if bearer is None or bearer == train.frame:
@@ -160,7 +160,7 @@ def _name_conflicts(train: Train) -> Iterator[Problem]:
                         what = (
                             f"{kind} '{_copy_name(name, at)}' is declared, but copy {at} of '{name}' has the same name"
                         )
-                        why = f"the {part.copies} links '{link}' and their parts are numbered from 2"
+                        why = f"copies of link '{link}' and of its parts have generated names, numbered from 2"
                         yield Problem(what, why, f"rename '{_copy_name(name, at)}'", train.place("links", link))
 
 
@@ -189,9 +189,7 @@ def _allows_copies(train: Train, coupling: Coupling) -> bool:
 def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
     counts = [train.links[link].copies for link in (first, second)]
     what = f"{counts[0]} links '{first}' cannot be joined to {counts[1]} links '{second}'"
-    return Problem(
-        what, "each of the first would need one of the second", "give both the same `copies`", train.place(*loc)
-    )
+    return Problem(what, f"each '{first}' needs its own '{second}'", "give both the same `copies`", train.place(*loc))
 
 
 @dataclass(frozen=True)
@@ -307,7 +305,7 @@ class _Expansion:
         if axis.point is not None:
             if about.point is None:
                 what = f"the positions of copies of axis '{label}' are unknown"
-                fix = f"give axis '{self.tree.axis(carrier)}' a position, or remove that of '{label}'"
+                fix = f"give axis '{self.tree.axis(carrier)}' a position, or remove the position of '{label}'"
                 why = "copies are spaced about the axis of their carrier, which has no position"
                 raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
             # rotation about the carrier's axis, which may not pass through the origin

@@ -91,7 +91,7 @@ _CONDITIONED = 400  # maximum number of links for which all condition numbers ar
 @final
 @dataclass(frozen=True, eq=False)
 class TrainKinematics(Shown):
-    """Kinematic analysis of a declared train, independent of tooth forms.
+    """Kinematic analysis of a declared train, which does not depend on tooth forms.
 
     See Also
     --------
@@ -135,7 +135,7 @@ class TrainKinematics(Shown):
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
             what = f"'{self.declaration.name}' has no pair '{name}'"
-            raise QuestionError(Problem(what, "only declared pairs can be left out", suggest(name, known)))
+            raise QuestionError(Problem(what, "only declared pairs can be omitted", suggest(name, known)))
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     @cached_property
@@ -149,11 +149,12 @@ class TrainKinematics(Shown):
 
     @cached_property
     def joint_sums(self) -> frozenset[str]:
-        """Links whose speed is a sum of joint speeds over non-parallel joints, and not a rotation."""
+        """Links whose speed is a sum of joint speeds over non-parallel joints, not the speed of a rotation."""
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return whether all axes between two links are parallel, which makes their relative speed a rotation.
+        """Return True if all axes between two links are parallel, so that their relative speed is the speed of a
+        rotation.
 
         Parameters
         ----------
@@ -199,7 +200,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """All links and circuits, prepared for solution."""
+        """Willis system of all links and circuits, prepared for the solution."""
         return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
@@ -211,24 +212,24 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if phase closure can be checked: axes have positions or directions, and gear pairs form loops."""
+        """True if the assembly condition can be checked: axes are placed or directed, and gear pairs form loops."""
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked subgraphs, and the smallest set of meshes to disengage; fast if the train is not locked."""
+        """Locked parts of the train, and meshes whose removal frees it; fast if the train is not locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
 
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:
-        """Notes on conventions and mean values in the answers for a valid declaration; they are not errors."""
+        """Notes on conventions and mean values used in the results of a valid declaration; they are not errors."""
 
         return tuple(lint_train(self.declaration, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
-        """Return exact speeds and the verdict without a limit on the computing time.
+        """Return exact speeds and the verdict of one case, without a limit on the computing time.
 
         Parameters
         ----------
@@ -284,7 +285,7 @@ class TrainKinematics(Shown):
         return self._build_answer(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """Yield the effect of one tooth fewer or more of each uncertain wheel on each output of an answer.
+        """Yield the effect of one tooth fewer or more of each uncertain wheel on each output.
 
         Parameters
         ----------
@@ -330,8 +331,8 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs, condition_of)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """Return the case with one output only, the link whose speed it is, and the link relative to which it is
-        measured.
+        """Return the case with a single output, the link whose speed is the output, and the link relative to which it
+        is measured.
 
         Parameters
         ----------
@@ -361,7 +362,7 @@ class TrainKinematics(Shown):
         return replace(case, outputs=outputs), links
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
-        """Return for each output or link the link whose speed it is, and the link relative to which it is measured.
+        """Return for each output the link whose speed it is, and the link relative to which it is measured.
 
         Parameters
         ----------

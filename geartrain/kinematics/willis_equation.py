@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class WillisEquation(NamedTuple):
-    """One equation of a Willis system: the sum of coefficient times speed over `terms` equals `right`.
+    """Equation of a Willis system: the sum of coefficient times speed over `terms` is equal to `right`.
 
     See Also
     --------

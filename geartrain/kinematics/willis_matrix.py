@@ -60,7 +60,7 @@ class WillisMatrix(Shown):
     rows: tuple[WillisEquation, ...]
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
-    """Links of the columns: all except the frame, or all links if the whole system was requested."""
+    """Links of the columns: all links except the frame, or all links if the whole system was requested."""
     omitted: tuple[str, ...]
     """Labels of omitted rows: the row of the frame, and rows that follow from others."""
 

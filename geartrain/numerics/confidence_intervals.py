@@ -29,7 +29,7 @@ def deviations(confidence: float = CONFIDENCE) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ProbabilityEstimate(Result):
-    """Probability estimated from independent trials, with Wilson's 95 % interval.
+    """Probability estimated from independent trials, with the 95 % confidence interval of Wilson.
 
     Examples
     --------
@@ -45,7 +45,7 @@ class ProbabilityEstimate(Result):
     count: int
     """Number of trials in which the event occurred."""
     of: int
-    """Number of trials."""
+    """Total number of trials."""
 
     @property
     def value(self) -> float:
@@ -54,7 +54,7 @@ class ProbabilityEstimate(Result):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson's score interval, which is also valid for frequencies of 0 and 1."""
+        """Wilson score interval, which is also valid for frequencies of 0 and 1."""
         return wilson(self.count, self.of)
 
 
@@ -76,7 +76,7 @@ def wilson(count: float, of: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class IntervalEstimate:
-    """Estimate of a quantity, with its 95 % confidence interval.
+    """Estimate of a quantity with its 95 % confidence interval.
 
     Examples
     --------
@@ -92,7 +92,7 @@ class IntervalEstimate:
     """Upper end of the interval, in the same unit; inf if there are too few trials."""
 
     def to_dict(self) -> list[float | None]:
-        """Return [value, low, high] for JSON; null for infinite or undetermined numbers."""
+        """Return [value, low, high] for JSON, with null for infinite or undetermined numbers."""
         return [finite(each) for each in (self.value, self.low, self.high)]
 
 

@@ -18,9 +18,10 @@ _MOST = 40  # labels of an axis that are shown whole
 
 @dataclass(frozen=True, slots=True)
 class LabelledArray(Tabular, Result):
-    """Read-only array in which every axis has a name, and every position on an axis a label.
+    """Read-only array with a name for every axis and a label for every position on an axis.
 
-    `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels. An unknown label raises `KeyError`.
+    `array["moon"]` or `array["moon", "0"]` is the value or sub-array at these labels. An unknown label raises
+    `KeyError`.
 
     Examples
     --------
@@ -51,10 +52,10 @@ class LabelledArray(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each label of the second axis and a column for each of the first.
+        """Table with a row for each label of the second axis and a column for each label of the first axis.
 
-        An array with one axis has a column of labels and one of values. An array with three or more axes has a row for
-        each value.
+        An array with one axis has a column of labels and a column of values. An array with three or more axes has a row
+        for each value.
         """
         if len(self.axes) == 1:
             return {self.axes[0]: self.labels[0], "value": self.values.tolist()}

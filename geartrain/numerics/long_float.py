@@ -17,7 +17,7 @@ LOWEST, HIGHEST = -1021, 1024
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LongFloat(Rational):
-    """Number mantissa * 2**exponent with 53 bits, whose exponent is out of the range of float64.
+    """Number mantissa * 2**exponent with 53 bits, whose exponent exceeds the range of float64.
 
     Arithmetic rounds in the same way as for floats, and returns a float if float64 can represent the result. Operands
     may also be floats, integers and Fractions. `Fraction(value)` returns the exact value of the rounded number.

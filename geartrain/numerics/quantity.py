@@ -186,7 +186,7 @@ class Figure:
     value: Fraction
     """Value of the number, exactly as written."""
     half: Fraction | None
-    """Half a unit of the last written decimal; None for an integer or fraction, which is exact."""
+    """Half a unit of the last written decimal; None for an integer or a fraction, which is exact."""
     text: str
     """Text of the number as written."""
 
@@ -197,7 +197,7 @@ class Figure:
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
-        """Return whether a number agrees with the written one.
+        """Return True if a number agrees with the written number.
 
         Parameters
         ----------
@@ -211,7 +211,7 @@ class Figure:
 
     @classmethod
     def parse(cls, raw: object) -> Figure:
-        """Parse a figure from text or a Python number.
+        """Parse a number with its written digits from text or a Python number.
 
         Parameters
         ----------
@@ -305,8 +305,9 @@ Friction = Annotated[Figure, AfterValidator(_not_negative)]
 class Quantity:
     """Number with its unit as written.
 
-    Use `base` in comparisons and computations, not `value`, because it does not depend on the written unit. Units are
-    those of `UNITS`, and rad and rad/s. A radian is an irrational fraction of a turn, rounded to 50 digits.
+    Use `base` in comparisons and computations, not `value`, because it does not depend on the written unit. The units
+    are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded to 50
+    digits.
 
     Examples
     --------

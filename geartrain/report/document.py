@@ -82,7 +82,7 @@ class Table(Shown):
     rows: Sequence[Sequence[str]]
     """Cells by row; each row has one cell for each column."""
     wide: bool = False
-    """True for a matrix, which a terminal shows in strips of columns without wrapping cells."""
+    """True for a matrix, which a terminal shows in several groups of columns without wrapping cells."""
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
@@ -150,7 +150,7 @@ class Branch:
     text: str
     """Text of the line."""
     below: Sequence[Branch] = ()
-    """Child nodes."""
+    """Child nodes of this node."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,14 +170,14 @@ class Section(Shown):
     tables: Sequence[Table] = field(default_factory=tuple)
     """Tables after the paragraphs."""
     branches: Sequence[Branch] = ()
-    """Roots of the tree that is shown between paragraphs and tables."""
+    """Roots of the trees that are shown between paragraphs and tables."""
     detail: bool = False
-    """True for a detail section, which text reports omit unless it is requested and an HTML page shows folded."""
+    """True for a detail section. Text reports omit it unless it is requested, and an HTML page shows it folded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture(Shown):
-    """Picture with a caption, for HTML pages.
+    """Picture with a caption for HTML pages.
 
     Examples
     --------
@@ -188,7 +188,7 @@ class Picture(Shown):
     caption: str
     """Text below the picture."""
     svg: str
-    """Complete SVG document, included unchanged in the page. Its producer must escape text of users."""
+    """Complete SVG document, which is included unchanged in the page. Its producer must escape text of users."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +222,7 @@ class PageExtras:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Document:
-    """Title, summary and sections, independent of the output format.
+    """Document with title, summary and sections, independent of the output format.
 
     See Also
     --------
@@ -245,7 +245,7 @@ class Document:
     sections: Sequence[Section]
     """Sections in reading order."""
     aside: PageExtras = field(default_factory=PageExtras)
-    """Badge, pictures, viewer and references, which only an HTML page shows."""
+    """Badge, pictures, viewer and references, which are shown only on an HTML page."""
 
     def __repr__(self) -> str:
         count = len(self.sections)

@@ -35,7 +35,7 @@ class RatioElasticity(Result):
 
 @dataclass(frozen=True)
 class FormulaReport(Result):
-    """Formulas of the outputs in each requested state.
+    """Formulas of the outputs of a train in each requested state.
 
     See Also
     --------
@@ -57,7 +57,7 @@ class FormulaReport(Result):
 def collect_formulas(
     train: GearTrain, states: Sequence[str | None], outputs: Sequence[str] = (), sensitivities: bool = False
 ) -> FormulaReport:
-    """Return the formulas of a train's outputs in some states.
+    """Return the formulas of a train's outputs in the given states.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def collect_formulas(
     outputs : sequence of str
         Names of outputs; by default all.
     sensitivities : bool
-        Whether to include all elasticities.
+        True to include all elasticities.
 
     Returns
     -------
@@ -97,16 +97,17 @@ def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) 
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with the formula, value and locking condition of each output, and elasticities if requested.
+    """Return a document with the formula, value and locking condition of each output, and with elasticities if
+    requested.
 
     Parameters
     ----------
     found : FormulaReport
         Formulas of a train.
     latex : bool
-        Whether formulas are written as LaTeX.
+        True to write formulas as LaTeX.
     inverse : bool
-        Whether ratios are also written as input over output.
+        True to add the inverse ratios, input divided by output.
 
     Returns
     -------

@@ -26,7 +26,8 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on the states of a gearbox, its speeds, slip and torques, and the maximum load of each element.
+    """Return a document on the states of a gearbox: ratios, speeds, slip and torques, and the maximum load of each
+    element.
 
     Parameters
     ----------
@@ -36,7 +37,7 @@ def describe_gearbox(found: Gearbox) -> Document:
     Returns
     -------
     Document
-        Document with speeds and torques relative to those of the input.
+        Document with speeds relative to the input speed and torques relative to the input torque.
 
     Examples
     --------
@@ -123,7 +124,7 @@ def _elements(found: Gearbox) -> Table:
 
 
 def describe_gear_search(found: GearSearch) -> Document:
-    """Return a document on all possible gears, and on the requested series of gears.
+    """Return a document on all possible gears of a gearbox, and on the requested series of gears.
 
     Parameters
     ----------
@@ -133,7 +134,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     Returns
     -------
     Document
-        Document in which ratios are input over output.
+        Document with ratios defined as input speed divided by output speed.
 
     Examples
     --------

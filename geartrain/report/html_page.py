@@ -44,7 +44,7 @@ class _Anchors:
 
 
 def to_html(documents: Sequence[Document]) -> str:
-    """Return documents as one self-contained HTML page, which loads nothing from the network.
+    """Return documents as one self-contained HTML page, which makes no network requests.
 
     Parameters
     ----------
@@ -54,12 +54,12 @@ def to_html(documents: Sequence[Document]) -> str:
     Returns
     -------
     str
-        Complete page. Texts are escaped, pictures are included as SVG, and a viewer is in a sandboxed frame.
+        Complete page. Texts are escaped, pictures are included as SVG, and a viewer is shown in a sandboxed frame.
 
     Raises
     ------
     MissingExtraError
-        Without jinja2, which is installed with the extra `report`.
+        If jinja2 is not installed (extra `report`).
 
     Examples
     --------

@@ -126,13 +126,13 @@ def _of_pairs() -> dict[str, Schema]:
 
 
 def answer_schema() -> Schema:
-    """Return one JSON Schema (draft 2020-12) of all answers, in which `#/$defs/QUESTION` is the schema of one answer.
+    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/QUESTION` is the schema of one answer.
 
     Returns
     -------
     dict
-        Keys and kinds of values are those of the result classes, and descriptions are the docstrings of their
-        fields. QUESTION is a command, or a use of a command whose answer has another shape.
+        Schema. Keys and types come from the result classes, and descriptions are the docstrings of their fields.
+        QUESTION is a command, or a use of a command whose answer has another structure.
 
     Examples
     --------
@@ -149,9 +149,10 @@ def answer_schema() -> Schema:
 
 
 def describe_answer(question: str) -> Document:
-    """Return a table of the keys of one JSON answer: key, kind of value, and meaning.
+    """Return a table of the keys of one JSON answer, with the type and meaning of each value.
 
-    `states[]` are the entries of a list, `outputs.*` the values of an object with arbitrary keys.
+    In the keys, `states[]` represents the entries of a list, and `outputs.*` the values of an object with arbitrary
+    keys.
 
     Parameters
     ----------
@@ -161,12 +162,12 @@ def describe_answer(question: str) -> Document:
     Returns
     -------
     Document
-        One section with one table.
+        Document with one table.
 
     Raises
     ------
     QuestionError
-        For an unknown question.
+        If the question does not exist.
 
     Examples
     --------

@@ -72,7 +72,7 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of a train with real teeth or pins in one state over a run. Angles are in rad.
+    """Deviations and speeds of the outputs of a train with real teeth or pins over a run in one state; angles in rad.
 
     See Also
     --------
@@ -91,11 +91,11 @@ class MotionFigures(Result):
     name: str
     """Name of the train."""
     state: str | None
-    """Name of the requested state; None if none was named."""
+    """Name of the requested state; None if no state was requested."""
     input: str
     """Name of the driving link, whose turns are counted."""
     turns: float
-    """Turns of the driving link over the run; negative for backward motion."""
+    """Revolutions of the driving link over the run; negative for backward motion."""
     positions: int
     """Number of positions at which the motion was computed."""
     period: Fraction | None
@@ -107,13 +107,13 @@ class MotionFigures(Result):
     rigid: Sequence[str]
     """Pairs with real teeth whose speed ratio is constant, so that they contribute no transmission error."""
     outputs: Mapping[str, OutputMotion]
-    """Deviation, speed and requested further results, by name of the output."""
+    """Deviation, speed and further requested results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
     """Speeds of the driving link at which teeth first separate, which limit this motion; None if no inertia is
     declared.
     """
     phases: PhaseSets | None
-    """Random tooth phases that were tried; None unless requested."""
+    """Random tooth phases that were evaluated; None unless requested."""
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
 
@@ -138,12 +138,13 @@ class UnfollowedMotion:
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
-    """Return the results of a motion run by output.
+    """Return the results of a motion run for each output.
 
     Parameters
     ----------
     run : MotionRun
-        Run on which `run` was called, and if required `run_random_phases`, `find_estimates` or `find_spectra`.
+        Run after a call of `run` and, if their results are wanted, of `run_random_phases`, `find_estimates` or
+        `find_spectra`.
     name : str
         Name of the train.
     state : str or None
@@ -254,20 +255,21 @@ def deviation_name(motion: Motion) -> str:
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
-    """Return a document on the deviation and speed of each output over a run, with the requested further results.
+    """Return a document on the deviation and speed of each output over a run, with the further requested results.
 
     Parameters
     ----------
     found : MotionFigures
         Result of `collect_motion`.
     every_output : bool
-        Whether the contributions of each pair to every output are shown, in as many tables as necessary. Otherwise the
-        first eight outputs that pairs affect are shown, and the names of the others.
+        True to show the contributions of each pair to all outputs, in several tables if necessary. By default they are
+        shown for the first eight outputs that are affected by pairs, and the other outputs are named.
 
     Returns
     -------
     Document
-        Deviations in degrees; speeds relative to the input, their range relative to the mean.
+        Document with deviations in degrees, mean speeds relative to the input speed, and minimum and maximum speeds
+        relative to the mean.
 
     Examples
     --------

@@ -16,14 +16,15 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
     Parameters
     ----------
     trains : sequence of GearTrain
-        Trains; each of their states has a column.
+        Trains to compare. Each state of a train has a column.
     everything : bool
-        Whether all outputs are shown; by default only pointers (outputs with a dial or a target), if there are any.
+        True to show all outputs. By default only pointers (outputs with a dial or a target) are shown, if there are
+        any.
 
     Returns
     -------
     Document
-        Sections on outputs, errors [ppm, positive is fast] and wheels that differ.
+        Document with sections on outputs, errors [ppm, positive if fast] and wheels that differ.
 
     Examples
     --------

@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 
 def to_markdown(documents: Sequence[Document]) -> str:
-    """Return documents as Markdown, one after the other.
+    """Return documents as Markdown text, one after the other.
 
     Parameters
     ----------
     documents : sequence of Document
-        Documents to show; pictures and other extras of pages are left out.
+        Documents to show; pictures and other elements of HTML pages are omitted.
 
     Returns
     -------
     str
-        CommonMark with pipe tables. Text of users is escaped: no HTML, no further cells, and no links except relative
-        ones and those of http, https and mailto.
+        CommonMark with pipe tables. Text of users is escaped: it cannot contain HTML or additional cells, and only
+        relative, http, https and mailto links.
 
     Examples
     --------
@@ -87,19 +87,19 @@ PIPED = 80
 
 
 def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
-    """Return documents as plain text within a width, as on a terminal of that width, with underlined headings.
+    """Return documents as plain text with underlined headings, wrapped at a given width.
 
     Parameters
     ----------
     documents : sequence of Document
-        Documents to show; pictures and other extras of pages are left out.
+        Documents to show; pictures and other elements of HTML pages are omitted.
     width : int
         Characters per line. A longer word is broken.
 
     Returns
     -------
     str
-        Lines without trailing blanks. A table too wide for its words is split into strips of columns.
+        Lines without trailing blanks. A table that is too wide is split into groups of columns.
 
     Examples
     --------

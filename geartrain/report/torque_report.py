@@ -103,7 +103,7 @@ class TorqueFigures(Result):
 
 @dataclass(frozen=True)
 class TorqueReport(Result):
-    """Torques of a train in every requested state.
+    """Torque report of a train: torques, power flow and losses in each requested state.
 
     See Also
     --------
@@ -119,9 +119,9 @@ class TorqueReport(Result):
     states: tuple[TorqueFigures, ...]
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over some turns of the input in one state; None unless requested."""
+    """Torque over a run of some turns of the input in one state; None unless requested."""
     friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
-    """Torque over some turns for random values of friction; None unless requested."""
+    """Torque over a run in trials with random friction; None unless requested."""
 
 
 def collect_torque_report(
@@ -130,7 +130,8 @@ def collect_torque_report(
     over_turn: TorqueCycle | None = None,
     friction_trials: Any = None,
 ) -> TorqueReport:
-    """Return the torques of a train in some states, with power flow, losses, and the efficiency in both directions.
+    """Return the torque report of a train in one or more states: torques, power flow, losses, and efficiency in both
+    directions.
 
     Parameters
     ----------
@@ -199,7 +200,7 @@ _UNITS_IN_WATTS = (
 def describe_torques(found: TorqueReport) -> Document:
     """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
 
-    The torque over some turns and trials of its friction follow if requested.
+    If requested, the torque over a run and trials with random friction follow.
 
     Parameters
     ----------

@@ -86,7 +86,7 @@ class StateSensitivity:
 
 @dataclass(frozen=True)
 class TrainReport(TrainAnswers):
-    """Contents of the report on a train. `to_dict` returns its JSON data, and `describe_train` its document.
+    """Results and data of the report on a train. `to_dict` returns its JSON data, and `describe_train` its document.
 
     See Also
     --------
@@ -104,23 +104,25 @@ class TrainReport(TrainAnswers):
     )
 
     gridlock: Gridlock
-    """Links that lock each other, and a minimum set of meshes whose removal frees them."""
+    """Links that are locked together by meshes, and a minimal set of meshes whose removal frees them."""
     closure: MeshPhasing | None
-    """Phase closure: whether the teeth of every loop mesh at the declared positions; None if axes have no positions."""
+    """Assembly condition: whether the teeth of every loop mesh at the declared positions; None if axes have no
+    positions.
+    """
     sources: Mapping[str, str]
-    """Citations by key of the source."""
+    """Citations by source key."""
     circuits: tuple[Circuit, ...]
     """Fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None
     """Adjacency matrix of the links; None for a train of more than 500 links."""
     build_findings: tuple[BuildFinding, ...]
-    """Errors and warnings on the buildability of the train."""
+    """Findings on the buildability of the train: errors and notes."""
     remarks: tuple[Problem, ...]
-    """Conventions on which the answers are based."""
+    """Notes on conventions and mean values used in the results."""
     sensitivity: tuple[StateSensitivity, ...]
-    """Changes of the outputs if a wheel of uncertain tooth count has one tooth more or less."""
+    """Changes of the outputs if a wheel with an uncertain tooth count has one tooth more or fewer."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, one entry for each wheel of a pair that drives in some state."""
+    """Pairs with real teeth, one entry for each driving wheel that occurs in some state."""
     pins: tuple[DrivenPin, ...]
     """Couplings whose dimensions are declared."""
     torques: tuple[TorqueFigures, ...]
@@ -130,18 +132,19 @@ class TrainReport(TrainAnswers):
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
     """Motion in every state of a train with real teeth or pins; an entry with `error` if it cannot be computed."""
     errata: tuple[Erratum, ...]
-    """Declared errors of the sources."""
+    """Declared errors in the sources."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
-    """Return the contents of the report on a train: answers, structure, teeth, torques and motion.
+    """Return the results and data of the report on a train: speeds, structure, teeth, torques and motion.
 
     Parameters
     ----------
     train : GearTrain
-        Train to report in all its states. Teeth, loads and motion are computed only if declared.
+        Train to report on, in all its states. Teeth, torques and motion are computed only if the train declares data
+        for them.
     whole : bool
-        Whether to include teeth, pins, torques, strength, motion and closure of loops, which need numpy.
+        True to include teeth, pins, torques, strength, motion and closure of loops, which need numpy.
 
     Returns
     -------
@@ -151,7 +154,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     Raises
     ------
     GearTrainError
-        If teeth are declared that cannot be made.
+        If declared teeth cannot be made.
 
     Examples
     --------

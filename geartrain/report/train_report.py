@@ -65,7 +65,7 @@ def describe_train(found: TrainReport) -> Document:
     Returns
     -------
     Document
-        Answers, then the structure from which they follow. Sections without declared content are omitted.
+        Document with the results first, followed by the structure of the train. Sections without data are omitted.
 
     Examples
     --------
@@ -417,11 +417,11 @@ def describe_shared_page(
     found : TrainReport
         Result of `collect_report`.
     pictures : sequence of Picture
-        Pictures before the sections.
+        Pictures that are shown before the sections.
     viewer : str
-        Complete HTML page with the animated train, embedded unchanged; "" for none.
+        Complete HTML page with the animated train, which is embedded unchanged; "" for no viewer.
     notes : sequence of str
-        Remarks on the page, below the summary.
+        Remarks that are shown below the summary.
 
     Returns
     -------

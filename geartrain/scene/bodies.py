@@ -300,7 +300,7 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
         if own.flexible and name not in bent:
-            why = "no generator carries its axis within a ring of more teeth, so that no wave deforms it"
+            why = "no wave generator deforms it: its axis is not carried by a generator inside a ring with more teeth"
             fix = "declare it as in trains/engineering/strain-wave.yaml"
             yield Problem(f"flexible wheel '{name}' is drawn undeformed", why, fix)
 

@@ -250,9 +250,9 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "their driver meshes with several wheels, and its angle follows from the first of them; the motion is "
-                "exact, and the driven teeth are advanced until nothing cuts into them, so that they touch only once "
-                "per pitch",
+                "their driver meshes with several wheels, and its angle is set by the first of them; the driven teeth "
+                "are "
+                "rotated until no teeth overlap, so that they touch only once per pitch; the motion is exact",
                 "",
             )
 
@@ -375,25 +375,26 @@ def make_scene(
     run: TimeRun | None = None,
     formulas: bool = False,
 ) -> Scene:
-    """Return the scene of a train in one state: places, shapes and motion of all its elements, as plain data.
+    """Return the scene of a train in one state as plain data: positions, shapes and motion of all its elements.
 
     Parameters
     ----------
     train : GearTrain
-        Loaded or declared train. One that cannot turn has a scene too, with the verdict.
+        Loaded or declared train. The scene of a train that cannot turn contains the verdict.
     state : str, optional
-        State of the train; by default the first, or that of the run.
+        State of the train; by default the first state, or the state of the run.
     layout : Layout, optional
-        Places of axes and wheels; by default `lay_out(train)`.
+        Positions of axes and wheels; by default `lay_out(train)`.
     run : geartrain.simulation.TimeRun, optional
-        Result of `train.dynamics(...)` in that state, which is then the motion of the scene.
+        Result of `train.dynamics(...)` in that state, which replaces the exact motion of the scene.
     formulas : bool
-        True to include speeds as functions of tooth counts, which are needed by a page on which counts are changed.
+        True to include speeds as functions of tooth counts, for pages on which the counts can be changed.
 
     Returns
     -------
     Scene
-        Lengths in mm, angles in rad, ratios exact. Its `notices` report what could not be placed or followed.
+        Scene with lengths in mm, angles in rad and exact ratios. Its `notices` report elements that could not be placed
+        and motion that could not be computed.
 
     Raises
     ------

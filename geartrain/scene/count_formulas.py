@@ -10,7 +10,7 @@ from geartrain.numerics.results import Shown
 
 @dataclass(frozen=True, slots=True)
 class CountFormula(Shown):
-    """A quotient of two polynomials in the tooth counts, with integer coefficients.
+    """Ratio of two polynomials in the tooth counts, with integer coefficients.
 
     See Also
     --------
@@ -18,19 +18,19 @@ class CountFormula(Shown):
     """
 
     wheels: Sequence[int]
-    """Counts on which it depends, as indices of `SceneFormulas.wheels`.
+    """Tooth counts on which the formula depends, as indices into `SceneFormulas.wheels`.
 
-    An index is repeated if equal planets share a count.
+    An index occurs several times if equal planets share a count.
     """
     numerator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the numerator: a coefficient as text, and exponents parallel to `wheels`, all 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the denominator, in the same form."""
+    """Terms of the denominator, in the same form as the numerator."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCondition(Shown):
-    """A condition on tooth counts under which the formulas are valid.
+    """Condition on tooth counts under which the formulas of a scene are valid.
 
     See Also
     --------
@@ -38,18 +38,18 @@ class CountCondition(Shown):
     """
 
     formula: CountFormula
-    """Function of the counts."""
+    """Function of the tooth counts."""
     zero: bool
     """True if the function must be 0, False if it must not be 0."""
     text: str
-    """Statement of the condition."""
+    """Condition as text."""
     carrier: int | None = None
-    """Index of the body relative to which the wheels of a loop are observed; None for other conditions."""
+    """Index of the body relative to which the wheels of a loop turn; None for conditions without a loop."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneFormulas(Shown):
-    """All speeds of a scene, at the declared inputs and in the train's unit, as functions of tooth counts.
+    """Speeds of a scene as functions of tooth counts, at the declared inputs and in the train's unit.
 
     See Also
     --------
@@ -59,7 +59,7 @@ class SceneFormulas(Shown):
     wheels: Sequence[str]
     """Names of the declared wheels whose counts may be changed."""
     count: Sequence[int | None]
-    """Index in `wheels` of the count of each wheel of the scene; None if it has none."""
+    """Index in `wheels` of the tooth count of each wheel of the scene; None if the count is not in `wheels`."""
     formulas: Sequence[CountFormula]
     """Functions, without duplicates."""
     bodies: Sequence[int | None]
@@ -67,10 +67,10 @@ class SceneFormulas(Shown):
     pointers: Sequence[int | None]
     """Index of the function of each pointer of the scene; None if its speed is not determined."""
     conditions: Sequence[CountCondition]
-    """Conditions of validity. If one is violated, these functions do not describe the motion."""
+    """Conditions of validity. If one is violated, the formulas do not describe the motion."""
     input: str
     """Exact speed of the driving link."""
     exact: bool
     """False if speeds are displayed as decimals."""
     parent: str
-    """Name of the shipped train, or of the file, that a declaration of the changed train extends."""
+    """Name of the shipped train, or of the file, that the declaration of a changed train extends."""

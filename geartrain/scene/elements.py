@@ -19,9 +19,9 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 @dataclass(frozen=True, slots=True)
 class ScenePart(Shown):
-    """A structural part as manufactured, turned or flat.
+    """Structural part as manufactured: a turned part or a flat part.
 
-    Its own z axis passes through `place`, which is at mid-height of a flat part.
+    The z axis of the part passes through `place`, which is at mid-height of a flat part.
 
     See Also
     --------
@@ -29,30 +29,30 @@ class ScenePart(Shown):
     """
 
     body: int
-    """Index of the body to which it belongs."""
+    """Index of the body to which the part belongs."""
     name: str
     """Name in the list of parts."""
     kind: str
     """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A
-    plate of the frame is `frame`, one that turns with a carrier or a ring is `carrier`, one of dials is `dial`.
+    plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials is `dial`.
     """
     place: Vector
-    """Position of its origin in the zero pose [mm]."""
+    """Position of the origin of the part in the zero pose [mm]."""
     direction: Vector
-    """Unit vector of its z axis."""
+    """Unit vector of the z axis of the part."""
     across: Vector
-    """Unit vector of its x axis."""
+    """Unit vector of the x axis of the part."""
     bands: Sequence[tuple[float, float, float, float]] = ()
     """Bands of a turned part, from the lowest: start and end along z, outside and inside radius [mm]."""
     outlines: Sequence[Sequence[float]] = ()
-    """Outlines of a flat part, first its edge, then its holes, each as alternating x and y [mm]."""
+    """Outlines of a flat part: first its edge, then its holes, each as alternating x and y [mm]."""
     height: float = 0.0
     """Thickness of a flat part [mm], which is centred on z = 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger(Shown):
-    """A part that hangs on a train: a pendulum, the line of a weight, or the weight.
+    """Part that hangs on a train: a pendulum, the line of a weight, or the weight.
 
     See Also
     --------
@@ -60,16 +60,16 @@ class SceneHanger(Shown):
     """
 
     kind: Literal["pendulum", "line", "weight"]
-    """Kind of part.
+    """Kind of the part: pendulum, line or weight.
 
     A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
     """
     body: int
-    """Index of the body whose angle moves it."""
+    """Index of the body whose angle moves the part."""
     point: Vector
     """Point of suspension [mm]."""
     direction: Vector
-    """Unit vector along the axis about which it swings or its barrel turns."""
+    """Unit vector along the axis about which the pendulum swings or the barrel turns."""
     down: Vector
     """Unit vector downwards, perpendicular to that axis."""
     length: float
@@ -79,7 +79,7 @@ class SceneHanger(Shown):
     wide: float
     """Radius of the bob, the weight or the line [mm]."""
     parts: Sequence[ScenePart] = ()
-    """Turned parts of it, in their places in the zero pose: rod and bob, or the weight."""
+    """Turned parts in their positions in the zero pose: rod and bob, or the weight."""
 
 
 # Not in every train: `SceneCoupling.slot_turn` (starting angles), heights instead of radii in the profiles of bevel
@@ -91,7 +91,7 @@ class SceneHanger(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneBody(Shown):
-    """A link of a scene, with the axis about which it turns.
+    """Link of a scene, with the axis about which it turns.
 
     See Also
     --------
@@ -101,17 +101,17 @@ class SceneBody(Shown):
     id: str
     """Name of the link."""
     parent: int | None
-    """Index of the body that carries its axis; None for the frame."""
+    """Index of the body that carries the axis; None for the frame."""
     axis: str
-    """Label of its axis."""
+    """Label of the axis."""
     point: Vector
     """Point of the axis [mm]."""
     direction: Vector
-    """Reference direction of all axes parallel to its own, a unit vector."""
+    """Unit vector of the reference direction of all axes that are parallel to its axis."""
     sense: int
     """-1 if the declared axis points against `direction`, so that its speed changes sign about it; else 1."""
     speed: str | None
-    """Speed relative to that of the driving link, about its declared axis, exact; None if it is not determined."""
+    """Speed relative to the speed of the driving link, about its declared axis, exact; None if it is not determined."""
     shown: str | None
     """Exact speed at the declared inputs, in the train's unit."""
     decimal: str
@@ -121,14 +121,14 @@ class SceneBody(Shown):
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False
-    """True if its speed is a sum over joints whose axes are not parallel, and so not a rotation."""
+    """True if the speed is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
     note: str = ""
     """Note as declared."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothProfile(Shown):
-    """One tooth of a wheel, from the middle of a tooth space to the middle of the next.
+    """Profile of one tooth of a wheel, from the middle of a tooth space to the middle of the next.
 
     The middle of the tooth is at angle 0.
 
@@ -140,20 +140,21 @@ class ToothProfile(Shown):
     form: str
     """Tooth form: triangular, involute, cycloidal, ...
 
-    It is `standard` if none is declared, and `approximation` for nominal teeth of a wheel without a flat outline.
+    It is `standard` if no form is declared, and `approximation` for nominal teeth of a wheel without a flat outline.
     """
     points: Sequence[tuple[float, float]]
-    """Radius relative to the pitch radius, and angle [rad], of each point, from -pi/z to pi/z by increasing angle.
+    """Radius relative to the pitch radius, and angle [rad], of each point, from -pi/z to pi/z in ascending order of the
+    angle.
 
     For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back cone.
     """
     hole: bool = False
-    """True for the pin of a lantern or another closed curve; its points then go round it."""
+    """True for the pin of a lantern or another closed curve, whose points go around it."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneWheel(Shown):
-    """A wheel of a body.
+    """Wheel of a body of a scene.
 
     See Also
     --------
@@ -163,11 +164,11 @@ class SceneWheel(Shown):
     id: str
     """Name of the wheel."""
     body: int
-    """Index of its body."""
+    """Index of the body of the wheel."""
     teeth: int
     """Tooth count; 1 if it is not known."""
     kind: str
-    """Kind of wheel; `pins` is a lantern pinion."""
+    """Kind of the wheel; `pins` is a lantern pinion."""
     centre: Vector
     """Centre of its pitch circle, on its axis [mm]."""
     direction: Vector
@@ -179,7 +180,7 @@ class SceneWheel(Shown):
     radius: float
     """Pitch radius [mm]."""
     tip: float
-    """Tip radius [mm]; for a ring smaller than the root radius."""
+    """Tip radius [mm], which is smaller than the root radius for a ring."""
     root: float
     """Root radius [mm]."""
     module: float
@@ -191,43 +192,43 @@ class SceneWheel(Shown):
     facing: int
     """Side of the axis to which the cone opens: 1 or -1; 0 for a cylinder."""
     profile: int
-    """Index of its tooth form."""
+    """Index of the tooth profile of the wheel."""
     layer: int | None
-    """Level in the stack; None if it is not in the stack."""
+    """Level of the wheel in the stack; None if it is not in the stack."""
     status: str
-    """Surviving, reconstructed or hypothetical; empty if none is declared."""
+    """Status of the wheel: surviving, reconstructed or hypothetical; empty if no status is declared."""
     source: str
     """Source as declared."""
     note: str
     """Note as declared."""
     doubt: str
-    """Tooth counts that the evidence allows, in words; empty for a certain count."""
+    """Tooth counts that the evidence allows, as text; empty for a certain count."""
     circuits: Sequence[str]
-    """Names of the gear pairs it belongs to."""
+    """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
     """Fraction of the input power that is lost at its meshes; None unless loads and friction are declared."""
     helix: float = 0.0
-    """Helix angle of its teeth, or of the thread of a worm, from the axis [rad]; positive for a right hand."""
+    """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""
     holes: Sequence[Sequence[float]] = ()
-    """Outlines of holes in the wheel as built, for pins that move in it or for an eccentric in which it turns. Each has
-    alternating x and y from the wheel's middle [mm], with x through its first tooth.
+    """Outlines of holes in the wheel as built, for pins that move in it or for an eccentric on which it turns. Each
+    outline has alternating x and y from the middle of the wheel [mm], with x through the first tooth.
     """
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of its body along its direction, from its centre [mm]."""
+        """Lower and upper end of the wheel body along its direction, from the centre [mm]."""
         depths = self.root - self.radius, self.tip - self.radius
         return span(self.facing, *reach(self.cone, self.radius, self.thickness, *depths))
 
     @property
     def web(self) -> tuple[float, float]:
-        """Lower and upper end along its direction of the disc within its teeth, from its centre [mm]."""
+        """Lower and upper end of the disc within the teeth along the direction of the wheel, from the centre [mm]."""
         return span(self.facing, *web(self.cone, self.radius, self.thickness, self.root - self.radius))
 
 
 @dataclass(frozen=True, slots=True)
 class ScenePair(Shown):
-    """A gear pair of a scene.
+    """Gear pair of a scene.
 
     See Also
     --------
@@ -237,24 +238,24 @@ class ScenePair(Shown):
     id: str
     """Name of the gear pair."""
     wheels: tuple[int, int]
-    """Indices of its wheels."""
+    """Indices of the two wheels."""
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
-    """Ratio of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
+    """Speed ratio of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
     form: str
     """Tooth form; empty if none is declared."""
     text: str
     """Equation of the fundamental circuit as text."""
     broken: bool = False
-    """True if it belongs to a loop that does not close, or prevents the train from turning."""
+    """True if the pair belongs to a loop that does not close, or that prevents the train from turning."""
     fault: str = ""
     """Description of that loop."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCoupling(Shown):
-    """A pin in a slot, or pins in round holes.
+    """Coupling of a scene: a pin in a slot, or pins in round holes.
 
     See Also
     --------
@@ -264,7 +265,7 @@ class SceneCoupling(Shown):
     id: str
     """Name of the coupling."""
     kind: str
-    """Kind of coupling."""
+    """Kind of the coupling."""
     pin: int
     """Index of the body of the pin."""
     slot: int
@@ -280,7 +281,7 @@ class SceneCoupling(Shown):
     offset: float
     """Distance between the two axes [mm]."""
     drawn: bool
-    """False if dimensions are not declared; sizes are then chosen for the picture."""
+    """False if the dimensions are not declared; the sizes are then chosen for the picture."""
     text: str
     """Equation of the fundamental circuit as text."""
     slot_turn: float = 0.0
@@ -290,7 +291,7 @@ class SceneCoupling(Shown):
     pins_at: Sequence[Vector] = ()
     """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
     holes_at: Sequence[Vector] = ()
-    """Centres of these holes in the zero pose [mm]; empty for a pin in a slot."""
+    """Centres of the round holes in the zero pose [mm]; empty for a pin in a slot."""
     pin_diameter: float = 0.0
     """Diameter of a pin in a round hole [mm]; 0 for a pin in a slot."""
     hole: float = 0.0
@@ -330,7 +331,7 @@ class SceneWave(Shown):
     wheel: int
     """Index of the flexible wheel."""
     by: int
-    """Index of the body that is the wave generator."""
+    """Index of the body of the wave generator."""
     towards: Vector
     """Unit vector perpendicular to the axis, towards the first lobe in the zero pose."""
     rise: float

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ErrorTable(Result):
-    """Periodic error of a gear pair or a pin in a slot, as piecewise polynomials.
+    """Periodic error of a gear pair or of a pin in a slot, as piecewise polynomials.
 
     See Also
     --------
@@ -47,7 +47,7 @@ class ErrorTable(Result):
     )
 
     pair: str
-    """Name of the pair, the first of those that share the transmission function."""
+    """Name of the first pair with this transmission function."""
     period: float
     """Period in the driver's angle [rad]."""
     breaks: Floats
@@ -55,7 +55,7 @@ class ErrorTable(Result):
     coefficients: Floats
     """Coefficients of the driven side's error [rad]. Shape (n, degree + 1).
 
-    They multiply powers of the driver's angle minus the middle of its cell.
+    They multiply the powers of the driver's angle minus the middle of its interval.
     """
     uncertainty: float
     """Maximum error of the table [rad]."""
@@ -73,7 +73,7 @@ class ErrorTable(Result):
 
 @dataclass(frozen=True, slots=True)
 class ErrorSource(Shown):
-    """A pair whose transmission error contributes to the errors of a scene.
+    """Pair whose transmission error contributes to the errors of a scene.
 
     After t turns of the driving link the driver's forward angle is
 
@@ -93,24 +93,25 @@ class ErrorSource(Shown):
     driver: int
     """Index of the driving body."""
     carrier: int
-    """Index of the body that carries the pair."""
+    """Index of the body of the pair's carrier."""
     driver_sense: int
     """1 or -1: sign of the driver's error in the pair's own sense."""
     carrier_sense: int
     """1 or -1: sign of the carrier's error in the pair's own sense."""
     cycles: str
-    """Periods of the transmission error per turn of the driving link, exact."""
+    """Number of periods of the transmission error per turn of the driving link, exact."""
     start: float
     """Initial value of S [rad]."""
     forward: int
-    """1 or -1: the sense in which the driver turns."""
+    """Sense of rotation of the driver: 1 or -1."""
     sense: int
     """1 or -1: sign of the transmission error."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Errors of some bodies from known ones: error[bodies] = from_known error[known] + from_sources delta[sources].
+    """Computation of the errors of some bodies from known errors: error[bodies] = from_known error[known] +
+    from_sources delta[sources].
 
     See Also
     --------
@@ -118,9 +119,9 @@ class ErrorStep(Shown):
     """
 
     bodies: Sequence[int]
-    """Indices of the bodies whose errors this step gives."""
+    """Indices of the bodies whose errors are computed in this step."""
     known: Sequence[int]
-    """Indices of the bodies from earlier steps on which it depends."""
+    """Indices of the bodies from earlier steps on which this step depends."""
     from_known: Sequence[Sequence[float]]
     """Coefficients of the known bodies, one row per body in `bodies`."""
     sources: Sequence[int]
@@ -128,12 +129,13 @@ class ErrorStep(Shown):
     from_sources: Sequence[Sequence[float]]
     """Coefficients of the sources, one row per body in `bodies`."""
     coupled: bool
-    """True if sources depend on the bodies of this step; it is then solved by iteration."""
+    """True if the sources depend on the bodies of this step, which is then solved by iteration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Movement(Shown):
-    """Errors of angles as functions of the turns of the driving link: the steps in order, then constant offsets.
+    """Errors of the angles of bodies as functions of the turns of the driving link: steps in order, then constant
+    offsets.
 
     See Also
     --------
@@ -143,15 +145,15 @@ class Movement(Shown):
     kind: str
     """Kind of motion.
 
-    `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be
-    followed. `still`: no speed is determined.
+    `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: the mean motion is shown,
+    because these errors cannot be computed. `still`: no speed is determined.
     """
     why: str = ""
     """Reason for `mean` or `still`."""
     period: str | None = None
     """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
-    """Error tables, each once for equal pairs."""
+    """Error tables; equal pairs share one table."""
     sources: Sequence[ErrorSource] = ()
     """Pairs with transmission errors."""
     steps: Sequence[ErrorStep] = ()

@@ -133,7 +133,7 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats
         Problem(
             f"the pose of '{scene.name}' does not converge",
             "fixed-point iteration diverges for pairs that depend on each other",
-            "request the motion instead of the picture, or another number of turns",
+            "compute the motion instead, or choose another number of turns",
         )
     )
 

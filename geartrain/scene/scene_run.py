@@ -48,7 +48,7 @@ class LinkCourse(Result):
     rate: float
     """Mean speed about its declared axis [rad/s]."""
     samples: Ints
-    """Indices of the samples that are kept. Shape (n,)."""
+    """Indices of the samples that are stored. Shape (n,)."""
     angles: Floats
     """Angle turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
 
@@ -96,17 +96,17 @@ class SceneContact(Result):
     at: Vector
     """Contact point in the zero pose [mm]."""
     apart: float
-    """Fraction of time in which no flank is in contact."""
+    """Fraction of the time in which no flank is in contact."""
     coast: float
-    """Fraction of time on the coast flank."""
+    """Fraction of the time in which the coast flank is in contact."""
     impact_rate: float
-    """Impacts per second [1/s]."""
+    """Number of impacts per second [1/s]."""
     hardest: float
-    """Maximum closing speed of an impact, of the driven side [rad/s]."""
+    """Maximum closing speed of an impact, as a speed of the driven side [rad/s]."""
     changes: Ints
-    """Samples at which the contact changes to the corresponding one of `states`. Shape (n,)."""
+    """Indices of the samples at which the contact changes to the corresponding entry of `states`. Shape (n,)."""
     states: str
-    """One letter per change: `d` drive flank, `c` coast flank, `a` apart; empty if it is not known."""
+    """One letter per change: `d` drive flank, `c` coast flank, `a` no contact; empty if the contact is not known."""
     impact_times: Floats
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
@@ -138,7 +138,7 @@ class SceneRun(Result):
     """
 
     driven: str
-    """Drive of the train: what supplies its power."""
+    """Drive that supplies the power of the train."""
     link: str
     """Link at which power enters."""
     rate: float
@@ -152,17 +152,17 @@ class SceneRun(Result):
     step: float
     """Time between samples of the simulation [s]."""
     tolerance: float
-    """Maximum deviation of angles from those of the simulation [rad]."""
+    """Maximum difference between stored and simulated angles [rad]."""
     torque: float
     """Mean torque at the link where power enters [N m]."""
     complete: bool
     """False if the simulation was stopped before its end."""
     links: Sequence[LinkCourse]
-    """Angles, in the order of bodies."""
+    """Angles of the links, in the order of bodies."""
     contacts: Sequence[SceneContact]
     """Contacts of teeth, pins and the escapement."""
     deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
-    """Deviations of outputs from `motion`, ahead and behind."""
+    """Maximum deviations of outputs from `motion`, ahead and behind."""
     notes: Sequence[str]
     """Simplifications: omitted effects, and links drawn as one."""
 

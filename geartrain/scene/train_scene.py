@@ -39,7 +39,7 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class DialFace(Shown):
-    """A dial: a scale over which pointers turn.
+    """Dial: a scale with the pointers that turn over it.
 
     See Also
     --------
@@ -55,7 +55,7 @@ class DialFace(Shown):
     centre: Vector
     """Centre of the dial [mm]."""
     normal: Vector
-    """Unit vector perpendicular to the face, towards the reader."""
+    """Unit vector perpendicular to the face, towards the reader of the dial."""
     zero: Vector
     """Unit vector from the centre to the zero mark."""
     radius: float
@@ -63,27 +63,30 @@ class DialFace(Shown):
     scale: DialScale
     """Divisions of the scale; its radii are relative to `radius`."""
     look: Literal["scale", "ball"] = "scale"
-    """A scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball, `radius` is that
-    of the ball and `normal` the direction of its axis of rotation, which passes through its centre.
+    """Appearance: a scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball,
+    `radius` is the radius of the ball, and `normal` the direction of its axis of rotation, which passes through its
+    centre.
     """
     note: str = ""
     """Note as declared."""
     plate: float = 0.0
-    """Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 if no disc is made."""
+    """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if no disc is made."""
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
-    """Caption: the name, followed in brackets by the outputs read on it if the dial exists about several axes."""
+    """Caption: the name, followed in brackets by the outputs that are read on this dial if a dial of this name exists
+    on several axes.
+    """
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
-    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and lines in 1/4,000 of the
-    radius. Of each line, x is to the reader's right and y towards the zero mark; the first point is relative to the
-    centre, each further one to the point before it.
+    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
+    radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
+    relative to the centre, each further point to the previous point.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget(Shown):
-    """A value that an output should show.
+    """Target value of an output.
 
     See Also
     --------
@@ -95,12 +98,12 @@ class PointerTarget(Shown):
     speed: str
     """Speed relative to the driving link, exact. A target without a sense takes the sense of the output."""
     source: str = ""
-    """Key of its source; empty if it names none."""
+    """Key of the source of the target; empty if no source is declared."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneEpoch(Shown):
-    """A date that corresponds to a number of turns of the driving link, and the duration of one turn.
+    """Date that corresponds to a number of turns of the driving link, and the duration of one turn.
 
     See Also
     --------
@@ -123,7 +126,7 @@ class SceneEpoch(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Pointer(Shown):
-    """An output as a pointer.
+    """Output of a scene, shown as a pointer.
 
     See Also
     --------
@@ -133,11 +136,11 @@ class Pointer(Shown):
     output: str
     """Name of the output."""
     body: int
-    """Index of the body that turns."""
+    """Index of the body that turns with the pointer."""
     base: int
-    """Index of the body relative to which it is read."""
+    """Index of the body relative to which the pointer is read."""
     dial: int | None
-    """Index of its dial; None for an output without one, for which the picture draws a small dial."""
+    """Index of the dial; None for an output without a dial, for which a small dial is drawn."""
     speed: str | None
     """Speed relative to the driving link, exact; None if it is not determined."""
     shown: str | None
@@ -151,29 +154,29 @@ class Pointer(Shown):
     pairs: Sequence[str]
     """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
-    """Indices of the bodies of its path."""
+    """Indices of the bodies on the path from the input to the output."""
     wheels: Sequence[int]
-    """Indices of the wheels of its path."""
+    """Indices of the wheels on the path from the input to the output."""
     note: str = ""
     """Note as declared."""
     targets: Sequence[PointerTarget] = ()
     """Targets of the output, in the order declared; empty if nothing is driven, or the speed is not determined."""
     level: float = 0.0
-    """Height of the middle of its hand above its dial [mm]."""
+    """Height of the middle of the hand above the dial [mm]."""
     seat: float = 0.0
     """Diameter of the arbor or pipe on whose end the hand is fitted [mm]; 0 if none is made."""
     reach: float = 0.0
-    """Length of its hand relative to the radius of its scale."""
+    """Length of the hand relative to the radius of the scale."""
     outline: Sequence[tuple[float, float]] = ()
-    """Outline of its hand relative to its length: distance from the axis, and half the width there.
+    """Outline of the hand relative to its length: distances from the axis, and half the width at each distance.
 
-    It is empty without a dial.
+    It is empty for a pointer without a dial.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class Scene(Shown):
-    """A train in one state, ready to be drawn, as plain data in mm and rad.
+    """Train in one state, ready to be drawn, as plain data in mm and rad.
 
     See Also
     --------
@@ -193,11 +196,11 @@ class Scene(Shown):
     positive: str
     """Declared sense of a positive speed."""
     front: int
-    """Side of z from which it is viewed, 1 or -1."""
+    """Side of z from which the train is viewed, 1 or -1."""
     driving_link: int | None
     """Index of the body whose turns are prescribed."""
     crank: int | None
-    """Index of the body at which the train would be cranked by hand."""
+    """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     step: str
     """Turns of the driving link in one unit of the input, exact."""
     verdict: Mapping[str, Any]
@@ -207,46 +210,46 @@ class Scene(Shown):
     remedy.
     """
     bodies: Sequence[SceneBody]
-    """Links, in the order declared and of their indices."""
+    """Links, in the order declared, which is the order of their indices."""
     wheels: Sequence[SceneWheel]
-    """Wheels, in the order declared and of their indices."""
+    """Wheels, in the order declared, which is the order of their indices."""
     profiles: Sequence[ToothProfile]
     """Tooth forms that wheels share."""
     pairs: Sequence[ScenePair]
     """Gear pairs."""
     couplings: Sequence[SceneCoupling]
-    """Pins in slots."""
+    """Pins in slots and in round holes."""
     dials: Sequence[DialFace]
     """Dials."""
     pointers: Sequence[Pointer]
-    """Outputs; for a train that declares none, its links, at most 100."""
+    """Outputs of the train; the first 100 links if no output is declared."""
     movement: Movement
-    """Deviations of angles from exact ones, for positive turns."""
+    """Deviations of angles from the exact angles, for positive turns."""
     sources: Mapping[str, Mapping[str, str]]
     """Citations by key."""
     notices: Sequence[Mapping[str, str]]
     """Problems of placement or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """Movement while the driving link turns against its declared sense, in contact on the other flanks.
+    """Deviations of angles while the driving link turns against its declared sense, in contact on the coast flanks.
 
-    It is None if it is the same.
+    It is None if they are equal to `movement`.
     """
     unit_days: str | None = None
-    """Length of the unit in days, exact, if it is a time; else None."""
+    """Length of the unit in days, exact, if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
-    """Brakes and clutches, in the order declared, with their condition."""
+    """Brakes and clutches with their condition, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date for turns of the driving link, if one is declared."""
+    """Date that corresponds to turns of the driving link; None if no date is declared."""
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts, if they were requested and exist."""
     asks: bool = True
-    """False if no output is declared, and links are used as outputs."""
+    """False if no output is declared, so that links are used as outputs."""
     run: SceneRun | None = None
-    """Simulated motion, which is then replayed; None if the train is turned by its crank."""
+    """Simulated motion to be replayed; None if the train is turned by its crank."""
     parts: Sequence[ScenePart] = ()
-    """Plates, pillars, arbors, pipes and all other structural parts of a train as built; else empty."""
+    """Plates, pillars, arbors, pipes and all other structural parts of a built scene; otherwise empty."""
     hangers: Sequence[SceneHanger] = ()
-    """Pendulum and weight of a train as built that declares them; else empty."""
+    """Declared pendulum and weight of a built scene; otherwise empty."""
     waves: Sequence[SceneWave] = ()
     """Strain waves that bend flexible wheels into their rings."""
 
@@ -255,9 +258,9 @@ class Scene(Shown):
         return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON.
+        """Return the scene as plain data for JSON.
 
-        Arrays are base64 of little-endian numbers, row by row. `run` is included only if it exists.
+        Arrays are encoded as base64 of little-endian numbers, row by row. `run` is included only if it exists.
         """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:

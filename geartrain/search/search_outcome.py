@@ -13,7 +13,7 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Number of rejected candidates by reason, which explains an empty or short list of solutions.
+    """Numbers of rejected candidates by reason, which explain an empty or short list of solutions.
 
     See Also
     --------
@@ -25,7 +25,7 @@ class Shortfall(Result):
     considered: int = 0
     """Number of candidates before any constraint is applied."""
     removed: Mapping[str, int] | None = None
-    """Number of candidates rejected for each reason. A candidate is counted under the first reason that rejects it."""
+    """Number of rejected candidates by reason. A candidate is counted under the first constraint that it violates."""
     nearest: str = ""
     """Description of the candidate with the smallest violation, with its tooth counts and error; "" if there is a
     solution.
@@ -67,7 +67,7 @@ class CountSizes(ABC):
 
 @dataclass(frozen=True, slots=True)
 class GearStages(CountSizes, Result):
-    """Tooth counts of one ratio, split into the multisets of the numerator (`top`) and the denominator (`beneath`).
+    """Tooth counts for a ratio, as the multisets of the numerator (`top`) and the denominator (`beneath`).
 
     See Also
     --------
@@ -91,9 +91,9 @@ class GearStages(CountSizes, Result):
     beneath: tuple[int, ...]
     """Tooth counts of the denominator, ascending, one for each stage."""
     ratio: Fraction
-    """Product of `top` over product of `beneath`, exact and positive."""
+    """Product of `top` divided by product of `beneath`, exact and positive."""
     error: Fraction
-    """Relative error: `ratio` over the magnitude of the requested ratio, minus 1; exact."""
+    """Relative error: `ratio` divided by the magnitude of the requested ratio, minus 1; exact."""
     pairs: tuple[tuple[int, int], ...]
     """Tooth counts (numerator, denominator) of each stage in the best pairing."""
 
@@ -103,15 +103,15 @@ class GearStages(CountSizes, Result):
 
     @property
     def teeth(self) -> tuple[int, ...]:
-        """All tooth counts, those of the numerator first."""
+        """All tooth counts: the numerator, then the denominator."""
         return self.top + self.beneath
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """All tooth counts, those of the numerator first."""
+        """All tooth counts: the numerator, then the denominator."""
         return self.teeth
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Tooth counts of the numerator, and of the denominator."""
+        """Tooth counts of the numerator, and tooth counts of the denominator."""
         return self.top, self.beneath

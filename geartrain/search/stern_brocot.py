@@ -29,7 +29,7 @@ _MOST_LISTED = 10**5  # a single run may have as many fractions as the bound
 
 @dataclass(frozen=True, slots=True)
 class Approximant(Result):
-    """Fraction on the path of the Stern-Brocot tree to a number.
+    """Fraction on the path to a number in the Stern-Brocot tree.
 
     See Also
     --------
@@ -41,11 +41,11 @@ class Approximant(Result):
     value: Fraction
     """Positive fraction."""
     error: Fraction
-    """Relative error: `value` over the number, minus 1; exact."""
+    """Relative error: `value` divided by the number, minus 1; exact."""
     kind: ApproximantKind
     """Type of the approximation. "convergent": a convergent of the continued fraction. "best": another fraction that is
     nearer than every other positive fraction whose denominator is not larger (a best approximation of the first kind).
-    "intermediate": neither.
+    "intermediate": any other fraction on the path.
     """
 
 
@@ -121,12 +121,12 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
 
 
 def approximants(value: Fraction, most: int, minimum: ApproximantKind = "intermediate") -> tuple[Approximant, ...]:
-    """List every fraction on the path of the Stern-Brocot tree to a number, in the order of the path.
+    """List every fraction on the path to a number in the Stern-Brocot tree, in the order of the path.
 
     Parameters
     ----------
     value : Fraction
-        The number, above 0.
+        Number to approximate, above 0.
     most : int
         Maximum numerator and denominator.
     minimum : {"convergent", "best", "intermediate"}
@@ -136,15 +136,15 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
     Returns
     -------
     tuple of Approximant
-        The last one is `value` if that is within the bound. If it is not, and all fractions are listed, the last
-        fraction on either side is the nearest on that side of all fractions within the bound.
+        Fractions. The last fraction is `value` if it is within the bound. Otherwise, with "intermediate", the last
+        fraction below and the last fraction above `value` are the nearest fractions within the bound on their sides.
 
     Raises
     ------
     QuestionError
         If the number or the bound is not positive.
     RangeError
-        If there are more than 10^5 fractions. There are always few convergents.
+        If there are more than 10^5 fractions, which does not occur with "convergent".
 
     References
     ----------

@@ -37,7 +37,7 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 
 @dataclass(frozen=True, slots=True)
 class TargetRatio(Result):
-    """Requested ratio of a gear train. `read_ratio` parses it from a text.
+    """Requested ratio of a gear train. `read_ratio` parses it from text.
 
     Raises
     ------
@@ -53,13 +53,15 @@ class TargetRatio(Result):
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
-    """Magnitude of the ratio, exact and positive: teeth of the numerator over teeth of the denominator."""
+    """Magnitude of the ratio, exact and positive: tooth count of the numerator divided by tooth count of the
+    denominator.
+    """
     sense: Literal[-1, 0, 1] = 0
-    """Sense of rotation of the output: 1 if equal to the input, -1 if opposite, 0 if not requested."""
+    """Sense of rotation of the output: 1 if equal to the sense of the input, -1 if opposite, 0 if not requested."""
     label: str = ""
     """Text of the ratio as it was given."""
     note: str = ""
-    """Origin of the number, with its source."""
+    """Origin of the number and its source."""
 
     def __post_init__(self) -> None:
         if self.value <= 0:
@@ -87,16 +89,17 @@ class _Term:
 
 
 def read_ratio(text: str, per: str | None = None) -> TargetRatio:
-    """Parse a requested ratio; the value is exact.
+    """Parse a requested ratio from text; its value is exact.
 
     Parameters
     ----------
     text : str
         A number, a fraction, a pair of counts, a quotient of two periods, or a name listed by `geartrain periods`; see
-        Notes. A leading sign requests a sense of rotation: + the same, - the opposite. Without a sign either is
-        accepted.
+        Notes. A leading sign requests a sense of rotation: + the same sense as the input, - the opposite sense. Without
+        a sign both senses are accepted.
     per : str, optional
-        A second period if `text` is a single period. The ratio is the number of revolutions in one period `per`.
+        Second period, if `text` is a single period. The ratio is then the number of its revolutions in one period
+        `per`.
 
     Returns
     -------
@@ -279,7 +282,7 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
         return first.value / second.value, f"{first.note} over {second.note}"
     raise _problem(
         f"'{_short(label)}' is a quotient of different quantities",
-        f"{_describe(first)} over {_describe(second)} is not a ratio of speeds",
+        f"{_describe(first)} divided by {_describe(second)} is not a ratio of speeds",
         "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
     )
 

@@ -1,7 +1,7 @@
-"""Command `geartrain teeth`: tooth counts for a ratio, for free wheels of a train, for an epicyclic set, for an orrery.
+"""Command `geartrain teeth`: search for tooth counts for a ratio, a train, an epicyclic set or an orrery.
 
-Each search is a command in a module that `SearchGroup` names. This module has the options and output formats that they
-share.
+Each search is a command in a module that `SearchGroup` names. This module contains the options and output formats that
+the searches share.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 class SearchGroup(LazyGroup):
-    """Group of the commands that search for tooth counts."""
+    """Group of commands that search for tooth counts."""
 
     verbs = Verbs(
         {
@@ -50,7 +50,7 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command of the search; if its name is missing, exit with a message that suggests it."""
+        """Return the command of a search. Raises `QuestionError` with a suggestion if its name is missing."""
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
@@ -60,7 +60,7 @@ class SearchGroup(LazyGroup):
 
 
 def _word(args: list[str]) -> tuple[str, list[str]]:
-    """Guess the search that is meant if its name is missing, and return its name and arguments."""
+    """Guess the intended search if its name is missing, and return its name and the arguments."""
     from geartrain.train.declaration_files import shipped
 
     if "--kind" in args:
@@ -78,7 +78,7 @@ app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
     context_settings={"ignore_unknown_options": True},  # arguments without a command name may begin with an option
-    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.\n\n"
+    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery.\n\n"
     "Example: `geartrain teeth ratio 235/19`.",
 )
 
@@ -94,18 +94,30 @@ def _group() -> None:
 Ratio = Annotated[
     str,
     typer.Argument(
-        help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.", metavar="RATIO"
+        help="Requested ratio: 13.368, 235/19, 'A / B' for two periods A and B, or the name of a period.",
+        metavar="RATIO",
     ),
 ]
 Range = Annotated[str, typer.Option("--range", help="Admissible tooth counts, such as 15:120 or 30,36,48.")]
-Wheels = Annotated[str | None, typer.Option("--wheels", help="Tooth counts of the larger wheel of each pair.")]
-Pinions = Annotated[str | None, typer.Option("--pinions", help="Tooth counts of the smaller wheel of each pair.")]
-Per = Annotated[
-    str | None, typer.Option("--per", help="Second period, if RATIO is a single period: the ratio is PER over it.")
+Wheels = Annotated[
+    str | None,
+    typer.Option("--wheels", help="Admissible tooth counts of the larger wheel of each pair; default: --range."),
 ]
-Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Maximum relative error: 1e-6, 20 ppm, 0.001 %.")]
+Pinions = Annotated[
+    str | None,
+    typer.Option("--pinions", help="Admissible tooth counts of the smaller wheel of each pair; default: --range."),
+]
+Per = Annotated[
+    str | None,
+    typer.Option("--per", help="Second period, if RATIO is a single period; the requested ratio is then PER / RATIO."),
+]
+Tolerance = Annotated[
+    str | None, typer.Option("--tolerance", help="Maximum relative error, such as 1e-6, 20 ppm or 0.001 %.")
+]
 Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of solutions to list.")]
-Pick = Annotated[int, typer.Option("--pick", min=1, help="Number of the solution that -o writes as a declaration.")]
+Pick = Annotated[
+    int, typer.Option("--pick", min=1, help="With -o x.yaml: number of the listed solution to write as a declaration.")
+]
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
@@ -140,11 +152,11 @@ class SearchAnswer:
     """True to print JSON."""
     out: Sink
     pick: int = 1
-    """Number of the solution that is written as a declaration, from 1."""
+    """Number of the listed solution that is written as a declaration, from 1."""
 
     @classmethod
     def of(cls, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
-        """Build the destination from the options; a file that may not be written is rejected before the search."""
+        """Build the destination from the options; a file that cannot be written is rejected before the search."""
         return cls(json, sink(out, force, _FORMS), pick)
 
     def give(
@@ -154,7 +166,7 @@ class SearchAnswer:
         describe: Callable[[Any], Document],
         declared: Callable[[int], Mapping[str, Any]] | None = None,
     ) -> None:
-        """Print or write the solutions and exit: 0 with solutions, 1 without, 130 if interrupted.
+        """Print or write the solutions and exit: code 0 if there are solutions, 1 if not, 130 after an interruption.
 
         rows       the solutions as a flat table
         declared   function from the index of a solution to its declaration

@@ -26,10 +26,10 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class CountRuns(Sequence[int]):
-    """Tooth counts as runs of consecutive integers; the memory does not depend on the length of a run.
+    """Tooth counts as runs of consecutive integers. Its memory does not depend on the length of the runs.
 
     The object is a sequence of integers: it iterates in ascending order, has a length, and can be indexed.
-    `read_counts` parses it from a text, `CountRuns.of` builds it from any counts.
+    `read_counts` parses it from text, and `CountRuns.of` builds it from any counts.
 
     Examples
     --------
@@ -39,7 +39,7 @@ class CountRuns(Sequence[int]):
     """
 
     spans: tuple[tuple[int, int], ...]
-    """First and last count of each run, both inclusive; ascending, with a gap between any two runs."""
+    """First and last count of each run, both inclusive; in ascending order, with a gap between any two runs."""
     _before: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -48,7 +48,7 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def of(cls, counts: Iterable[int]) -> CountRuns:
-        """Build the runs of counts in any order.
+        """Build runs from tooth counts in any order.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def joined(cls, spans: Iterable[tuple[int, int]]) -> CountRuns:
-        """Build the runs from the union of some spans.
+        """Build runs from the union of some spans.
 
         Parameters
         ----------
@@ -174,7 +174,7 @@ class CountRuns(Sequence[int]):
 
 
 def read_counts(text: str) -> CountRuns:
-    """Parse tooth counts from a text.
+    """Parse tooth counts from text.
 
     Parameters
     ----------
@@ -184,7 +184,7 @@ def read_counts(text: str) -> CountRuns:
     Returns
     -------
     CountRuns
-        The distinct counts, ascending.
+        Distinct counts in ascending order.
 
     Raises
     ------

@@ -39,9 +39,9 @@ _SHORT = 1 << 20  # largest denominator of coordinates such as 3/4 that floats r
 
 @dataclass(frozen=True)
 class Configuration(Shown):
-    """Gears with axes through one point: unit axes, meshing pairs, and the kind of each gear.
+    """Set of gears whose axes pass through one point: unit axes, meshing pairs, and the kind of each gear.
 
-    Axes point outwards; angles about them are counterclockwise seen from outside.
+    Axes point outwards. Angles about them are counterclockwise as seen from outside.
 
     Examples
     --------
@@ -60,7 +60,8 @@ class Configuration(Shown):
     meshes: tuple[tuple[int, int], ...]
     """Meshing pairs of gears, by index."""
     kinds: tuple[str, ...]
-    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set, and have one tooth number.
+    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set, and have the same tooth
+    number.
     """
     regular: tuple[int, ...]
     """Integer p of each gear if its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles are known
@@ -87,14 +88,13 @@ class Configuration(Shown):
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Return the direction [rad] from one gear to another about the axis of the first gear.
+        """Return the direction from one gear to another about the axis of the first gear [rad].
 
         Parameters
         ----------
         i, j : int
             Indices of the gears. The direction about i is measured from the first vector of `frame(i)`,
-            counterclockwise seen
-            from outside.
+            counterclockwise seen from outside.
         """
         first, second = self.frame(i)
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))
@@ -181,11 +181,11 @@ class MeshKind:
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
-    """Return the configuration as plain data with the keys of a declaration, for `GearTrain.declare`.
+    """Return the gears as a declaration in plain data, for `GearTrain.declare`.
 
     Links, wheels and axes have the names of the gears. With outward axes every mesh reverses the sense of rotation, z_i
     w_i + z_j w_j = 0 (docs/sphere.md, section 1): the wheels are on the positive sides of their axes (`facing` 1, the
-    default). The first gear is the input, at speed 1. Directions are floats with all digits.
+    default). The first gear is the input, at speed 1. The directions are floats with all digits.
 
     Parameters
     ----------
@@ -213,14 +213,13 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     Fraction(-5, 3)
     """
     missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
-    if missing or not configuration.names:
-        raise QuestionError(
-            Problem(
-                f"no tooth number for {', '.join(missing)}" if missing else "a set without gears is not a train",
-                "a declaration needs at least one gear, and the teeth of every wheel",
-                f"give teeth={{{missing[0]!r}: 20, ...}}" if missing else "drop fewer gears",
-            )
-        )
+    if missing:
+        what = f"no tooth number is given for {', '.join(missing)}"
+        fix = f"give teeth={{{missing[0]!r}: 20, ...}}"
+        raise QuestionError(Problem(what, "a declaration needs the tooth number of every wheel", fix))
+    if not configuration.names:
+        what, why = "a set without gears is not a train", "a declaration needs at least one gear"
+        raise QuestionError(Problem(what, why, "drop fewer gears"))
     gears = list(zip(configuration.names, configuration.kinds, configuration.axes.tolist(), strict=True))
     return {
         "name": name or "spherical",
@@ -362,9 +361,9 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
             names = " - ".join(configuration.names[gear] for gear in loop)
             raise QuestionError(
                 Problem(
-                    f"loop {names} is odd",
+                    f"loop {names} has an odd number of gears",
                     "meshing gears turn in opposite senses, so an odd loop locks",
-                    "drop one mesh",
+                    "remove one mesh of the loop",
                 )
             )
         shares = _shares(configuration, loop, kinds)

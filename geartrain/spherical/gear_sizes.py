@@ -69,7 +69,7 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
     if missing:
         raise QuestionError(
             Problem(
-                f"no tooth number for {', '.join(missing)}",
+                f"no tooth number is given for {', '.join(missing)}",
                 "sizes depend on the teeth of every kind of gear",
                 f"give teeth={{{missing[0]!r}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
             )
@@ -78,7 +78,8 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
 
 
 def one_pitch(configuration: Configuration) -> float:
-    """Return the common pitch of all meshes for the chosen tooth numbers, equation (1) of docs/sphere.md.
+    """Return lambda, half the common module of all meshes, for the chosen tooth numbers; equation (1) of
+    docs/sphere.md.
 
     Parameters
     ----------
@@ -88,7 +89,7 @@ def one_pitch(configuration: Configuration) -> float:
     Returns
     -------
     float
-        lambda, half the module [radii of the sphere].
+        Half the common module [radii of the sphere].
 
     Raises
     ------
@@ -121,10 +122,10 @@ def one_pitch(configuration: Configuration) -> float:
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
-    """Return operating cones, pitches and pressure angles of every mesh, by equation (1) of docs/sphere.md.
+    """Return operating cones, pitches and pressure angles of all meshes, by equation (1) of docs/sphere.md.
 
-    All gears have one base pitch, so spherical involutes keep the ratio at any operating pitch (docs/sphere.md, section
-    4).
+    All gears have a common base pitch, so that spherical involutes keep the ratio at any operating pitch
+    (docs/sphere.md, section 4).
 
     Parameters
     ----------
@@ -196,7 +197,7 @@ class MeshSize(NamedTuple):
 
 @dataclass(frozen=True)
 class SphereSizing(Result):
-    """Sizes of a set with chosen tooth numbers. Arrays have one row for each mesh or gear.
+    """Sizes of a set of gears on a sphere for chosen tooth numbers. Arrays have one row for each mesh or gear.
 
     See Also
     --------
@@ -214,13 +215,13 @@ class SphereSizing(Result):
     )
 
     configuration: Configuration
-    """Set whose sizes these are."""
+    """Set of gears to which the sizes belong."""
     teeth: NDArray[np.int64]
     """Tooth number of each gear, shape (gears,)."""
     cones: Floats
     """Half-angles of the operating pitch cones of the two gears of each mesh [rad], shape (meshes, 2)."""
     pitches: Floats
-    """Operating pitch lambda of each mesh [radii of the sphere], shape (meshes,)."""
+    """Operating pitch lambda (half the module) of each mesh [radii of the sphere], shape (meshes,)."""
     base: float
     """Common base pitch c of all gears [radii of the sphere]; a base cone has the half-angle g with sin g = c z."""
     pressure: Floats
@@ -233,12 +234,12 @@ class SphereSizing(Result):
 
     @property
     def exact(self) -> bool:
-        """True if all meshes have one pitch, to the rounding of the axes."""
+        """True if all meshes have the same pitch, within the rounding errors of the axes."""
         return self.mismatch <= _SAME
 
     @cached_property
     def mismatch(self) -> float:
-        """Natural logarithm of the maximum over the minimum pitch [1]."""
+        """Natural logarithm of the ratio of the maximum to the minimum pitch [1]."""
         return log(float(self.pitches.max()) / float(self.pitches.min()))
 
     @cached_property
@@ -248,13 +249,13 @@ class SphereSizing(Result):
 
     @property
     def module(self) -> float:
-        """Module, 2 lambda [radii of the sphere]."""
+        """Module, 2 lambda, from the geometric mean of the pitches [radii of the sphere]."""
         return 2 * self.pitch
 
     @cached_property
     def outer(self) -> Floats:
-        """Half-angle of each gear's largest operating cone [rad], shape (gears,); gears that do not mesh with it must
-        clear this cone.
+        """Half-angle of each gear's largest operating cone [rad], shape (gears,). Gears that do not mesh with it must
+        not overlap this cone.
         """
         # a gear without a mesh has the cone of the mean pitch
         alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
@@ -280,8 +281,8 @@ class SphereSizing(Result):
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
-        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, sorted by rising
-        distance.
+        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, in ascending
+        order of distance.
         """
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
         # each pair once; the tolerance keeps gears that just clear
@@ -300,13 +301,13 @@ class SphereSizing(Result):
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Kind -> virtual tooth number, for kinds that a rack with the mean pressure angle undercuts."""
+        """Kind -> virtual tooth number, for kinds that are undercut by a rack with the mean pressure angle."""
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
         return {kind: float(count) for kind, count in pairs if count < limit}
 
     def label(self, mesh: int) -> str:
-        """Return the names of a mesh's gears, joined by a hyphen.
+        """Return the names of the two gears of a mesh, joined by a hyphen.
 
         Parameters
         ----------

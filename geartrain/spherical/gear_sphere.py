@@ -26,7 +26,7 @@ _SPREAD = Key("pitch_spread", "spread")
 
 @dataclass(frozen=True)
 class GearSphere(Result):
-    """Set of gears on a sphere with its analyses, each of which is computed when it is first read.
+    """Set of gears on a sphere with its analyses, each computed when it is first read.
 
     Examples
     --------
@@ -63,9 +63,9 @@ class GearSphere(Result):
     configuration: Configuration
     """Axes, meshes, kinds and tooth numbers of the set."""
     radius: float = 1.0
-    """Radius of the sphere in any unit of length, which is also the unit of the wheel radii."""
+    """Radius of the sphere in any unit of length, which is also the unit of the pitch radii."""
     graph: GraphSet | None = None
-    """Result of the fit of the axes, if the set was made from a graph."""
+    """Result of the construction from a graph; None if the set was not made from a graph."""
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, radius {self.radius:g}"
@@ -78,14 +78,14 @@ class GearSphere(Result):
     @cached_property
     def train(self) -> GearTrain:
         """Gear train of the set. Gears without a chosen tooth number have ten teeth, because senses of rotation do not
-        depend on it.
+        depend on the tooth number.
         """
         whole = {kind: self.configuration.teeth.get(kind, 10) for kind in self.configuration.kinds}
         return GearTrain.declare(to_train(replace(self.configuration, teeth=whole)))
 
     @cached_property
     def moves(self) -> bool:
-        """True if the train of the set has a degree of freedom and no locking loop."""
+        """True if the train of the set has a degree of freedom and no locked loop."""
         return self.train.mobility.by_rank > 0 and not self.train.mobility.locked
 
     @cached_property
@@ -101,9 +101,7 @@ class GearSphere(Result):
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
-        """Return the data of a drawing: the set, half-angles of its pitch cones [rad], and the phases of its teeth
-        [pitch].
-        """
+        """Return the data of a picture: the set, half-angles of pitch cones [rad], and phases of the teeth [pitch]."""
         sizing = self.sizing
         if sizing is None:
             raise QuestionError(
@@ -154,7 +152,7 @@ class GearSphere(Result):
 
     @property
     def residue(self) -> float | None:
-        """Maximum error of the meshes that are assembled last, if gears are assembled one after another [pitch]."""
+        """Maximum error of the last assembled meshes [pitch], if gears are assembled one after another."""
         return None if self.closure is None else self.closure.last
 
     @property

@@ -73,12 +73,12 @@ def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
     _check_simple(pairs, both_ways=isinstance(given, nx.DiGraph))
     loose = [] if given is None else [str(node) for node, degree in given.degree() if not degree]
     if loose:
-        raise _refused(f"{', '.join(loose)} mesh with nothing", "meshes determine the axes", "leave these gears out")
+        raise _refused(f"{', '.join(loose)} mesh with no other gear", "meshes determine the axes", "remove these gears")
     found: nx.Graph[Any] = nx.Graph(pairs)
     if found.number_of_nodes() < 4:
         raise _refused(
             f"it has {found.number_of_nodes()} gears",
-            "a packing needs a loop of four or more",
+            "a circle packing needs a loop of four or more gears",
             "add gears until loops close",
         )
     _check_bipartite(found)
@@ -93,7 +93,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
-        raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "leave that mesh out")
+        raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "remove this mesh")
     # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
@@ -117,7 +117,7 @@ def _check_connected(found: nx.Graph[Any]) -> None:
     if cut is None:
         return
     ends = ", ".join(sorted(str(node) for node, degree in found.degree() if degree == 1))
-    fix = f"leave {ends} out, or add a second mesh to each" if ends else f"add a mesh that bypasses {cut}"
+    fix = f"remove {ends}, or add a second mesh to each" if ends else f"add a mesh that bypasses {cut}"
     raise _refused(f"only {cut} connects two parts", "the parts can turn about it, so the packing is not unique", fix)
 
 
@@ -129,7 +129,9 @@ def _check_bipartite(found: nx.Graph[Any]) -> None:
     if odd:
         walk = " - ".join(str(names[k]) for k in min(odd, key=len))
         raise _refused(
-            f"loop {walk} is odd", "meshing gears turn in opposite senses, so an odd loop locks", "leave one mesh out"
+            f"loop {walk} has an odd number of gears",
+            "meshing gears turn in opposite senses, so an odd loop locks",
+            "remove one mesh of the loop",
         )
 
 
@@ -165,7 +167,7 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
         raise _refused(
             f"it is not planar: {', '.join(corners)}",
             f"{why}, by meshes or disjoint chains of gears (Kuratowski)",
-            "leave a mesh out of these chains",
+            "remove a mesh of these chains",
         )
     at = {name: k for k, name in enumerate(found)}
     seen: set[tuple[Hashable, Hashable]] = set()
@@ -244,9 +246,10 @@ def from_graph(
 ) -> GraphSet:
     """Return a set of gears on a sphere that mesh as in a graph, with exactly one pitch or with exactly closed loops.
 
-    Circles are packed (Koebe, Andreev and Thurston), teeth are rounded to the circles, and the axes are moved as little
-    as possible until the quantity named by `aim` is exact. During the packing, an additional circle in each region next
-    to an idler replaces its missing meshes.
+    The algorithm computes a circle packing of the graph (Koebe, Andreev and Thurston), rounds tooth numbers in
+    proportion to the circles, and moves the axes as little as possible until the condition named by `aim` is satisfied
+    exactly. In the packing, an additional circle in each region next to an idler replaces the missing meshes of the
+    idler.
 
     Parameters
     ----------
@@ -256,17 +259,18 @@ def from_graph(
     minimum_teeth : int
         Tooth number of the smallest gear.
     aim : {"pitch", "phases"}
-        `pitch`: all meshes share one pitch; `phases`: all loops close. Both conditions can rarely be satisfied
+        `pitch`: all meshes have the same pitch. `phases`: all loops close. Both conditions can rarely be satisfied
         together.
     upto : int, optional
-        Maximum tooth number of the smallest gear; the best rounding from `minimum_teeth` to this number is used.
+        Maximum tooth number of the smallest gear. The best rounding with a smallest gear from `minimum_teeth` to this
+        number is used.
     teeth : mapping of gear to int, optional
         Tooth number of each gear, instead of rounding.
 
     Returns
     -------
     GraphSet
-        Set of gears with its residuals.
+        Set of gears, with the residuals of its pitches and loops.
 
     Raises
     ------
@@ -334,9 +338,9 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
     if missing:
         raise QuestionError(
             Problem(
-                f"no teeth given for {', '.join(missing)}",
-                "with `teeth` no tooth number is rounded from the packing",
-                "give the teeth of every gear",
+                f"no tooth number is given for {', '.join(missing)}",
+                "if `teeth` is given, no tooth numbers are derived from the circle packing",
+                "give the tooth number of every gear",
             )
         )
     return np.array([teeth[name] for name in names], dtype=np.int64)
@@ -344,7 +348,7 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
 
 @dataclass(frozen=True)
 class GraphSet(Result):
-    """Gears made from a graph, with the residuals of pitches and loops.
+    """Set of gears made from a graph, with the residuals of its pitches and loops.
 
     See Also
     --------
@@ -362,17 +366,18 @@ class GraphSet(Result):
     )
 
     configuration: Configuration
-    """Axes, meshes and tooth numbers; every gear is a kind of its own."""
+    """Axes, meshes and tooth numbers. Every gear has its own kind."""
     aim: Aim
     """Condition that the axes satisfy exactly after adjustment: "pitch" or "phases"."""
     packing: SpherePacking
-    """Circle packing before the adjustment of the axes; additional circles next to idlers follow the gears."""
+    """Circle packing before the adjustment of the axes. Additional circles next to idlers are listed after the gears.
+    """
     sizing: SphereSizing
     """Cones, pitches and pressure angles."""
     residue: float
     """Maximum closing error of a loop [pitch]."""
     moved: Floats
-    """Displacement of each axis from the packing [rad], shape (gears,)."""
+    """Displacement of each axis from its direction in the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
     """Residual after each step of the adjustment [rad for "pitch", pitch for "phases"]."""
 
@@ -381,13 +386,13 @@ class GraphSet(Result):
 
     @property
     def exact(self) -> tuple[str, ...]:
-        """Conditions that are satisfied to rounding: "pitch", "phases", both or neither."""
+        """Conditions that are satisfied within rounding errors: "pitch", "phases", both or neither."""
         found = {"pitch": self.sizing.exact, "phases": self.residue < _EXACT}
         return tuple(name for name, holds in found.items() if holds)
 
     @property
     def spread(self) -> float:
-        """Maximum pitch over minimum pitch, minus 1 [percent]."""
+        """Ratio of the maximum pitch to the minimum pitch, minus 1 [percent]."""
         return 100 * (exp(self.sizing.mismatch) - 1)
 
     @property

@@ -99,7 +99,7 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron(Shown):
-    """Convex polyhedron with the origin inside.
+    """Convex polyhedron with the origin in its interior.
 
     See Also
     --------
@@ -109,8 +109,8 @@ class Polyhedron(Shown):
     vertices: Floats
     """Vertices as given, in any unit, shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
-    """Indices of the vertices of each face, counterclockwise seen from outside. Faces are sorted by falling height (z),
-    and at equal heights counterclockwise from x.
+    """Indices of the vertices of each face, counterclockwise seen from outside. Faces are in descending order of height
+    (z), and at equal heights counterclockwise from x.
     """
     normals: Floats = field(repr=False)
     """Outward unit normals of the faces, shape (faces, 3)."""
@@ -147,8 +147,8 @@ class Polyhedron(Shown):
     def symmetries(self) -> Floats:
         """All rotations and reflections about the origin that map the solid to itself, shape (order, 3, 3).
 
-        Errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices of one
-        face), so trying all corners that are congruent to the first finds every symmetry.
+        Rounding errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices
+        of one face). All symmetries are therefore found by examining all corners that are congruent to the first.
         """
         # Gram matrices are invariant under rotation and reflection
         corners = self.vertices[[corner for face in self.faces for corner in _corners(face)]]
@@ -163,8 +163,8 @@ class Polyhedron(Shown):
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Return the index of each point's image under each symmetry, for a set of points that the symmetries map to
-        itself.
+        """Return the index of each point's image under each symmetry, for a set of points that is invariant under the
+        symmetries.
 
         Parameters
         ----------
@@ -179,8 +179,8 @@ class Polyhedron(Shown):
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """Return for each point the index of the first point in its orbit, for a set of points that the symmetries map
-        to itself.
+        """Return for each point the index of the first point in its orbit, for a set of points that is invariant under
+        the symmetries.
 
         Parameters
         ----------
@@ -201,18 +201,18 @@ class Polyhedron(Shown):
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """Return the polar solid, whose vertices are along the normals of this solid, and whose normals are along its
+        """Return the polar dual, whose vertices are along the normals of this solid, and whose normals are along its
         vertices.
 
         Parameters
         ----------
         name : str
-            Name of the polar solid, for display.
+            Name of the dual, for display.
 
         Returns
         -------
         Polyhedron
-            Vertices at the reciprocal heights.
+            Dual, with vertices at the reciprocal heights of the faces.
         """
         return polyhedron(self.normals / self.heights[:, None], name=name)
 
@@ -225,9 +225,10 @@ class Polyhedron(Shown):
 
 
 def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> Polyhedron:
-    """Return the convex polyhedron with these vertices from the convex hull (Qhull), with coplanar facets merged.
+    """Return the convex polyhedron with the given vertices, from the convex hull (Qhull), with coplanar facets merged.
 
-    Points are equal, and a face is plane, within a millionth of the size. Euler's formula is checked.
+    Points are considered equal, and faces plane, within a millionth of the size. The result is checked by Euler's
+    formula.
 
     Parameters
     ----------
@@ -302,7 +303,7 @@ def _checked(points: ArrayLike) -> Floats:
         raise _refused(f"{len(vertices)} points do not make a solid", "a polyhedron has at least four vertices")
     spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     if spread[2] <= NEAR * spread[0]:
-        raise _refused("the points lie in one plane", "a polyhedron has a positive volume")
+        raise _refused("the points are in one plane", "a polyhedron has a positive volume")
     _check_apart(vertices, NEAR * float(spread[0]) / len(vertices) ** 0.5)
     return vertices
 
@@ -314,7 +315,7 @@ def _check_apart(vertices: Floats, near: float) -> None:
         raise _refused(
             f"vertices[{second}] repeats vertices[{first}] {_coordinates(vertices[first])}",
             "the vertices of a polyhedron must be distinct",
-            "leave one of them out",
+            "remove one of them",
         )
 
 
@@ -325,7 +326,7 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
     try:
         hull = ConvexHull(vertices / scale)
     except QhullError:
-        raise _refused("the points nearly lie in one plane", "a polyhedron has a positive volume") from None
+        raise _refused("the points are nearly in one plane", "a polyhedron has a positive volume") from None
     # a point inside the hull would never carry a face
     inside = sorted(set(range(len(vertices))) - set(hull.vertices.tolist()))
     if inside:
@@ -353,7 +354,7 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     ways = np.roll(arms, -1, axis=0) - arms
     area = float(np.cross(arms, ways).sum(axis=0) @ normal / 2)
     if area < NEAR * scale**2:
-        raise _refused(f"face {index.tolist()} has no area", "its vertices lie on one line")
+        raise _refused(f"face {index.tolist()} has no area", "its vertices are on one line")
     lengths = np.linalg.norm(ways, axis=1)
     # sines of the exterior angles: 0 for a point on an edge
     turns = np.cross(np.roll(ways, 1, axis=0), ways) @ normal / (np.roll(lengths, 1) * lengths)
@@ -365,9 +366,9 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
 def _check_origin(heights: Floats, scale: float) -> None:
     if heights.min() <= NEAR * scale:
         raise _refused(
-            "the origin does not lie inside the solid",
+            "the origin is not inside the solid",
             "the origin is the centre of the sphere, through which all axes of gears pass",
-            "move the vertices so that it does, or pass recentre=True to put it at their mean",
+            "move the vertices around the origin, or pass recentre=True to move their mean to the origin",
         )
 
 
@@ -385,9 +386,9 @@ def _check_closed(solid: Polyhedron) -> None:
 
 def _not_a_corner(vertices: Floats, at: int) -> GearTrainError:
     return _refused(
-        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it lies in the hull of the others",
+        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it is inside the convex hull of the others",
         "gears are placed on the faces and vertices of a convex solid",
-        "leave the point out, or move it outwards",
+        "remove the point, or move it outwards",
     )
 
 
@@ -408,7 +409,7 @@ def solid_names() -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        Names of uniform solids, their duals, J37, and families of solids.
+        Names of uniform solids, their duals, the Johnson solid J37, and families of solids.
 
     Examples
     --------
@@ -420,7 +421,8 @@ def solid_names() -> tuple[str, ...]:
 
 @cache
 def solid(name: str) -> Polyhedron:
-    """Return a solid by name: uniform solids by Wythoff's construction, their duals, prisms and antiprisms, and J37.
+    """Return a solid by name: uniform solids by Wythoff's construction, their duals, prisms and antiprisms, and the
+    Johnson solid J37.
 
     Coordinates are accurate to about 1e-15 of the size; uniform solids have edges of length 2.
 
@@ -432,7 +434,7 @@ def solid(name: str) -> Polyhedron:
     Returns
     -------
     Polyhedron
-        Solid. All callers get the same object, whose arrays are read-only.
+        Solid. All calls return the same object, whose arrays are read-only.
 
     Raises
     ------

@@ -48,14 +48,14 @@ def from_polyhedron(
     exact: bool = False,
     recentre: bool = False,
 ) -> Configuration:
-    """Place gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
+    """Place gears on a polyhedron: on its faces, on its vertices, on both, or with idlers on its edges.
 
     Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides of the
-    face, v for a vertex, or e for an edge. Kinds with equal names get an additional letter, first the kinds with fewer
-    gears, then the kinds nearer to the smallest orbit. Gears are numbered within their kind by falling height (z), at
-    equal heights counterclockwise from x. A gear on an edge is placed where both its pitches are equal, which depends
-    on the tooth numbers. If these are not chosen, it is in the middle of the arc (two gears on one edge: at a quarter
-    and at three quarters).
+    face, v for a vertex, or e for an edge. Kinds with equal names get an additional letter, in ascending order of the
+    number of gears, then of the distance from the smallest orbit. Gears are numbered within their kind in descending
+    order of height (z), and at equal heights counterclockwise from x. A gear on an edge is placed where both its
+    pitches are equal, which depends on the tooth numbers. If these are not chosen, the gear is in the middle of the
+    edge (two gears on one edge: at a quarter and at three quarters).
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def from_polyhedron(
     teeth : mapping of str to int, or int, optional
         Tooth number of each kind, `{"5": 20, "3": 12}`, or one number for all; the key `4` means 4a and 4b.
     drop : iterable of str
-        Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all between two kinds) to leave out.
+        Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all meshes between two kinds) to omit.
     exact : bool
         True to move the axes, keeping all symmetries, until every mesh has the same pitch; requires `teeth`.
     recentre : bool
@@ -88,8 +88,7 @@ def from_polyhedron(
     ------
     GearTrainError
         If the solid, a kind, a gear or a mesh does not exist, or if no axes with one pitch are found near the axes of
-        the
-        solid.
+        the solid.
 
     Examples
     --------
@@ -171,7 +170,9 @@ def _placed(
         if missing:
             raise QuestionError(
                 Problem(
-                    f"exact=True requires the teeth of {', '.join(missing)}", "pitches depend on them", "give `teeth`"
+                    f"no tooth number is given for {', '.join(missing)}",
+                    "exact=True requires all of them",
+                    "give `teeth`",
                 )
             )
         return equal_pitch(plan.movement, plan.axes, meshes, teeth, range(len(kinds))) if meshes else plan.axes
@@ -360,7 +361,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
             raise QuestionError(
                 Problem(
                     f"{count} is not a tooth number of kind '{kind}'",
-                    "tooth numbers are integers from 1",
+                    "tooth numbers are integers of 1 or more",
                     "give a number such as 20",
                 )
             )
@@ -419,7 +420,7 @@ def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
 
 @dataclass(frozen=True)
 class SurveyRow(Result):
-    """Gears on all faces of one solid: a row of the table in section 2 of docs/sphere.md.
+    """Properties of one solid with gears on all faces: a row of the table in section 2 of docs/sphere.md.
 
     See Also
     --------
@@ -447,31 +448,30 @@ class SurveyRow(Result):
     meshes: int
     """Number of meshes, one on each edge."""
     bipartite: bool
-    """True if neighbours can turn in opposite senses everywhere; the set then has one degree of freedom."""
+    """True if all neighbours can turn in opposite senses, so that the set has one degree of freedom."""
     gruebler: int
     """Degrees of freedom by count: number of gears minus number of meshes."""
     drop: int
-    """Minimum number of meshes to remove from the set so that it moves."""
+    """Minimum number of meshes to remove so that the set can turn."""
     types: int
     """Number of kinds of gear: orbits under the symmetries of the solid."""
     mesh_kinds: int
     """Number of kinds of mesh: orbits under the symmetries of the solid."""
     positions: int
-    """Number of free parameters of the axes while all symmetries are kept."""
+    """Number of free parameters of the axes if all symmetries are preserved."""
     angles: tuple[float, ...]
     """Distinct angles between the axes of meshes [deg], ascending; angles are equal within 1e-9 deg."""
 
     @property
     def exact(self) -> bool:
-        """True if there are at least as many unknowns (positions and the pitch) as kinds of mesh, so that one pitch
-        may be possible.
+        """True if one pitch may be possible: there are at least as many unknowns (positions and the pitch) as kinds of
+        mesh.
         """
         return self.positions + 1 >= self.mesh_kinds
 
 
 def survey(solids: Iterable[str | Polyhedron] = SURVEYED) -> tuple[SurveyRow, ...]:
-    """Return for each solid with gears on all faces: mobility, meshes to remove, and whether one pitch may be
-    possible.
+    """Return mobility, number of meshes to remove, and possibility of one pitch for each solid with gears on all faces.
 
     Parameters
     ----------

@@ -51,25 +51,24 @@ def suggest_tooth_counts(
     tolerance: float = 1e-9,
     fixed: Mapping[str, int] | None = None,
 ) -> ToothCountSuggestions:
-    """Find the best sets of tooth numbers whose loops close and whose tips clear, by exhaustive search.
+    """Find the best sets of tooth numbers with closed loops and tip clearance, by exhaustive search.
 
-    Run time is proportional to the product of the ranges. Tips clear if there are at least two modules between the
-    largest operating pitch cones of gears that do not mesh.
+    The run time is proportional to the product of the ranges. Tips have clearance if there are at least two modules
+    between the largest operating pitch cones of gears that do not mesh.
 
     Parameters
     ----------
     configuration : Configuration
-        Set of gears; its tooth numbers are not used.
+        Set of gears. Its tooth numbers are not used.
     most, minimum : int
         Bounds of the tooth numbers.
     best : int
         Number of sets to return.
     order : {"mismatch", "teeth", "front"}
-        Order of the results. `mismatch`: rising |mismatch|; `teeth`: rising total; `front`: only Pareto-optimal sets,
-        whose
-        mismatch is less than in every set with no more teeth, by rising total.
+        Order of the results. `mismatch`: ascending |mismatch|. `teeth`: ascending total. `front`: only Pareto-optimal
+        sets, which have less mismatch than every set with an equal or smaller total, in ascending order of the total.
     mismatch : float
-        Maximum logarithm of the quotient of two pitches of a set.
+        Maximum logarithm of the ratio of two pitches of a set.
     tolerance : float
         Tolerance of the closing error of loops whose angles are known only as floats [pitch].
     fixed : mapping of str to int, optional
@@ -165,7 +164,7 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 @dataclass(frozen=True)
 class ToothCountCompromise(Shown):
-    """Set of tooth numbers with nearly one pitch.
+    """Set of tooth numbers with which all meshes have nearly the same pitch.
 
     See Also
     --------
@@ -175,8 +174,8 @@ class ToothCountCompromise(Shown):
     teeth: Mapping[str, int]
     """Kind -> tooth number."""
     mismatch: float
-    """Logarithm of the pitch of the first kind of mesh over the pitch of the second; with more kinds, of the maximum
-    over the minimum.
+    """Logarithm of the ratio of the pitch of the first kind of mesh to the pitch of the second; with more than two
+    kinds, of the maximum to the minimum pitch.
     """
     pitches: tuple[float, ...]
     """Operating pitch of each kind of mesh [radii of the sphere]."""
@@ -185,13 +184,13 @@ class ToothCountCompromise(Shown):
     pressure: tuple[float, ...]
     """Operating pressure angle of each kind of mesh, for a common base pitch [rad]."""
     room: float
-    """Minimum distance between pitch circles of gears that do not mesh [modules]."""
+    """Minimum distance between the pitch circles of gears that do not mesh [modules]."""
     residue: float
     """Maximum closing error of a loop [pitch]; 0 if all loops close exactly."""
 
     @property
     def total(self) -> int:
-        """Sum of the tooth numbers over all kinds."""
+        """Sum of the tooth numbers of all kinds."""
         return sum(self.teeth.values())
 
     def __str__(self) -> str:
@@ -202,7 +201,8 @@ class ToothCountCompromise(Shown):
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """Result of a search with the number of rejected sets; a sequence of `ToothCountCompromise`, best first.
+    """Result of a search for tooth numbers: a sequence of `ToothCountCompromise`, best first, with the numbers of
+    rejected sets.
 
     See Also
     --------
@@ -240,7 +240,7 @@ class ToothCountSuggestions(Result):
     removed: Mapping[str, int]
     """Condition -> number of sets that it rejected, in the order in which the conditions are tested."""
     beyond: int
-    """Number of further sets that satisfy every condition but are not in `found`."""
+    """Number of further sets that satisfy every condition but are not listed in `found`."""
 
     def _summary(self) -> str:
         best = f", best {self.found[0]}" if self.found else ""
@@ -336,7 +336,7 @@ class _Search:
 
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
-    """Range of the ratio of two tooth numbers in which equal neighbouring gears do not overlap, without addenda.
+    """Range of the ratio of two tooth numbers in which equal neighbouring gears do not overlap, ignoring addenda.
 
     See Also
     --------
@@ -357,8 +357,8 @@ class NeighbourRatioWindow(Shown):
 
 
 def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
-    """Return the range of the tooth ratio in which equal neighbours do not overlap, for each kind of mesh between
-    unlike gears.
+    """Return the range of the tooth ratio in which equal neighbouring gears do not overlap, for each kind of mesh
+    between unlike gears.
 
     With several kinds of mesh, each range is valid for the operating cones of its own mesh.
 

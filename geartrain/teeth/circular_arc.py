@@ -77,9 +77,9 @@ def _wheel_number(raw: object) -> object:
 
 
 class CircularArc(ToothForm):
-    """Circular-arc clock teeth of BS 978 Part 2: radial flanks, ogival tips, thin leaves.
+    """Circular-arc clock teeth of BS 978 Part 2: radial flanks, ogival tips and thin leaves.
 
-    They are not conjugate. Their transmission error, backlash and efficiency are computed from the contact of their
+    The teeth are not conjugate. Transmission error, backlash and efficiency are computed from the contact of the
     outlines (docs/shapes.md).
 
     See Also
@@ -151,7 +151,7 @@ class CircularArc(ToothForm):
     # ----------------------------------------------------------------------------------------------- teeth of a pair
 
     def teeth(self, z1: int, z2: int, module: float | None = None) -> tuple[ArcTooth, ArcTooth]:
-        """Return the teeth of both wheels.
+        """Return the tooth shapes of both wheels.
 
         Parameters
         ----------
@@ -163,12 +163,12 @@ class CircularArc(ToothForm):
         Returns
         -------
         tuple of ArcTooth
-            Teeth of the first and of the second wheel; lengths in modules.
+            Tooth shapes of the first and of the second wheel; lengths in modules.
 
         Raises
         ------
         GearTrainError
-            If these sizes do not give a tooth.
+            If no tooth with these sizes exists.
         """
         for z in (z1, z2):
             if not _FEWEST <= z <= _MOST_TEETH:
@@ -210,7 +210,7 @@ class CircularArc(ToothForm):
         return made[0], made[1]
 
     def distance(self, z1: int, z2: int, module: float | None = None) -> float:
-        """Return the centre distance.
+        """Return the centre distance of a pair.
 
         Parameters
         ----------
@@ -222,7 +222,7 @@ class CircularArc(ToothForm):
         Returns
         -------
         float
-            Centre distance [module]; half the sum of the tooth numbers unless declared.
+            Declared centre distance, by default half the sum of the tooth numbers [module].
         """
         if self.centre_distance is None:
             return (z1 + z2) / 2
@@ -231,7 +231,7 @@ class CircularArc(ToothForm):
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
     ) -> OutlineTransmission:
-        """Return the transmission function of a pair, computed from the contact of its outlines.
+        """Return the transmission function of a pair, computed from the contact of the outlines.
 
         Parameters
         ----------
@@ -242,19 +242,19 @@ class CircularArc(ToothForm):
         driver : {1, 2}
             Number of the driving wheel.
         direction : {1, -1}
-            -1 for motion backwards, on the coast flanks.
+            Direction of rotation; with -1 the coast flanks drive.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         OutlineTransmission
-            Transmission function. Its `verdict` says whether the pair can turn.
+            Transmission function. Its `verdict` reports whether the pair can turn.
 
         Raises
         ------
         GearTrainError
-            If these sizes do not give a tooth.
+            If no tooth with these sizes exists.
         """
         from geartrain.teeth.contact.outline_transmission import OutlineTransmission
 
@@ -262,7 +262,7 @@ class CircularArc(ToothForm):
         return OutlineTransmission(gears, friction, driver, direction)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair on parallel axes with the first wheel driving.
+        """Return the mesh of a pair on parallel axes, with the first wheel driving.
 
         Raises `GearTrainError` for internal gears and bevel wheels.
         """
@@ -293,10 +293,10 @@ class CircularArc(ToothForm):
             return None
         why = "a declared backlash or thickness takes precedence over --backlash"
         fix = "omit --backlash, or remove `backlash` and `thickness` from the file"
-        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
-        """Return a copy whose leaves are thinned where the pair has less than the given backlash.
+        """Return a copy whose leaves are thinned if the pair has less than the given backlash.
 
         Parameters
         ----------
@@ -306,7 +306,7 @@ class CircularArc(ToothForm):
         Returns
         -------
         CircularArc
-            A copy with this `backlash`.
+            Copy with this `backlash`.
         """
         return self.model_copy(update={"backlash": backlash})
 

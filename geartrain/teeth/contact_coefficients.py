@@ -53,7 +53,7 @@ class CoulombFriction(BaseModel):
                 {
                     "static": self.static.text,
                     "sliding": self.sliding.text,
-                    "fix": "give a `static` friction of `sliding` or more, or leave `static` out",
+                    "fix": "give a `static` friction of `sliding` or more, or omit `static`",
                 },
             )
         return self

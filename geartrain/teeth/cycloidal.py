@@ -120,7 +120,7 @@ class Cycloidal(ConjugateToothForm):
         declared = " and ".join(each.text for each in self.thickness)
         why = f"the declared thickness of {declared} modules takes precedence over --backlash"
         fix = "omit --backlash, or remove `thickness` from the file"
-        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """Return the pair of these wheels at its design centre distance.
@@ -128,7 +128,7 @@ class Cycloidal(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
+            If these wheels cannot have such teeth. The error message suggests possible sizes.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

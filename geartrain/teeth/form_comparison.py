@@ -126,7 +126,8 @@ def compare_forms(
 ) -> FormComparison:
     """Return loss, stress, heat, flash temperature and depth of tooth forms as ratios to the 20 degree involute.
 
-    The measures are those of docs/shapes.md, to first order in friction. The criteria are W. D. Smith's (1993).
+    The quantities are defined in docs/shapes.md and computed to first order in friction. The criteria are from W. D.
+    Smith (1993).
 
     Parameters
     ----------
@@ -135,19 +136,19 @@ def compare_forms(
     names : sequence of str
         Names of the forms, keys of `comparable_forms`.
     arcs : tuple of float
-        Arcs of approach and recess of all forms [pitch], 1 or more together.
+        Arcs of approach and recess of all forms [pitch], with a sum of 1 or more.
     pressure_angle : Quantity, optional
-        Pressure angle of the forms that have one, below 45 deg. Default: the default of each form.
+        Pressure angle of the forms with such a parameter, below 45 deg; by default the default of each form.
 
     Returns
     -------
     FormComparison
-        The involute, and each form with its ratios or the faults that keep it from running.
+        Results of the involute, and of each form its ratios or the faults that prevent it from running.
 
     Raises
     ------
     QuestionError
-        For unknown names and wrong parameters, and if the involute itself cannot run.
+        If a name is unknown, a parameter is invalid, or the involute itself cannot run.
 
     Examples
     --------

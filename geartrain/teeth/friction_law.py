@@ -137,24 +137,24 @@ class FrictionLaw(BaseModel, ABC):
         Parameters
         ----------
         speed : ndarray
-            Speeds, 0 or more [m/s].
+            Sliding speeds or pitch-line speeds, 0 or more [m/s].
         """
 
     @property
     def of_pitch_line(self) -> bool:
-        """True if the law depends on the pitch-line speed, so that the coefficient is the same at every contact."""
+        """True if the law depends on the pitch-line speed, so that the coefficient is equal at all contacts."""
         return False
 
     @property
     def at_rest(self) -> float:
-        """Coefficient of friction at speed 0, which a start has to overcome."""
+        """Coefficient of friction at speed 0, which must be overcome at the start."""
         import numpy as np
 
         return float(self.coefficient(np.zeros(1))[0])
 
 
 class StribeckFriction(FrictionLaw):
-    """Friction that falls from static to kinetic with the sliding speed, and may rise again by a viscous term.
+    """Friction that decreases from static to kinetic with the sliding speed, and may increase again by a viscous term.
 
     Examples
     --------
@@ -177,7 +177,7 @@ class StribeckFriction(FrictionLaw):
     viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient at sliding speeds [m/s], from the function `stribeck`."""
+        """Return the coefficient of friction at sliding speeds [m/s], computed by `stribeck`."""
         exponent, viscous = float(self.exponent.value), float(self.viscous.value)
         return stribeck(speed, float(self.static.value), float(self.kinetic.value), self.speed.si, exponent, viscous)
 
@@ -196,11 +196,11 @@ class BuckinghamFriction(FrictionLaw):
 
     @property
     def of_pitch_line(self) -> bool:
-        """True, since the measurements were made at pitch-line speeds."""
+        """True, because the law was measured as a function of the pitch-line speed."""
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient at pitch-line speeds [m/s], from the function `buckingham`."""
+        """Return the coefficient of friction at pitch-line speeds [m/s], computed by `buckingham`."""
         return buckingham(speed)
 
 
@@ -221,12 +221,12 @@ class DokosFriction(FrictionLaw):
     )
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient at sliding speeds [m/s], from the function `dokos`."""
+        """Return the coefficient of friction at sliding speeds [m/s], computed by `dokos`."""
         return dokos(speed, self.slowest.si)
 
 
 class TabulatedFriction(FrictionLaw):
-    """Friction interpolated linearly in a table of speeds and coefficients.
+    """Friction interpolated linearly between tabulated speeds and coefficients.
 
     Examples
     --------
@@ -259,7 +259,7 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient at speeds [m/s] by linear interpolation, constant outside the table."""
+        """Return the coefficient of friction at speeds [m/s] by linear interpolation, constant outside the table."""
         import numpy as np
 
         found: Floats = np.interp(
@@ -307,7 +307,7 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """Friction law of a pair with known pitch-line speed: the coefficient as a function of the relative sliding speed.
+    """Friction law of a pair with known pitch-line speed: coefficient as a function of the relative sliding speed.
 
     Examples
     --------

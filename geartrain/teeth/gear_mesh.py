@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GearMesh(Shown, ABC):
-    """Gear pair with real teeth of any form: the interface that trains, reports and exports use.
+    """Gear pair with real teeth of any form, with the interface that trains, reports and exports use.
 
     See Also
     --------
@@ -45,11 +45,12 @@ class GearMesh(Shown, ABC):
     tooth_form: NamedForm
     """Tooth form of the teeth."""
     who: MeshDriver
-    """Driving wheel, and the basis on which it is known."""
+    """Driving wheel, and how it was determined."""
     transmission: TransmissionFunction
     """Transmission function with the driving wheel turning forwards.
 
-    `coast` is the transmission function of the coast flanks, `reversed` the one with the other wheel driving.
+    `coast` is the transmission function of the coast flanks, and `reversed` the transmission function with the other
+    wheel driving.
     """
 
     def _summary(self) -> str:
@@ -60,7 +61,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def gear(self) -> DeclaredPair:
-        """Pair as declared."""
+        """Gear pair as declared."""
         return self.wheels.gear
 
     @property
@@ -85,9 +86,9 @@ class GearMesh(Shown, ABC):
 
     @cached_property
     def losses(self) -> TransmissionFunction:
-        """Transmission function with the friction losses of the teeth.
+        """Transmission function that includes the friction losses of the teeth.
 
-        If friction depends on a speed that is not known, it has no losses.
+        It has no losses if friction depends on a speed that is not known.
         """
         return self._with_friction(self.transmission)
 
@@ -107,7 +108,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def note(self) -> str:
-        """Note on a wheel that is treated as another kind, such as a contrate wheel; empty otherwise."""
+        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; otherwise empty."""
         return self.wheels.note
 
     @property
@@ -129,7 +130,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of gear 1 and gear 2 of the tooth form; in the order of the pair unless the form changes it."""
+        """Names of gear 1 and gear 2 of the tooth form, in the order of the pair unless the form changes it."""
         return self.gear.pair
 
     @property
@@ -148,12 +149,12 @@ class GearMesh(Shown, ABC):
         """Verdict on whether these teeth can run."""
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth, with texts that do not name the pair or its file."""
+        """Yield all faults of these teeth, with texts that do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
     def friction_faults(self) -> Iterator[Problem]:
-        """Yield the fault that friction locks these teeth, if it locks them."""
+        """Yield the fault that friction locks these teeth, if they are locked."""
         from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
@@ -169,17 +170,17 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         tips : mapping of str to float
-            Tip radii [module] of wheels that have a size already, for teeth that are similar at any scale.
+            Tip radii [module] of wheels whose size is already known, for teeth that are similar at any scale.
 
         Returns
         -------
         PairSize or None
-            None if the axes are not parallel.
+            Size; None if the axes are not parallel.
         """
 
     @property
     def own_size(self) -> PairSize | None:
-        """Size of the pair without regard to other pairs of its wheels; None for intersecting axes."""
+        """Size of the pair, ignoring other pairs of its wheels; None for intersecting axes."""
         return self.size({})
 
     @property
@@ -191,35 +192,35 @@ class GearMesh(Shown, ABC):
 
     @abstractmethod
     def requirement(self, wheel: str, scale: float, tolerance: float) -> WheelRequirement:
-        """Return the requirements of this pair on the teeth of one of its wheels.
+        """Return the requirements of this pair for the teeth of one of its wheels.
 
         Parameters
         ----------
         wheel : str
             Name of the wheel.
         scale : float
-            Modules in one length unit of the teeth, as returned by `size`.
+            Number of modules in one length unit of the teeth, as returned by `size`.
         tolerance : float
             Maximum distance of a chord from a flank [module].
 
         Returns
         -------
         WheelRequirement
-            Teeth that can be compared with the requirements of the wheel's other pairs, and cut.
+            Teeth, for comparison with the requirements of the wheel's other pairs, and for cutting.
         """
 
     @property
     def path(self) -> PathOfContact | None:
-        """Path of contact from which the teeth are designed; None for forms without one."""
+        """Path of contact from which the teeth are designed; None for forms without a path of contact."""
         return None
 
     @property
     def separation(self) -> float | None:
-        """Separating force between the axes over the tangential force, without friction; None if unknown."""
+        """Separating force between the axes divided by the tangential force, without friction; None if unknown."""
         return None
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the closed outline of one wheel of the pair, as it is cut.
+        """Return the closed outline of one wheel of the pair, as cut.
 
         Parameters
         ----------
@@ -231,8 +232,8 @@ class GearMesh(Shown, ABC):
         Returns
         -------
         WheelOutline
-            A tooth is on the x axis. The two wheels mesh at `centre_distance` if a tooth space of gear 2 faces a tooth
-            of gear 1.
+            Outline with a tooth on the x axis. The two wheels mesh at `centre_distance` if a tooth space of gear 2
+            faces a tooth of gear 1.
 
         Raises
         ------
@@ -287,20 +288,20 @@ class GearMesh(Shown, ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """Nominal `TriangularSizes`, the means of random manufacturing errors. Raises `RangeError` for other tooth
-        forms.
+        """Nominal `TriangularSizes`, the mean values of random manufacturing errors. Raises `RangeError` for other
+        tooth forms.
         """
         why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Contact with displaced flanks and this wheel driving; None for teeth for which it is not modelled."""
+        """Contact with displaced flanks and this wheel driving; None for tooth forms for which it is not modelled."""
         return None
 
     @abstractmethod
     def account(self) -> PairAccount:
-        """Return the report of the pair with this driver: rows of tables and results."""
+        """Return the report of the pair with this driver: table rows and results."""
 
     def backlash_apart(self, gap: float) -> float | None:
         """Return the backlash at a centre distance other than the declared one.
@@ -308,8 +309,8 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         gap : float
-            Distance by which the wheels are too far apart [module], negative if they are too close. In a ring, wheels
-            are apart if the centre distance is too short.
+            Distance by which the wheels are too far apart [module], negative if they are too close. A wheel in a ring
+            is too far from the ring if the centre distance is too short.
 
         Returns
         -------
@@ -342,12 +343,12 @@ class GearMesh(Shown, ABC):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a tooth of the driven wheel at angle 0 [pitches past the line of centres]."""
+        """Position of a tooth of the driven wheel at angle 0, relative to the line of centres [pitch]."""
         return 0.0
 
     @property
     def rigid(self) -> bool:
-        """True if the speed ratio is constant, so that the pair affects motion by its backlash only."""
+        """True if the speed ratio is constant, so that only the backlash of the pair affects motion."""
         return isinstance(self.transmission, ExactRatio)
 
     @property
@@ -379,7 +380,7 @@ class GearMesh(Shown, ABC):
         Returns
         -------
         SlidingEfficiency
-            Mean efficiencies at constant torque of either side.
+            Mean efficiencies, at constant torque on either side.
         """
         from geartrain.teeth.pair_results import SlidingEfficiency
 
@@ -389,13 +390,13 @@ class GearMesh(Shown, ABC):
     def tells_losses(self) -> bool:
         """True if the losses can be computed.
 
-        They need a declared coefficient, or a friction law and the pitch-line speed.
+        The computation needs a declared coefficient, or a friction law and the pitch-line speed.
         """
         return self.friction is not None or (self.has_friction and self.wheels.pitch_line is not None)
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
-        """Mean efficiency as the pair is driven, and with the other wheel driving, as texts.
+        """Mean efficiency with the actual driver and with the other wheel driving, as texts.
 
         Both are "-" if no friction is declared or the pair jams.
         """
@@ -409,19 +410,19 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         driver : MeshDriver
-            The driving wheel, and the basis on which it is known.
+            Driving wheel, and how it was determined.
 
         Returns
         -------
         GearMesh
-            A copy with the transmission function for this driver.
+            Copy with the transmission function for this driver.
         """
         transmission = self.transmission if driver.wheel == self.driver else self.reversed
         return replace(self, who=driver, transmission=transmission)
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """This mesh; if the driver is not determined, the mesh with each of the two wheels driving."""
+        """This mesh as a tuple; if the driver is not determined, the mesh with each of the two wheels driving."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 

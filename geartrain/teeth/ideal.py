@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 class Ideal(ToothForm):
-    """Ideal teeth: constant speed ratio, without transmission error, backlash or loss.
+    """Ideal teeth with a constant speed ratio, without transmission error, backlash or losses.
 
-    No teeth are computed for a pair that declares them.
+    No tooth shapes are computed for a pair with this form.
 
     See Also
     --------
@@ -34,7 +34,7 @@ class Ideal(ToothForm):
     form: Literal["ideal"] = Field(description="Name of the tooth form")
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-        """Return None, because ideal teeth need no mesh beyond the ratio of tooth counts.
+        """Return None, because ideal teeth are completely described by the ratio of tooth counts.
 
         Parameters
         ----------
@@ -46,7 +46,7 @@ class Ideal(ToothForm):
         Returns
         -------
         None
-            No mesh.
+            Ideal teeth have no mesh.
         """
 
     def transmission(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
@@ -62,7 +62,7 @@ class Ideal(ToothForm):
         Returns
         -------
         ExactRatio
-            Driven angle = ratio times driver angle.
+            Transmission function: driven angle = ratio times driver angle.
         """
         first, second = (z1, z2) if driver == 1 else (z2, z1)
         return ExactRatio(Fraction(first, second), 2 * pi / first)

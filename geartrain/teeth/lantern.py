@@ -32,9 +32,9 @@ def _first_or_second(raw: object) -> object:
 
 
 class Lantern(ConjugateToothForm):
-    """Round pins on one wheel, the lantern, and conjugate teeth on its mate.
+    """Lantern gear: round pins on one wheel, and conjugate teeth on its mate.
 
-    A tooth profile is the parallel curve of the epicycloid of the pins' centres, at the distance of a pin radius
+    The tooth profile is the parallel curve, at the distance of a pin radius, of the epicycloid of the pin centres
     (docs/shapes.md). By default all contact is on one side of the pitch point.
 
     See Also
@@ -85,12 +85,12 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None; another centre distance than the design distance is rejected.
+        """Return None; a centre distance other than the design distance is rejected.
 
         Returns
         -------
         None
-            The centre distance is that of the design.
+            The centre distance is equal to the design distance.
 
         Raises
         ------
@@ -100,8 +100,9 @@ class Lantern(ConjugateToothForm):
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
-                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off its design",
-                    "its mate keeps the ratio at the design distance only, and other distances are not modelled",
+                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off the design "
+                    "distance",
+                    "the ratio is constant only at the design distance, and other distances are not modelled",
                     "remove `centre_distance`, or give another tooth_form",
                 )
             )
@@ -145,9 +146,9 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair whose total arc of contact equals the sum of `arcs`, all of it in recess.
+        """Return the pair whose arc of contact is the sum of `arcs`, all of it in recess.
 
-        The arc is extended by the part that the approaching pins cut off the mate's flanks.
+        The arc is extended by the part of the mate's flanks that the approaching pins cut off.
 
         Parameters
         ----------
@@ -191,7 +192,7 @@ class Lantern(ConjugateToothForm):
         Returns
         -------
         LanternPins
-            Lengths in modules.
+            Pins, with lengths in modules.
         """
         from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
@@ -208,7 +209,8 @@ class Lantern(ConjugateToothForm):
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"its radius is {R:.6g} modules and that of a pin {B:.6g}, so no contact passes the pitch point",
+                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact passes the pitch "
+                "point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
         # chord between the centres of two adjacent pins
@@ -242,5 +244,5 @@ class Lantern(ConjugateToothForm):
 
 def _not_covered(what: str, why: str) -> RangeError:
     return RangeError(
-        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or give another tooth_form")
+        Problem(f"{what} is not modelled", why, "let a spur wheel carry the pins, or give another tooth_form")
     )

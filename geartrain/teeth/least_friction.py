@@ -27,11 +27,12 @@ _MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of minimum friction: constant pressure angle from the pitch point, then minimum contact speed.
+    """Teeth of minimum friction, with a constant pressure angle near the pitch point and the minimum contact speed
+    further out.
 
-    Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead:
-    its pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair
-    (docs/sources.md).
+    `margin` is the minimum speed of the contact along the dedendum. `literal` selects the extremal printed in the
+    source instead: its pressure angles exceed 45 deg, it does not include the pitch point, and it cannot be used as a
+    pair (docs/sources.md).
 
     See Also
     --------
@@ -83,7 +84,9 @@ class LeastFriction(ConjugateToothForm):
     def _check_usual(self) -> LeastFriction:
         if self.pressure_angles is not None:
             raise bad(
-                "literal", "pressure_angles are for the literal shape only", "give `pressure_angle`, or `literal: true`"
+                "literal",
+                "pressure_angles apply only to the literal shape",
+                "give `pressure_angle`, or `literal: true`",
             )
         if self.pressure_angle is not None:
             check_angle("pressure_angle", self.pressure_angle, 0.125)
@@ -124,7 +127,7 @@ class LeastFriction(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
+            If these wheels cannot have such teeth. The error message suggests possible sizes.
         """
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair over a period: driven over driver, without sign.
+    """Speed ratio of a pair over a period: driven speed divided by driver speed, without sign.
 
     See Also
     --------
@@ -37,7 +37,7 @@ class SpeedRatio(Result):
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
 
     mean: Fraction
-    """Ratio of tooth numbers; of a pin coupling, the winding number."""
+    """Mean ratio: the ratio of tooth numbers, or the winding number of a pin coupling."""
     minimum: float
     """Minimum ratio over a period."""
     maximum: float
@@ -61,7 +61,7 @@ class SpeedRatio(Result):
 
     @property
     def relative(self) -> tuple[float, float]:
-        """Minimum and maximum ratio over the mean ratio."""
+        """Minimum and maximum ratio divided by the mean ratio."""
         return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
@@ -93,7 +93,7 @@ class TransmissionError(Result):
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
-        """Return the transmission error of a transmission function.
+        """Return the results for a transmission function.
 
         Parameters
         ----------
@@ -103,7 +103,7 @@ class TransmissionError(Result):
         Returns
         -------
         TransmissionError
-            Peak to peak, rms and mean over one period.
+            Peak-to-peak, rms and mean value over one period.
         """
         low, high = transmission.error_range()
         mean, rms = transmission.error_moments()
@@ -117,11 +117,12 @@ class TransmissionError(Result):
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Output power over input power of a pair with friction, computed from its transmission function on request.
+    """Efficiency of a pair with friction (output power divided by input power), computed from its transmission function
+    on request.
 
-    The torques of both sides cannot be constant over a turn at the same time. `mean` is the efficiency at constant
-    torque of the driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None
-    if friction locks the pair.
+    The torques on both sides cannot be constant at the same time. `mean` is the efficiency at constant torque of the
+    driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None if friction
+    locks the pair.
 
     See Also
     --------
@@ -159,7 +160,9 @@ class SlidingEfficiency(Result):
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work output over work input at constant load torque; None if friction locks the pair or no work is done."""
+        """Work output divided by work input at constant load torque; None if friction locks the pair or no work is
+        done.
+        """
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property
@@ -169,7 +172,7 @@ class SlidingEfficiency(Result):
 
     @property
     def locking_friction(self) -> float | None:
-        """Minimum coefficient of friction that locks the pair; None if no coefficient does."""
+        """Minimum coefficient of friction that locks the pair; None if no coefficient locks it."""
         return finite(self.transmission.locking_friction)
 
     @property
@@ -213,7 +216,7 @@ class ToothFault(Result):
 
 @dataclass(frozen=True, slots=True)
 class PairVerdict(Result):
-    """Verdict on a pair of wheels; it is true if the pair can run.
+    """Verdict on whether a pair of wheels can run. It is true if the pair can run.
 
     See Also
     --------
@@ -230,9 +233,9 @@ class PairVerdict(Result):
     KEYS = ("kind", "text", Key("backlash", to=finite), "faults", "why", "fix")
 
     kind: str
-    """"runs", or the kind of the first fault."""
+    """Kind of the verdict: "runs", or the kind of the first fault."""
     text: str
-    """Text that states the verdict."""
+    """Verdict in words."""
     backlash: float
     """Minimum backlash of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
@@ -252,17 +255,17 @@ class PairVerdict(Result):
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """Return the verdict with a single fault that has the given cause and remedy.
+        """Return the verdict with a single fault, which has the given cause and remedy.
 
         Parameters
         ----------
         why, fix : str
-            Reason of the fault, and its remedy.
+            Cause of the fault, and its remedy.
 
         Returns
         -------
         PairVerdict
-            A copy with one fault, of the pair as a whole.
+            Copy with one fault of the pair as a whole.
         """
         return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
 

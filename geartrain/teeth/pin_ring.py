@@ -22,10 +22,10 @@ _PIN_SPACING = 1.7  # default distance of two pins over the diameter of a pin
 
 
 class PinRing(ToothForm):
-    """Lobed disc of a cycloidal reducer in a ring of round pins, one pin more than lobes.
+    """Lobed disc of a cycloidal reducer in a ring of round pins, which has one pin more than the disc has lobes.
 
-    The speed ratio is constant, and half of all pins carry load. The module is twice the eccentricity, since the centre
-    of the disc is half a module from the centre of the ring (docs/reducers.md).
+    The speed ratio is constant, and half of all pins carry load. The centre of the disc is half a module from the
+    centre of the ring, so that the module is twice the eccentricity (docs/reducers.md).
 
     See Also
     --------
@@ -75,7 +75,7 @@ class PinRing(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of figures that includes the loads on the pins."""
+        """Return the class of results that includes the loads on the pins."""
         from geartrain.teeth.cycloidal_disc import DiscFigures
 
         return DiscFigures
@@ -93,12 +93,12 @@ class PinRing(ToothForm):
         Returns
         -------
         CycloidalDisc
-            Lengths in modules.
+            Disc, with lengths in modules.
 
         Raises
         ------
         GearTrainError
-            If these sizes do not give a disc.
+            If no disc with these sizes exists.
         """
         from geartrain.teeth.cycloidal_disc import CycloidalDisc
 
@@ -106,7 +106,7 @@ class PinRing(ToothForm):
         if lobes < 3:
             raise refused(
                 f"a disc of {lobes} lobes cannot run",
-                "with fewer lobes too few pins press on the disc",
+                "with fewer than 3 lobes, too few pins press on the disc",
                 "give 3 lobes or more",
             )
         circle = pins / 2 / _SHORTENING if self.pin_circle is None else self._modules("pin_circle", module)
@@ -157,23 +157,23 @@ class PinRing(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Number of lobes of the disc, and number of pins of the ring, which is one more.
+            Number of lobes of the disc, and number of pins of the ring, which is larger by one.
         friction : float
             Coefficient of friction of pins that do not roll, 0 or more.
         driver : {1, 2}
-            Number of the driving wheel in the frame of the eccentric.
+            Number of the driving wheel, in the reference frame of the eccentric.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         DiscTransmission
-            Exact ratio at every instant.
+            Transmission function with a constant ratio.
 
         Raises
         ------
         GearTrainError
-            If these sizes do not give a disc.
+            If no disc with these sizes exists.
         """
         from geartrain.teeth.cycloidal_disc import DiscTransmission
 
@@ -186,12 +186,12 @@ class PinRing(ToothForm):
         return DiscTransmission(self.disc(z1, module), friction, driver)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a disc and its ring; the pair may name them in either order.
+        """Return the mesh of a disc and its ring. The pair may name them in either order.
 
         Returns
         -------
         GearMesh
-            The pair as a train uses it.
+            Mesh for the analysis of a train.
         """
         from geartrain.teeth.cycloidal_disc import DiscMesh
 
@@ -220,13 +220,13 @@ class PinRing(ToothForm):
             return None
         why = f"the declared clearance of {self.clearance.text} takes precedence over --backlash"
         return Problem(
-            f"pair '{pair}' has a clearance of its own",
+            f"pair '{pair}' declares its own clearance",
             why,
             "omit --backlash, or remove `clearance` from the file",
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:
-        """Return a copy with the clearance from the pins that gives this backlash.
+        """Return a copy whose clearance from the pins gives the given backlash.
 
         Parameters
         ----------
@@ -236,7 +236,7 @@ class PinRing(ToothForm):
         Returns
         -------
         PinRing
-            A copy with this `clearance`.
+            Copy with this `clearance`.
         """
         half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
         return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

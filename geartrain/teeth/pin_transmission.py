@@ -116,24 +116,24 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
 class PinToSlotTransmission(PinTransmission):
     """Transmission function of a pin that drives a slot.
 
-    The slot angle is S + atan2(e sin S, r - e cos S) for r > e, else -atan2(r sin S, e - r cos S). The mean ratio is 1
-    if the pin's circle encloses the slot's axis (r > e), else 0. In that case the follower's angle is measured from the
-    direction that points from its axis to the pin's. The efficiency is 1/(1 + f |tan d|), with d the angle between pin
-    radius and slot, also on the return stroke of a follower.
+    The slot angle is S + atan2(e sin S, r - e cos S) for r > e, and -atan2(r sin S, e - r cos S) for r < e. The mean
+    ratio is 1 if the pin's circle encloses the slot's axis (r > e), otherwise 0. With a mean ratio of 0 the slot is a
+    follower, whose angle is measured from the direction from its axis to the pin's axis. The efficiency is 1/(1 + f
+    |tan d|), with d the angle between pin radius and slot, also on the return stroke of a follower.
 
     Parameters
     ----------
     pin_radius : float
         Distance r of the pin from its own axis, above 0, in the unit of the offset.
     offset : float
-        Distance e of the two axes, 0 or more and different from r.
+        Distance e between the two axes, 0 or more and different from r.
     friction : float
         Coefficient of friction f of the pin along the slot, 0 or more.
 
     Raises
     ------
     RangeError
-        For distances out of range, and if the pin passes through the slot's axis.
+        If a distance is out of range, or if the pin passes through the slot's axis.
 
     See Also
     --------
@@ -187,9 +187,10 @@ class PinToSlotTransmission(PinTransmission):
         return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio.
+        """Return the minimum and maximum speed ratio.
 
-        They are 1/(1 + e/r), where the pin is farthest from the slot's axis, and 1/(1 - e/r), where it is nearest.
+        The ratios are 1/(1 + e/r), where the pin is farthest from the slot's axis, and 1/(1 - e/r), where it is
+        nearest.
         """
         far, near = self.r / (self.r + self.e), self.r / (self.r - self.e)
         return min(far, near), max(far, near)
@@ -209,7 +210,7 @@ class PinToSlotTransmission(PinTransmission):
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over a turn of the pin, at constant torque on the pin."""
+        """Return the mean efficiency over a turn of the pin at constant torque on the pin."""
         if self.r > self.e:
             return mean_over_the_pin(self.r, self.e, self.friction)
         return float(np.mean(self.efficiency(self._turn_samples())))
@@ -217,14 +218,14 @@ class PinToSlotTransmission(PinTransmission):
     def efficiency_at_constant_load(self) -> float:
         """Return the efficiency 1/(1 + (f/pi) ln((r + e)/(r - e))) at constant torque on the slot; NaN for a follower.
 
-        Without friction a constant torque on a follower returns on one half of its swing the work taken on the other.
+        Without friction, the work of a constant torque on a follower is 0 over a swing.
         """
         return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, at the maximum of d with sin d = e/r.
+        """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r.
 
-        It is 0 for a follower with friction, at its dead points.
+        It is 0 for a follower with friction, which has dead points.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -239,16 +240,16 @@ class SlotToPinTransmission(PinTransmission):
     Parameters
     ----------
     pin_radius : float
-        Distance r of the pin from its own axis, above the offset and in its unit.
+        Distance r of the pin from its own axis, larger than the offset and in the same unit.
     offset : float
-        Distance e of the two axes, 0 or more.
+        Distance e between the two axes, 0 or more.
     friction : float
-        Coefficient of friction f of the pin along the slot, 0 or more. The pin locks from sqrt(r^2 - e^2)/e.
+        Coefficient of friction f of the pin along the slot, 0 or more. The pin locks if f is sqrt(r^2 - e^2)/e or more.
 
     Raises
     ------
     RangeError
-        For distances out of range, and for a follower, which cannot drive its pin.
+        If a distance is out of range, or if the slot is a follower, which cannot drive its pin.
 
     See Also
     --------
@@ -300,7 +301,7 @@ class SlotToPinTransmission(PinTransmission):
         return self.e * np.sin(S), along
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio, 1 - e/r and 1 + e/r."""
+        """Return the minimum and maximum speed ratio, 1 - e/r and 1 + e/r."""
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def efficiency(self, S: ArrayLike) -> Floats:
@@ -315,7 +316,7 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot, at constant torque on the
+        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot at constant torque on the
         slot.
 
         It is NaN if friction locks.
@@ -323,11 +324,13 @@ class SlotToPinTransmission(PinTransmission):
         return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input at constant torque on the pin; NaN if friction locks."""
+        """Return work output divided by work input at constant torque on the pin; NaN if friction locks the pin."""
         return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, at the maximum of d with sin d = e/r; NaN if friction locks."""
+        """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r; NaN if friction locks the
+        pin.
+        """
         return nan if self._locks else 1 - self.friction * self._maximum_tangent
 
     @property

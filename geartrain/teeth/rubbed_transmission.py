@@ -36,11 +36,11 @@ class _Nodes(NamedTuple):
 
 
 class RubbedTransmission(DerivedTransmission):
-    """Transmission function with friction that depends on speed.
+    """Transmission function of a pair with friction that depends on speed.
 
-    The motion is that of the given transmission function. Losses are computed at each contact: at a driver angle at
-    which teeth slide at the speed v, the coefficient is mu(v), and a contact transmits (1 + mu out) / (1 + mu into) of
-    its power (docs/shapes.md, section 15). Simultaneous contacts take equal shares of the driver's torque.
+    The motion is equal to the motion of the given transmission function. Losses are computed at each contact: for the
+    sliding speed v, the coefficient is mu(v), and the contact transmits the fraction (1 + mu out) / (1 + mu into) of
+    its power (docs/shapes.md, section 15). Simultaneous contacts share the driver's torque equally.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class RubbedTransmission(DerivedTransmission):
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN without contact or if friction locks."""
+        """Return the efficiency at driver angles S [rad]; NaN without contact, or if friction locks the teeth."""
         return self._contact_means(self.rubbing(S))[0]
 
     def _contact_means(self, rubbing: ContactRubbing) -> tuple[Floats, Floats]:
@@ -167,20 +167,22 @@ class RubbedTransmission(DerivedTransmission):
         return _Nodes(S, (high - low) / 2 * w, *self._contact_means(self.rubbing(S)))
 
     def efficiency_mean(self) -> float:
-        """Return the mean of the efficiency over the driver angles with contact, at constant driver torque; NaN if
-        friction locks.
+        """Return the mean efficiency over the driver angles with contact, at constant driver torque; NaN if friction
+        locks the teeth.
         """
         return nan if self.locks else float(self._period_nodes.weights @ self._period_nodes.efficiency)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
+        teeth.
+        """
         if self.locks:
             return nan
         speed, at = self.speed(self._period_nodes.S), self._period_nodes
         return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency among the nodes and the ends of all smooth intervals; NaN if friction locks."""
+        """Return the minimum efficiency at nodes and ends of all smooth intervals; NaN if friction locks the teeth."""
         if self.locks:
             return nan
         if self.transmission.rubbing_nodes() is not None:

@@ -128,10 +128,10 @@ def check_size(z: int) -> None:
     """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
         what, why = (
-            f"the teeth of a wheel of {z} are not modelled",
-            f"wheels of at most {MOST_TEETH} teeth are modelled",
+            f"the teeth of a wheel with {z} teeth cannot be built",
+            f"the maximum is {MOST_TEETH} teeth",
         )
-        raise GearTrainError(Problem(what, why, "use a plain disc to represent it"))
+        raise GearTrainError(Problem(what, why, "represent the wheel by a plain disc"))
 
 
 @lru_cache(maxsize=4096)

@@ -65,15 +65,16 @@ class ContactRubbing(NamedTuple):
 
 
 class TransmissionFunction(Shown, ABC):
-    """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle S.
+    """Transmission function of a pair: driven angle q, speed ratio and efficiency as functions of the driver's forward
+    angle S.
 
     The transmission error is q - ratio S, positive if the driven side is ahead of uniform motion. Its mean is a
-    constant lag that depends on the zero of the angles. It is included in the error, but not in the rms.
+    constant lag that depends on the zero of the angles. The lag is included in the error but not in the rms value.
 
     Attributes
     ----------
     ratio : Fraction
-        Exact mean of the speed ratio, driven over driver, without sign.
+        Exact mean of the speed ratio, driven speed divided by driver speed, without sign.
     period : float
         Period of the transmission function [rad of the driver].
     friction : float
@@ -135,7 +136,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency, output power over input power, at driver angles S.
+        """Return the efficiency (output power divided by input power) at driver angles S.
 
         Parameters
         ----------
@@ -150,11 +151,11 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio over a period."""
+        """Return the minimum and maximum speed ratio over a period."""
 
     @abstractmethod
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error over a period [rad of the driven side]."""
+        """Return the minimum and maximum transmission error over a period [rad of the driven side]."""
 
     @abstractmethod
     def error_moments(self) -> tuple[float, float]:
@@ -162,19 +163,21 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angle at constant driver torque; NaN if friction locks."""
+        """Return the mean efficiency over the driver angle at constant driver torque; NaN if the pair is locked."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input at constant load torque; NaN if friction locks."""
+        """Return work output divided by work input at constant load torque; NaN if friction locks the pair."""
 
     @abstractmethod
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency at any driver angle; NaN if friction locks."""
+        """Return the minimum efficiency at any driver angle; NaN if friction locks the pair."""
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction that locks the pair at some driver angle; infinite if no coefficient does."""
+        """Minimum coefficient of friction that locks the pair at some driver angle; infinite if no coefficient locks
+        it.
+        """
         return inf
 
     @property
@@ -198,16 +201,16 @@ class TransmissionFunction(Shown, ABC):
         Raises
         ------
         RangeError
-            For transmission functions whose sliding is not known.
+            If the sliding speed of the transmission function is not known.
         """
-        what = "the sliding of this pair is not known"
+        what = "the sliding speed of this pair is not known"
         why = "sliding speeds are computed for pairs of teeth only"
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing] | None:
         """Return driver angles of a period [rad], quadrature weights, and `rubbing` at these angles.
 
-        Only functions that are slow to evaluate at other angles return them. None means that any angles may be used.
+        Only functions that are slow to evaluate at other angles return nodes. None means that any angles may be used.
         """
         return None
 
@@ -218,7 +221,7 @@ class TransmissionFunction(Shown, ABC):
         return []
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return all upward steps of the speed ratio in one pitch, at impacts of teeth; None if they are not
+        """Return all upward steps of the speed ratio within one pitch, which are impacts of teeth; None if they are not
         computed.
         """
         return None
@@ -227,13 +230,13 @@ class TransmissionFunction(Shown, ABC):
         """Return the maximum of -d(speed ratio)/dS between impacts [1/rad]; 0 if the speed ratio never decreases.
 
         While the speed ratio falls, a driven inertia J tends to run ahead of the driver. The teeth stay in contact at a
-        driver speed w if the load torque is at least J w^2 times this rate. Return None for functions for which it is
+        driver speed w if the load torque is at least J w^2 times the returned value. None is returned if the value is
         not known.
         """
         return None
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission error and speed ratio, computed together if that is faster.
+        """Return transmission error and speed ratio, computed together where that is faster.
 
         Parameters
         ----------
@@ -248,13 +251,13 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function for a driver that turns backwards; it differs for teeth with backlash."""
+        """Return the transmission function for a driver that turns backwards, which differs for teeth with backlash."""
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
         """Return the transmission function for selected columns of an array of angles.
 
-        It differs only if each column of angles has a transmission function of its own.
+        The result differs from this function only if each column of angles has its own transmission function.
 
         Parameters
         ----------

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 class UniformStress(ConjugateToothForm):
-    """Teeth of uniform Hertz stress, the shortest teeth for a given maximum contact pressure.
+    """Teeth of uniform Hertz stress: the shortest teeth for a given maximum contact pressure.
 
-    The pressure is the same at every instant while one tooth pair bears the load (docs/shapes.md).
+    The contact pressure is constant while one tooth pair carries the load (docs/shapes.md).
 
     See Also
     --------
@@ -54,7 +54,7 @@ class UniformStress(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
+            If these wheels cannot have such teeth. The error message suggests possible sizes.
         """
         from geartrain.teeth.conjugate.optimal_sides import uniform_stress
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none

@@ -24,12 +24,12 @@ _INVOLUTE = pi / 9  # 20 deg: the working depth of this involute is the default
 
 
 class UniformTemperature(ConjugateToothForm):
-    """Teeth of uniform temperature: the frictional heat per area of profile is the same at every instant.
+    """Teeth of uniform temperature: the frictional heat per area of profile is constant.
 
-    There are three readings of the source. In reading a, the heat is uniform on the first wheel. In reading b, it is
-    uniform on the hotter profile of the two, which is always the dedendum. Reading c is reading b with a constant
-    pressure angle from the pitch point until that heat is reached, which keeps the stress finite there
-    (docs/shapes.md).
+    There are three readings of the source. In reading a, the heat is uniform on the profile of the first wheel. In
+    reading b, it is uniform on the hotter of the two profiles, which is always the dedendum. Reading c is reading b,
+    except that the pressure angle is constant from the pitch point until that heat is reached, so that the stress at
+    the pitch point is finite (docs/shapes.md).
 
     See Also
     --------
@@ -76,7 +76,7 @@ class UniformTemperature(ConjugateToothForm):
             if self.reading != "c":
                 raise bad(
                     "pressure_angle",
-                    "minimum_angle is for reading c only",
+                    "minimum_angle applies only to reading c",
                     "give `reading: c`, or remove `minimum_angle`",
                 )
             check_angle("minimum_angle", self.minimum_angle)
@@ -89,7 +89,7 @@ class UniformTemperature(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
+            If these wheels cannot have such teeth. The error message suggests possible sizes.
         """
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

@@ -46,14 +46,15 @@ if TYPE_CHECKING:
 
 
 class Epoch(Declared):
-    """A date, and the turns that the input has made by then since all pointers were at the start of their scales.
+    """Date at a given position of the train: number of turns of the input since all pointers were at the start of their
+    scales.
 
-    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar and later
-    ones in the Gregorian calendar, unless `calendar` is given. A plain text is the date.
+    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar and later ones
+    in the Gregorian calendar, unless `calendar` is given. In a declaration, a plain text is read as the date.
 
     See Also
     --------
-    Train : has it as `epoch`
+    Train : its field `epoch`
 
     Examples
     --------
@@ -112,7 +113,7 @@ DeclaredEpoch = Annotated[Epoch, short_for("date")]
 
 @dataclass(frozen=True, slots=True)
 class FrictionInForce:
-    """Friction in force at a gear pair or a coupling.
+    """Effective friction of a gear pair or coupling, declared for it or for the whole train.
 
     Examples
     --------
@@ -123,7 +124,7 @@ class FrictionInForce:
     """
 
     sliding: float | None
-    """Coefficient of sliding friction; None if it follows a friction law."""
+    """Coefficient of sliding friction; None if the coefficient follows a friction law."""
     static: float
     """Coefficient of static friction; for a friction law, its value at speed 0."""
     deviation: float = 0.0
@@ -133,7 +134,7 @@ class FrictionInForce:
 
     @property
     def has_friction(self) -> bool:
-        """True for a friction law, and for a coefficient above 0."""
+        """True for a friction law or for a coefficient above 0."""
         return self.law is not None or bool(self.sliding) or self.static > 0
 
 
@@ -156,12 +157,12 @@ def _read_source(raw: object) -> object:
 
 
 class Train(Declared):
-    """A gear train: its links with their wheels, turning pairs, gear pairs and couplings, inputs and outputs.
+    """Declaration of a gear train: links with their wheels, turning pairs, gear pairs, couplings, inputs and outputs.
 
     See Also
     --------
-    declare : makes one from plain data; an example
-    geartrain.GearTrain : answers questions about one
+    declare : Build a train from plain data, with an example.
+    geartrain.GearTrain : Analyse a train.
     """
 
     name: str = Field("train", description="Short name, preferably that of the file")
@@ -260,7 +261,8 @@ class Train(Declared):
         return summary_line("Train", f"{self.name}: {counts}{more}")
 
     def place(self, *loc: str | int) -> str:
-        """Return the place where a value was written: `file.yaml:12`, or its path if it did not come from a file.
+        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it did not come
+        from a file.
 
         Parameters
         ----------
@@ -271,69 +273,73 @@ class Train(Declared):
 
     @cached_property
     def wheels(self) -> Mapping[str, tuple[str, Wheel]]:
-        """Every wheel by id, as a pair of the name of its link and the wheel."""
+        """All wheels by name, each as a pair of the name of its link and the wheel."""
         return {name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()}
 
     def form_of(self, gear: GearPair) -> DeclaredToothForm | None:
-        """Return the tooth form of a gear pair, by default the train's; None if neither is declared.
+        """Return the tooth form of a gear pair, by default the tooth form of the train; None if neither is declared.
 
         Parameters
         ----------
         gear : GearPair
-            A pair of this train.
+            Gear pair of this train.
         """
         return gear.tooth_form or self.tooth_form
 
     def friction_of(self, part: GearPair | Coupling) -> FrictionInForce | None:
-        """Return the friction of a pair's teeth, by default the train's, or of a coupling's pin; None if not declared.
+        """Return the friction of a gear pair, by default the friction of the train, or of a coupling's pin; None if it
+        is not declared.
 
         Parameters
         ----------
         part : GearPair or PinAndSlot or PinFollower
-            A pair or coupling of this train.
+            Gear pair or coupling of this train.
         """
         return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Return the stiffness of a pair's teeth: the pair's, else the tooth form's, else the train's.
+        """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of
+        the train.
 
         Parameters
         ----------
         gear : GearPair
-            A pair of this train.
+            Gear pair of this train.
         """
         form = self.form_of(gear)
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Return the damping of a pair's teeth: the pair's, else the tooth form's, else the train's.
+        """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the
+        train.
 
         Parameters
         ----------
         gear : GearPair
-            A pair of this train.
+            Gear pair of this train.
         """
         form = self.form_of(gear)
         return gear.damping or (form.damping if form is not None else None) or self.damping
 
     def restitution_of(self, part: GearPair | Coupling) -> float | None:
-        """Return the coefficient of restitution of a pair or coupling, by default the train's; None if not declared.
+        """Return the coefficient of restitution of a pair or coupling, by default of the train; None if it is not
+        declared.
 
         Parameters
         ----------
         part : GearPair or PinAndSlot or PinFollower
-            A pair or coupling of this train.
+            Gear pair or coupling of this train.
         """
         found = self.restitution if part.restitution is None else part.restitution
         return None if found is None else float(found.value)
 
     @property
     def cases(self) -> tuple[StateCase, ...]:
-        """Prescriptions in each state; one case for a train without states."""
+        """Prescriptions in each state; a single case for a train without states."""
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def case(self, state: str | None) -> StateCase:
-        """Return everything that is prescribed in one state.
+        """Return all prescriptions in one state: inputs, brakes, locks, loads and drive.
 
         Parameters
         ----------
@@ -386,18 +392,19 @@ class Train(Declared):
             Name of the state; None is always accepted.
         """
         if state is not None and state not in self.states:
-            fix = suggest(state, self.states) if self.states else "leave the state out"
+            fix = suggest(state, self.states) if self.states else "omit the state"
             raise QuestionError(
                 Problem(f"'{self.name}' has no state '{state}'", "a state must be declared under `states`", fix)
             )
 
     def single_state(self, state: str | None) -> str | None:
-        """Return the given state, or the only one. Raises `QuestionError` if there are several and none is given.
+        """Return the given state, or the only state. Raises `QuestionError` if there are several states and none is
+        given.
 
         Parameters
         ----------
         state : str or None
-            Name of a state; None for the only one, or for a train without states.
+            Name of a state; None for the only state, or for a train without states.
         """
         if state is None and len(self.states) > 1:
             names = ", ".join(self.states)
@@ -408,12 +415,12 @@ class Train(Declared):
         return next(iter(self.states), None) if state is None else state
 
     def state_or_first(self, state: str | None) -> str | None:
-        """Return the given state, else the first declared one; None for a train without states.
+        """Return the given state, by default the first declared state; None for a train without states.
 
         Parameters
         ----------
         state : str or None
-            A declared state, or None.
+            Name of a declared state, or None.
         """
         return next(iter(self.states), None) if state is None else state
 
@@ -424,7 +431,7 @@ class Train(Declared):
 
     @property
     def has_inertia(self) -> bool:
-        """True if at least one link has a moment of inertia, declared or from the density of its wheels."""
+        """True if the inertia of at least one link is declared, or follows from the density of its wheels."""
         wheels = (wheel.density is not None for _, wheel in self.wheels.values())
         return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
 
@@ -441,7 +448,7 @@ class Train(Declared):
         return bool(torques) and all(torque.unit is not None for torque in torques)
 
     def is_loaded(self, state: str | None) -> bool:
-        """Return True if the declaration determines torques, by loads or by friction of bearings.
+        """Return True if torques are declared, by loads or by friction of bearings.
 
         Parameters
         ----------
@@ -464,7 +471,9 @@ class Train(Declared):
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit in which inputs with a unit are shown: that of the first one that is not 0, else of the first; or ""."""
+        """Unit in which inputs are shown: the unit of the first input that is not 0, otherwise of the first input; ""
+        without units.
+        """
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         if len(groups) == len(self.states) and groups:
             speeds = [speed for group in groups for speed in group.values()]
@@ -475,7 +484,7 @@ class Train(Declared):
 
     @property
     def unit_speed(self) -> Fraction | None:
-        """A speed of 1 [turn/s]; None for plain numbers, and if the unit is a length."""
+        """Speed of 1 in the unit of the train [turn/s]; None for plain numbers, or if the unit is a length."""
         if self.unit is not None:
             return None if self.unit_days is None else 1 / (self.unit_days * 86400)
         return Quantity(Fraction(1), self.input_unit, "1").base if self.input_unit else None
@@ -493,7 +502,7 @@ class Train(Declared):
 
     @property
     def unit_base(self) -> Fraction | None:
-        """The unit in seconds or metres; None if no unit is declared."""
+        """Unit of the train in seconds or metres; None if no unit is declared."""
         quantity = self.unit_quantity
         if quantity is not None:
             return quantity.base
@@ -501,7 +510,7 @@ class Train(Declared):
 
     @property
     def unit_quantity(self) -> Quantity | None:
-        """The unit as a quantity (a time or a length); None if it is a named period or not declared."""
+        """Unit of the train as a quantity (a time or a length); None if it is a named period, or not declared."""
         if self.unit is None or self.unit.per in period_table():
             return None
         try:
@@ -511,12 +520,12 @@ class Train(Declared):
 
     @property
     def unit_name(self) -> str:
-        """Unit of speeds for readers, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
+        """Name of the unit of speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
         if self.unit is not None:
             row = period_table().get(self.unit.per)
             return f"turns per {(row.what if row else '') or str(self.unit.per).removeprefix('1 ')}"
         return self.input_unit
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
-        """Yield the name and wheel of every tooth count that is declared with a range or choices."""
+        """Yield the name and the wheel of every tooth count that is declared with a range or choices."""
         return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.uncertainty)

@@ -135,7 +135,7 @@ def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
 
 
 def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
-    """Read evidence: a declaration with `reconstruct`.
+    """Read evidence for a reconstruction: a declaration with `reconstruct`.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     Raises
     ------
     DeclarationError
-        If it cannot be read, or if it is a train without `reconstruct`.
+        If the declaration cannot be read, or does not contain `reconstruct`.
 
     Examples
     --------
@@ -281,7 +281,12 @@ def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[
         if at == _MOST_PARENTS:
             why = f"at most {_MOST_PARENTS} levels of inheritance are allowed"
             raise DeclarationError(
-                Problem("the chain of `extends` is too long", why, "write one of the parents out in full", place)
+                Problem(
+                    "the chain of `extends` is too long",
+                    why,
+                    "write the keys of one of the parents into its child",
+                    place,
+                )
             )
         met[path.resolve()] = None
         folder, node = path.parent, parse_yaml(_read(path), str(path))

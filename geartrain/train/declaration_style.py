@@ -29,17 +29,17 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    r"""Rewrite a declaration with turning pairs grouped by axis and gear pairs as `a ~ b`, if they have no other keys.
+    r"""Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs without other keys as `a ~ b`.
 
     Parameters
     ----------
     text : str
-        A declaration in YAML.
+        Declaration in YAML.
 
     Returns
     -------
     str
-        The same declaration; comments are kept.
+        Same declaration in short form; comments are preserved.
 
     Examples
     --------
@@ -50,17 +50,17 @@ def with_short_forms(text: str) -> str:
 
 
 def with_long_forms(text: str) -> str:
-    r"""Rewrite a declaration with every turning pair and every gear pair as a separate mapping.
+    r"""Rewrite a declaration in long form: every turning pair and every gear pair is a separate mapping.
 
     Parameters
     ----------
     text : str
-        A declaration in YAML.
+        Declaration in YAML.
 
     Returns
     -------
     str
-        The same declaration; comments are kept.
+        Same declaration in long form; comments are preserved.
 
     Examples
     --------

@@ -58,11 +58,11 @@ _STRENGTH = "give for example 200 MPa"
 
 
 class Material(Declared):
-    """Properties of a material that strength calculations need.
+    """Properties of a material for strength calculations.
 
     See Also
     --------
-    Train : has its own as `materials`, by name
+    Train : its field `materials`, by name
 
     Examples
     --------
@@ -94,7 +94,7 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Vickers hardness as a pressure [Pa]: force over the surface area of the indentation."""
+        """Vickers hardness as a pressure [Pa]: force divided by the surface area of the indentation."""
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 
@@ -106,7 +106,7 @@ class ArborSizes(Declared):
 
     See Also
     --------
-    Link : has it as `arbor`
+    Link : its field `arbor`
     """
 
     diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
@@ -120,12 +120,13 @@ class ArborSizes(Declared):
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """Return the shipped table of materials by name. A material of the same name in a train takes precedence.
+    """Return the shipped material table by name. A material of the same name in a train takes precedence.
 
     Returns
     -------
     mapping of str to Material
-        Handbook means with source and spread. They do not guarantee the strength of an individual sheet or bar.
+        Mean values from handbooks, with source and spread. They do not guarantee the strength of an individual sheet or
+        bar.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -208,11 +209,11 @@ class MeasuredTeeth(Declared):
 
 
 class WheelManufacture(Declared):
-    """Manufacturing errors of the teeth of a wheel. Errors that are not declared are 0.
+    """Manufacturing errors of the teeth of a wheel. Undeclared errors are 0.
 
     See Also
     --------
-    Wheel : has it as `cutting`
+    Wheel : its field `cutting`
     Train : default of all other wheels
     """
 
@@ -265,11 +266,11 @@ class Filing(Declared):
 
 
 class PairMounting(Declared):
-    """Mounting errors of the axes of a gear pair. Errors that are not declared are 0.
+    """Mounting errors of the axes of a gear pair. Undeclared errors are 0.
 
     See Also
     --------
-    GearPair : has it as `fitting`
+    GearPair : its field `fitting`
     Train : default of all other pairs
     """
 

@@ -84,11 +84,12 @@ FrictionTorque = Annotated[Torque, AfterValidator(_not_negative)]
 
 
 class BearingFriction(Declared):
-    """Friction torque of a bearing, independent of load and speed. A plain torque is read as `sliding`.
+    """Friction torque of a bearing, independent of load and speed. In a declaration, a plain torque is read as
+    `sliding`.
 
     See Also
     --------
-    Link : has it as `bearing`
+    Link : its field `bearing`
 
     Examples
     --------
@@ -197,7 +198,7 @@ DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
 
 
 class Teeth(Declared):
-    """An uncertain tooth count: a best value, and a range or a list of possible counts.
+    """Uncertain tooth count: a best value, with a range or a list of possible counts.
 
     See Also
     --------
@@ -256,7 +257,7 @@ class Teeth(Declared):
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All counts that the evidence allows; empty if the count is not declared as uncertain."""
+        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain."""
         if self.choices is not None:
             return self.choices
         if self.range is None or self.range[1] - self.range[0] > 10**6:
@@ -272,10 +273,11 @@ class Teeth(Declared):
 
     @property
     def probabilities(self) -> dict[int, Fraction]:
-        """Prior probability of each count by `weights`, in ascending order of counts; the sum is 1.
+        """Prior probability of each count from `weights`, in ascending order of counts; the sum is 1.
 
-        Without weights all counts of `range`, `choices` or `search` are equally probable. Counts of weight 0 are left
-        out. Empty if the count is not declared as uncertain. Undefined if there is a `fault_of_weights`.
+        Without weights, all counts of `range`, `choices` or `search` are equally probable. Counts with weight 0 are
+        omitted. The mapping is empty if the count is not declared as uncertain, and undefined if there is a
+        `fault_of_weights`.
 
         Examples
         --------
@@ -293,7 +295,7 @@ class Teeth(Declared):
 
     @property
     def fault_of_weights(self) -> str | None:
-        """Reason for which the weights do not define probabilities; None if they do."""
+        """Reason why the weights do not define probabilities; None if they do."""
         weights = [figure.value for figure in self.weights or ()]
         if any(weight < 0 for weight in weights):
             return "one is negative"
@@ -307,11 +309,11 @@ MOST_COPIES = 360  # no carrier has space for more planets
 
 
 class Source(Declared):
-    """Bibliographic source of facts in a declaration.
+    """Bibliographic source of data in a declaration.
 
     See Also
     --------
-    Train : has them as `sources`, by key
+    Train : its field `sources`, by key
     """
 
     cite: str = Field(description="Bibliographic citation")
@@ -335,7 +337,7 @@ MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3 (bro
 
 
 class Wheel(Declared):
-    """A gear wheel of a link. A plain number is its tooth count.
+    """Gear wheel of a link. In a declaration, a plain number is read as its tooth count.
 
     Examples
     --------
@@ -385,12 +387,12 @@ class Wheel(Declared):
 
     @property
     def count(self) -> int | None:
-        """Tooth count that is used; None if it is still to be searched."""
+        """Tooth count that is used in computations; None if it is to be found by a search."""
         return self.teeth if isinstance(self.teeth, int) else self.teeth.value
 
     @property
     def uncertainty(self) -> Teeth | None:
-        """Declared range or choices of an uncertain tooth count; None for a certain one."""
+        """Declared range or choices of an uncertain tooth count; None for a certain count."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
@@ -398,7 +400,7 @@ class Wheel(Declared):
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
             raise PydanticCustomError(
                 "helix_angle",
-                "a {kind} wheel has a helix angle",
+                "a {kind} wheel cannot have a helix angle",
                 {"kind": self.kind, "fix": "remove `helix_angle`: only spur wheels, rings and worms have one"},
             )
         return self
@@ -408,7 +410,7 @@ class Wheel(Declared):
         if self.flexible and (self.internal or self.kind != "spur"):
             raise PydanticCustomError(
                 "flexible",
-                "a {kind} is flexible",
+                "a {kind} cannot be flexible",
                 {
                     "kind": "ring" if self.internal else f"{self.kind} wheel",
                     "fix": "write `flexible: true` at the spur wheel that is bent into its ring",
@@ -418,23 +420,23 @@ class Wheel(Declared):
 
     @property
     def is_helical(self) -> bool:
-        """True for a spur wheel or ring with helical teeth. A worm does not count as helical."""
+        """True for a spur wheel or a ring with helical teeth; False for worms."""
         return self.kind == "spur" and self.helix_angle is not None and self.helix_angle.value > 0
 
     @property
     def helix(self) -> float:
-        """Helix angle [rad], positive for a right hand; 0 for straight teeth and if no angle is declared."""
+        """Helix angle [rad], positive for a right hand; 0 for straight teeth, or if no angle is declared."""
         angle = 0.0 if self.helix_angle is None else self.helix_angle.si
         return -angle if self.hand == "left" else angle
 
     @property
     def slant(self) -> float:
-        """Transverse module over normal module, 1 / cos(helix angle); 1 for wheels that are not helical."""
+        """Transverse module divided by normal module, 1 / cos(helix angle); 1 for wheels that are not helical."""
         return 1 / cos(self.helix) if self.is_helical else 1.0
 
     @property
     def transverse_module(self) -> float | None:
-        """Pitch diameter over tooth count [m]; None if no module with a unit is declared."""
+        """Pitch diameter divided by tooth count [m]; None if no module with a unit is declared."""
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
 
@@ -444,11 +446,11 @@ class Wheel(Declared):
 
 
 class Link(Declared):
-    """A rigid body: an arbor with its wheels, a carrier, the frame.
+    """Rigid body of a train: an arbor with its wheels, a carrier, or the frame.
 
     See Also
     --------
-    Train : has them as `links`, by name
+    Train : its field `links`, by name
     """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
@@ -486,7 +488,7 @@ class Axis(Declared):
 
     See Also
     --------
-    Train : has them as `axes`, by label
+    Train : its field `axes`, by label
     """
 
     direction: tuple[Figure, Figure, Figure] = Field(
@@ -500,7 +502,7 @@ class Axis(Declared):
 
     @property
     def way(self) -> Vector:
-        """Unit vector of the direction."""
+        """Unit vector of the direction of the axis."""
         top = max(
             abs(part.value) for part in self.direction
         )  # scaled first, because a huge number would overflow as a float
@@ -509,7 +511,7 @@ class Axis(Declared):
 
     @property
     def point(self) -> Vector | None:
-        """A point of the axis [mm]; None if no position is declared."""
+        """Point on the axis [mm]; None if no position is declared."""
         if self.position is None:
             return None
         x, y, z = (float(millimetres(part)) for part in self.position)
@@ -525,11 +527,11 @@ class Axis(Declared):
 
 
 class Revolute(Declared):
-    """A turning pair of two links. Turning pairs with the same axis label are coaxial.
+    """Turning pair of two links. Turning pairs with the same axis label are coaxial.
 
     See Also
     --------
-    Train : has them as `revolutes`
+    Train : its field `revolutes`
     """
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
@@ -545,13 +547,13 @@ def _positive(figure: Figure) -> Figure:
         raise PydanticCustomError(
             "share",
             "a share of {text} is not above 0",
-            {"text": figure.text, "fix": "give a share above 0, or leave it out if it is unknown"},
+            {"text": figure.text, "fix": "give a share above 0, or omit it if it is unknown"},
         )
     return figure
 
 
 class GearPair(Declared):
-    """Two wheels in mesh. The carrier is derived from the turning pairs, not declared.
+    """Pair of wheels in mesh. The carrier is derived from the turning pairs, not declared.
 
     Examples
     --------
@@ -605,5 +607,5 @@ class GearPair(Declared):
 
     @property
     def name(self) -> str:
-        """Declared id, or `first~second`."""
+        """Name of the pair: its declared id, or `first~second`."""
         return self.id or f"{self.pair[0]}~{self.pair[1]}"

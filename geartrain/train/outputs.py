@@ -42,11 +42,11 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """Label of consecutive divisions. A plain text is the label.
+    """Label of one or more consecutive divisions of a dial. In a declaration, a plain text is read as the label.
 
     See Also
     --------
-    Dial : has them as `names`
+    Dial : its field `names`
     """
 
     name: str = Field("", description="Engraved label; empty for divisions without a label")
@@ -58,11 +58,12 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numbers at the lines between divisions, the last one at the zero mark. A plain text is their style.
+    """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a plain
+    text is read as their style.
 
     See Also
     --------
-    Dial : has them as `numerals`
+    Dial : its field `numerals`
     """
 
     style: Literal["roman", "arabic"] = Field("arabic", description="Style of the numerals")
@@ -145,7 +146,7 @@ class Graduation(Declared):
                     "off": abs(off),
                     "way": "many" if off > 0 else "few",
                     "divisions": self.divisions,
-                    "fix": "make the spans add up to `divisions`, or leave `divisions` out",
+                    "fix": "make the spans add up to `divisions`, or omit `divisions`",
                 },
             )
         for cell in self.glyphs:
@@ -174,22 +175,22 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
+        context = {"name": name, "divisions": count, "fix": f"give {total}, or omit `divisions`"}
         raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
 
 class DialRing(Graduation):
-    """A second scale around the scale of a dial, read by the same pointers.
+    """Second scale around the scale of a dial, read by the same pointers.
 
     See Also
     --------
-    Dial : has it as `around`
+    Dial : its field `around`
     """
 
 
 class Dial(Graduation):
-    """A scale on which a pointer is read. It is fixed to the link to which its output is relative.
+    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative.
 
     Examples
     --------
@@ -198,7 +199,7 @@ class Dial(Graduation):
 
     See Also
     --------
-    Train : has them as `dials`, by name
+    Train : its field `dials`, by name
     """
 
     face: str | None = Field(None, description="Side from which the dial is read, front or back")
@@ -264,14 +265,15 @@ def _not_negative(figure: Figure) -> Figure:
 
 
 class Target(Declared):
-    """Target of an output: a name of the shipped table, a period or a speed. A plain text is a name.
+    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a plain text is read
+    as a name.
 
-    A `speed` has a sign. A name or a period is a magnitude, which an output of either sense of rotation can meet,
-    unless `sense` is given.
+    A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
+    `sense` is given.
 
     See Also
     --------
-    Output : has them as `targets`
+    Output : its field `targets`
     geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
@@ -313,7 +315,7 @@ class Target(Declared):
             raise PydanticCustomError(
                 "target",
                 "the speed {speed} and `sense` are both given",
-                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus sign"},
+                {"speed": self.speed.text, "fix": "omit `sense`, and write a retrograde speed with a minus sign"},
             )
         return self
 
@@ -338,7 +340,8 @@ class Target(Declared):
 
 
 class Expect(Declared):
-    """Required mean speed of an output, exact or within a tolerance. A plain number is the value.
+    """Required mean speed of an output, exact or within a tolerance. In a declaration, a plain number is read as the
+    value.
 
     Examples
     --------
@@ -372,11 +375,11 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """Value that a source prints for an output.
+    """Published value of an output, as printed in a source.
 
     See Also
     --------
-    Output : has it as `published`
+    Output : its field `published`
     """
 
     value: Figure = Field(description="Value as printed; it must agree to its digits")
@@ -402,7 +405,7 @@ class Published(Declared):
 
 
 class Output(Declared):
-    """A required motion of the train: the speed of a link, or of a link relative to another.
+    """Output of the train: the speed of a link, or of one link relative to another.
 
     Examples
     --------
@@ -444,11 +447,11 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """Unit of all speeds: a speed of 1 is one turn per this time, length or period.
+    """Unit of all speeds: a speed of 1 is one turn per time, length or period.
 
     See Also
     --------
-    Train : has it as `unit`
+    Train : its field `unit`
     """
 
     per: str = Field(
@@ -457,11 +460,11 @@ class SpeedUnit(Declared):
 
 
 class View(Declared):
-    """Side from which the train is viewed, and the positive sense of rotation.
+    """View of the train: side from which it is seen, and positive sense of rotation.
 
     See Also
     --------
-    Train : has it as `view`
+    Train : its field `view`
     """
 
     from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, front or back")

@@ -31,12 +31,12 @@ _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """A day of a calendar, with the elapsed fraction of the day.
+    """Day of a calendar, with the elapsed fraction of the day.
 
     See Also
     --------
-    read_date : Reads one.
-    date_of : The date of a Julian day.
+    read_date : Read a date from text.
+    date_of : Convert a Julian day to a date.
     """
 
     year: int
@@ -44,11 +44,11 @@ class CalendarDate:
     month: int
     """Month, 1 to 12."""
     day: int
-    """Day of the month, from 1 on."""
+    """Day of the month, from 1."""
     part: Fraction
     """Elapsed fraction of the day, 0 to less than 1; 1/2 at noon."""
     calendar: Calendar
-    """Calendar, proleptic: its rules apply to every year."""
+    """Name of the proleptic calendar, whose rules apply to all years."""
 
     def __str__(self) -> str:
         sign = "-" if self.year < 0 else ""
@@ -56,12 +56,12 @@ class CalendarDate:
 
 
 def julian_day(date: CalendarDate) -> Fraction:
-    """Return the Julian day of a date. Day 31 of a month of 30 days is the first day of the next month.
+    """Return the Julian day of a calendar date. Day 31 of a month with 30 days is the first day of the next month.
 
     Parameters
     ----------
     date : CalendarDate
-        The date.
+        Calendar date.
 
     Returns
     -------
@@ -89,12 +89,12 @@ def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
     day : Fraction
         Julian day [d].
     calendar : {"julian", "gregorian"}, optional
-        Default: Julian before 1582-10-15 and Gregorian from then on.
+        Calendar of the result; by default Julian before 1582-10-15 and Gregorian from that date.
 
     Returns
     -------
     CalendarDate
-        The date.
+        Calendar date.
 
     Examples
     --------
@@ -113,19 +113,20 @@ def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
 
 
 def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
-    """Read a date such as `-204-05-12` or `2000-01-01 18:30`.
+    """Parse a date from text, such as `-204-05-12` or `2000-01-01 18:30`.
 
     Parameters
     ----------
     text : str
-        Astronomical year, month, day, and optionally an hour; noon if no hour is given.
+        Astronomical year, month and day, and optionally a time; noon if no time is given.
     calendar : {"julian", "gregorian"}, optional
-        Default: Julian before 1582-10-15 and Gregorian from then on; the ten days between do not exist.
+        Calendar of the date; by default Julian before 1582-10-15 and Gregorian from that date. The ten days between
+        them do not exist.
 
     Returns
     -------
     CalendarDate
-        The date.
+        Calendar date.
 
     Raises
     ------
@@ -175,21 +176,21 @@ def _split_gregorian(days: int) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Period:
-    """An astronomical period, speed or count with its source.
+    """Astronomical period, speed or count, with its source.
 
     See Also
     --------
-    period_table : All of them.
+    period_table : Return all periods.
     """
 
     name: str
-    """Name by which `unit` and `targets` of a declaration refer to it."""
+    """Name by which `unit` and `targets` of a declaration refer to this value."""
     kind: Literal["period", "speed", "count"]
     """Kind of the value: a period [d], a speed [turns per year], or a count."""
     value: Fraction
-    """Value as the fraction that the source gives, or as the printed decimal."""
+    """Value as a fraction as given by the source, or as the printed decimal number."""
     what: str
-    """Subject of the motion or count; plain name of a period that serves as a unit. May be empty."""
+    """Subject of the motion or count; for a period that is used as a unit, its plain name. It may be empty."""
     source: str
     """Source of the value."""
     confidence: str
@@ -203,7 +204,7 @@ def period_table() -> Mapping[str, Period]:
     Returns
     -------
     mapping of str to Period
-        By name.
+        Periods by name.
 
     Examples
     --------

@@ -66,7 +66,7 @@ class AddedParts(Declared):
         if self.wheels and self.teeth is None:
             raise PydanticCustomError(
                 "add",
-                "added wheels have no bounds of their tooth counts",
+                "no range of tooth counts is given for added wheels",
                 {"fix": "add for example `teeth: [12, 225]`"},
             )
         return self

@@ -35,9 +35,10 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
         why = f"'{plain[1]}' is a plain number and '{named[1]}' has a unit"
         yield Problem("inputs mix units", why, "give all inputs a unit, or none", train.place(*plain[0]))
     if train.unit is not None and train.unit_days is None:
-        why = f"the train's unit is one turn per {train.unit.per}, which is not a time, but '{named[1]}' is"
+        what = f"the input '{named[1]}' does not match the unit of the train"
+        why = f"the input is a speed per time, but `unit` is one turn per {train.unit.per}, which is not a time"
         fix = "write all inputs as plain numbers, or give a time, such as `unit: {per: 1 h}`"
-        yield Problem("inputs mix units", f"{why} a speed in time", fix, train.place(*named[0]))
+        yield Problem(what, why, fix, train.place(*named[0]))
 
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
@@ -68,7 +69,7 @@ def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
 def rates(train: Train) -> Iterator[Problem]:
     """Yield a problem if the rate is declared twice."""
     if train.rate is not None and train.drive is not None and train.drive.rate is not None:
-        why = f"`rate` says {train.rate} and `drive` says {train.drive.rate}"
+        why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
         yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
 
 
@@ -80,7 +81,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
         if row is None:
             yield Problem(
                 f"unknown astronomical period '{target.name}'",
-                "a target name is a row of the table of periods",
+                "a target name must be in the table of periods",
                 suggested_period(target.name),
                 place,
             )
@@ -193,7 +194,10 @@ def find_problems(train: Train) -> Iterator[Problem]:
     if train.remove is not None and train.extends is None:
         why = "it removes parts of a parent, and no parent is named"
         yield Problem(
-            "`remove` without `extends`", why, "add `extends: parent.yaml`, or delete `remove`", train.place("remove")
+            "`remove` is given without `extends`",
+            why,
+            "add `extends: parent.yaml`, or delete `remove`",
+            train.place("remove"),
         )
     yield from _links(train)
     yield from _wheels(train)
@@ -258,8 +262,8 @@ def _links(train: Train) -> Iterator[Problem]:
                 yield _unknown(train, "link", link, links, "revolutes", at, "pair")
         if joint.pair[0] == joint.pair[1]:
             yield Problem(
-                f"turning pair of '{joint.pair[0]}' with itself",
-                "a joint joins two different links",
+                f"a turning pair joins '{joint.pair[0]}' to itself",
+                "a turning pair joins two different links",
                 "name the other link",
                 train.place("revolutes", at),
             )
@@ -294,7 +298,7 @@ def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
         if len(column) != count:
             yield Problem(
                 f"{len(column)} measured values of '{name}' for the {count} teeth of wheel '{wheel}'",
-                "a table has one value for each tooth, in the order of its turning",
+                "a table has one value for each tooth, in the order of rotation",
                 "complete the table, or correct the tooth count",
                 train.place("links", link, "wheels", wheel, "cutting", "measured", name),
             )
@@ -308,7 +312,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
                 yield Problem(
                     f"wheel '{wheel}' is declared twice",
                     f"it is on link '{owner[wheel]}' and on link '{link}'",
-                    "wheel ids are unique over the train: rename one",
+                    "rename one, because wheel ids are unique in a train",
                     train.place("links", link, "wheels", wheel),
                 )
             owner[wheel] = link

@@ -42,11 +42,11 @@ DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in t
 
 
 class SpringDrive(Declared):
-    """A spring on the driving link with a torque of `stiffness` times its remaining angle of winding.
+    """Spring on the driving link, whose torque is `stiffness` times the remaining angle of winding.
 
     See Also
     --------
-    Drive : has it as `spring`
+    Drive : its field `spring`
     """
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
@@ -57,7 +57,7 @@ class SpringDrive(Declared):
     )
 
     def torque(self, unwound: float) -> float:
-        """Return the torque [N m] after the link has turned by some angle in the driving direction.
+        """Return the torque after the link has turned by a given angle in the driving direction [N m].
 
         Parameters
         ----------
@@ -68,11 +68,11 @@ class SpringDrive(Declared):
 
 
 class HandDrive(Declared):
-    """A hand at the crank: a torque, or a speed kept through a torsional stiffness, and the inertia of arm and crank.
+    """Hand at the crank: a torque, or a speed imposed through a torsional stiffness, and the inertia of arm and crank.
 
     See Also
     --------
-    Drive : has it as `hand`
+    Drive : its field `hand`
     """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
@@ -94,21 +94,21 @@ class HandDrive(Declared):
             raise PydanticCustomError(
                 "drive",
                 "`stiffness` applies only to a hand with a `rate`",
-                {"fix": "leave `stiffness` out, or give `rate` instead of `torque`"},
+                {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
         return self
 
 
 class Drive(Declared):
-    """Drive of the train in time: exactly one of rate, torque, weight, spring, hand.
+    """Drive of the train for simulations in time: exactly one of rate, torque, weight, spring and hand.
 
-    Every drive acts where power enters, at `crank` or else at the input, in the direction in which it turns. A rate is
-    the mean speed of the input, as for the train's `rate`; if `crank` is another link, its speed follows from the mean
-    ratio.
+    A drive acts at the link where power enters, which is `crank` or by default the input, in the direction in which
+    this link turns. A rate is the mean speed of the input, like the train's `rate`. If `crank` is another link, its
+    speed follows from the mean ratio.
 
     See Also
     --------
-    Train : has it as `drive`
+    Train : its field `drive`
     State : may have its own drive
     StateCase : drive in force in one state
 
@@ -152,20 +152,20 @@ class Drive(Declared):
 
     @property
     def torques(self) -> tuple[Quantity, ...]:
-        """Torques that are declared directly."""
+        """Torques of the drive that are declared directly."""
         hand = None if self.hand is None else self.hand.torque
         return tuple(torque for torque in (self.torque, hand) if torque is not None)
 
     @property
     def pull(self) -> float | None:
-        """Torque of a weight at its drum [N m], mass times gravity times radius; None for other drives."""
+        """Torque of a weight at its drum [N m]: mass times gravity times radius; None for other drives."""
         if self.weight is None or self.drum is None:
             return None
         return self.weight.si * GRAVITY * self.drum.si
 
     @property
     def steady_torque(self) -> float | None:
-        """Torque of a drive with a constant torque (a torque or a weight) [N m]; None for other drives."""
+        """Constant torque of a torque drive or a weight [N m]; None for other drives."""
         return next((torque.si for torque in self.torques), self.pull)
 
     @property
@@ -175,13 +175,13 @@ class Drive(Declared):
 
 
 class Escapement(Declared):
-    """An escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
+    """Escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
-    The angle is relative to the link that carries the escape wheel, on which the pallets are mounted.
+    Angles are relative to the link that carries the escape wheel, on which the pallets are mounted.
 
     See Also
     --------
-    Train : has it as `escapement`
+    Train : its field `escapement`
 
     Examples
     --------
@@ -216,11 +216,11 @@ class Escapement(Declared):
 
     @property
     def speed(self) -> Fraction:
-        """Mean speed of the link relative to the link that carries it [turn/s]: half a tooth per beat."""
+        """Mean speed of the escape wheel's link relative to its carrying link [turn/s]: half a tooth per beat."""
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Return whether a wheel of a link is the escape wheel, which is not in a gear mesh.
+        """Return True if a wheel of a link is the escape wheel, which does not mesh with other wheels.
 
         Parameters
         ----------
@@ -233,11 +233,11 @@ class Escapement(Declared):
 
 
 class Clutch(Declared):
-    """A brake or a clutch: exactly one of `fixes` and `locks`.
+    """Brake or clutch: exactly one of `fixes` and `locks`.
 
     See Also
     --------
-    Train : has them as `clutches`, by name
+    Train : its field `clutches`, by name
     State : engages them
     """
 
@@ -254,11 +254,11 @@ class Clutch(Declared):
 
 
 class State(Declared):
-    """A mode of operation. Its values replace those of the train; its outputs are merged by name.
+    """Operating mode of the train. Its values replace the values of the train; its outputs are merged by name.
 
     See Also
     --------
-    Train : has them as `states`, by name
+    Train : its field `states`, by name
     StateCase : prescriptions in force in one state
     """
 
@@ -311,7 +311,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True, slots=True)
 class StateCase(Shown):
-    """All prescriptions that are in force in one state.
+    """Prescriptions of a train in one state, including values inherited from the train.
 
     Examples
     --------
@@ -324,38 +324,38 @@ class StateCase(Shown):
     state: str | None
     """Name of the state; None for a train without states."""
     inputs: Mapping[str, Fraction]
-    """Prescribed speed by link [`Train.unit_name`]."""
+    """Link -> prescribed speed [`Train.unit_name`]."""
     fixed: tuple[str, ...]
     """Links fixed to the frame."""
     locks: tuple[tuple[str, str], ...]
-    """Pairs of links that turn together."""
+    """Pairs of links that are locked together."""
     outputs: Mapping[str, Output]
     """Required outputs of this state by name."""
     loc: Loc
-    """Path of the keys under which the inputs were declared."""
+    """Path of the keys that declare the inputs."""
     engaged: tuple[str, ...]
     """Names of closed clutches and brakes."""
     clutches: Mapping[tuple[str, ...], str]
-    """Clutch or brake that causes a fixed link or a lock, by the links concerned."""
+    """Fixed link, or pair of locked links -> name of the brake or clutch that fixes or locks them."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
-    """Torques on links; power into the train is positive."""
+    """Torques on links; positive if they supply power to the train."""
     solve_for: str | None = None
-    """Link whose torque is the unknown."""
+    """Link whose torque is unknown."""
     exact: bool = True
-    """False if radians were converted to turns or turns to radians, which is done to 50 digits."""
+    """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
     drive: Drive | None = None
-    """Drive in time: the state's, else the train's, else its `rate`."""
+    """Drive in time: the drive of the state, otherwise of the train, otherwise the train's `rate`."""
     rate: Quantity | None = None
-    """Speed of the input in real time, if `drive` or the train's `rate` gives it."""
+    """Speed of the input in real time, if it is given by `drive` or the train's `rate`."""
     expect: ExpectedVerdict = "determined"
-    """Expected verdict, which does not count as a failure."""
+    """Expected kind of verdict, which is not reported as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
-    """Links of the declared brake or lock by the links that it fixes or locks indirectly."""
+    """Links that are fixed or locked indirectly -> links of the declared brake or lock that causes this."""
     problems: tuple[Problem, ...] = ()
-    """Problems that prevent the calculation of speeds in this state; usually empty."""
+    """Problems that prevent the calculation of speeds in this state; empty if there are none."""
 
     def given(self, link: str) -> str:
-        """Return a prescribed speed as text, such as `sun = 1400`.
+        """Return the prescribed speed of a link as text, such as `sun = 1400`.
 
         Parameters
         ----------
@@ -365,7 +365,7 @@ class StateCase(Shown):
         return f"{link} = {self.shown(self.inputs[link])}"
 
     def shown(self, speed: Fraction) -> str:
-        """Return a speed as text: a fraction, or a decimal if it is not exact.
+        """Return a speed as text: a fraction, or a decimal number if it is not exact.
 
         Parameters
         ----------
@@ -375,7 +375,7 @@ class StateCase(Shown):
         return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """Describe a brake on one link or a lock of two links, with its declared cause if it is indirect.
+        """Describe a brake on one link or a lock of two links, with the declared cause of an indirect brake or lock.
 
         Parameters
         ----------

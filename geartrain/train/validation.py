@@ -39,24 +39,25 @@ from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 @collector_paused()
 def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
-    """Return a validated `Train` from plain data with the same keys as in YAML (docs/reference.md).
+    """Build a validated `Train` from plain data with the same keys as in YAML (docs/reference.md).
 
     Parameters
     ----------
     data : mapping of str
-        The declaration. `extends` is kept but not resolved; `geartrain.load` resolves it.
+        Declaration. `extends` is preserved but not resolved; `geartrain.load` resolves it.
     marks : callable, optional
-        Function from the path of a value to the place where it was written. Default: the path, such as `gears[3].pair`.
+        Function that takes the path of a value and returns the location where it was written; by default the path, such
+        as `gears[3].pair`.
 
     Returns
     -------
     Train
-        The frozen declaration; equal data give equal trains.
+        Frozen declaration; equal data give equal trains.
 
     Raises
     ------
     DeclarationError
-        If the data are not valid; reports the first problems, each with its place.
+        If the data are not valid. The message reports the first problems, each with its location.
 
     Examples
     --------

@@ -102,10 +102,10 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
         return Problem(
-            "the line contains a tab", "YAML is indented with spaces only", "replace the tab by spaces", place
+            "the line contains a tab", "YAML is indented with spaces only", "replace the tab with spaces", place
         )
     if "did not find expected key" in why:
-        why = "a key and a colon are expected here, as far to the right as the keys above"
+        why = "a key and a colon are expected here, with the same indentation as the keys above"
         fix = "write `key: value`, and indent all keys of a mapping equally"
     elif "','" in why:
         why, fix = "a comma or a closing bracket is missing", "close every { with } and every [ with ]"
@@ -169,8 +169,8 @@ class _Builder:
             raise DeclarationError(
                 Problem(
                     what,
-                    "an alias repeats a value that is complete before it",
-                    f"write the value out, or set '&{anchor}' before",
+                    "an alias can repeat only a value that ends before it",
+                    f"write the value out, or put the anchor '&{anchor}' on an earlier value",
                     place,
                 )
             )
@@ -180,7 +180,7 @@ class _Builder:
             raise DeclarationError(
                 Problem(
                     "the aliases expand to too many values",
-                    f"written out they are more than {MOST_EXPANDED} values",
+                    f"at most {MOST_EXPANDED} values are allowed after expansion",
                     "write the values out",
                     place,
                 )
@@ -190,7 +190,7 @@ class _Builder:
     def _check_tag(self, tag: str | None, place: str) -> None:
         if tag and tag != "!" and tag not in _TAGS:
             raise DeclarationError(
-                Problem(f"tag '{tag}' is not used here", "a declaration is plain data", "remove the tag", place)
+                Problem(f"tag '{tag}' is not supported", "a declaration is plain data", "remove the tag", place)
             )
 
     def _put(self, node: YamlNode, anchor: str | None, place: str) -> None:

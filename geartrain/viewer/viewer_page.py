@@ -38,21 +38,21 @@ _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 def page(
     scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
 ) -> str:
-    """Build a self-contained HTML page with animated trains; it works as a local file and makes no network requests.
+    """Build a self-contained HTML page with animated trains, which works as a local file and makes no network requests.
 
     Parameters
     ----------
     scenes : sequence of Scene
-        Scenes to show, at least one; without `compare` the user selects one of them.
+        Scenes to show, at least one. Without `compare`, the user selects one of them.
     compare : bool
         True to show the first two scenes side by side, driven by one crank.
     title : str, optional
         Title of the page; by default the names of the trains.
     teeth : bool
-        False to draw plain discs until the user switches teeth on.
+        False to draw plain discs until the user turns on the display of teeth.
     shown : {"page", "embed", "kiosk"}
-        Layout: the whole page, or only the picture with three buttons, for a frame in another page ("embed") or for
-        an exhibition screen ("kiosk").
+        Layout: the whole page ("page"), or only the picture with three buttons, for a frame in another page ("embed")
+        or for an exhibition screen ("kiosk").
 
     Returns
     -------
@@ -95,7 +95,7 @@ def page(
 
 
 def train_page(train: GearTrain, state: str | None = None) -> str:
-    """Build the page of one train in one of its states, or with a choice of all states.
+    """Build the HTML page of one train in one state, or with a choice of all states.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class EmbeddedPage:
     train: GearTrain
     """Train to show."""
     state: str | None = None
-    """Name of one of its states; by default all states can be selected."""
+    """Name of a state; by default all states can be selected."""
     height: int = 620
     """Height of the frame [px]."""
 

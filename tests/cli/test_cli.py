@@ -319,7 +319,7 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true() ->
         (["solve", "zf-8hp70", "--of", "OOT"], ["no output or link 'OOT'", "did you mean 'OUT'?"]),
         (["solve", "planetary", "--state", "ring fixt"], ["no state 'ring fixt'", "did you mean 'ring fixed'?"]),
         (["inspect", "equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
-        (["solve", "worm", "--state", "1"], ["no state '1'", "leave the state out"]),
+        (["solve", "worm", "--state", "1"], ["no state '1'", "omit the state"]),
         (["solve", "worm", "--method", "exakt"], ["'exakt'", "did you mean 'exact'?"]),
         (["inspect", "graph", "worm", "--as", "dott"], ["'dott'", "did you mean 'dot'?"]),
         (["inspect", "graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),

@@ -91,7 +91,7 @@ def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
         (("-o", "x.pdf"), "a train cannot be written as '.pdf'"),
         (("-o", "x"), "a train cannot be written as 'x'"),
         (("-o", "x.glb", "--wheel", "s"), "a wheel cannot be written as '.glb'"),
-        (("-o", "x.svg", "--wheel", "nobody"), "'nobody' is not a wheel of the train"),
+        (("-o", "x.svg", "--wheel", "nobody"), "the train has no wheel 'nobody'"),
         (("--to", "d", "--as", "svg,pdf"), "'pdf' is not a kind of export"),
         (("--to", "d", "--wheel", "s"), "only to one file"),
         (("-o", "x.glb", "--turns", "many"), "not a valid number of turns"),

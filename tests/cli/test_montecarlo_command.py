@@ -176,7 +176,7 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
         (("--cutting", "pitch_deviation=-3 %"), "is negative"),
         (("--cutting", "x9.pitch_deviation=3 %"), "wheel 'x9'"),
         (("--cutting", "p.centre=3 %"), "pair 'p'"),
-        (("--cutting", "pitch_deviation=0"), "declares no errors"),
+        (("--cutting", "pitch_deviation=0"), "declares no manufacturing errors"),
         (("--of", "nothing"), "no output or link"),
         (("--state", "fast"), "no state"),
         (("--vary", "clearance_factor=1.03:1.01:3"), "not a sweep"),

@@ -256,7 +256,7 @@ def test_two_results_of_one_command_never_share_a_file(here: Path) -> None:
     (here / "b.svg").symlink_to("a.svg")
     requested = ("mesh", *SIZED, "--form", "triangular", "--plot", "a.svg", "--profile")
     for second in ("a.svg", "b.svg", "./a.svg"):
-        assert "two results have the same file" in refused(call(*requested, second, "--force"))
+        assert "two results are written to the same file" in refused(call(*requested, second, "--force"))
     assert [path.name for path in here.iterdir()] == ["b.svg"]
 
 

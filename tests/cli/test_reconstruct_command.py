@@ -294,7 +294,7 @@ def test_trains_are_drawn_anew_with_another_seed() -> None:
 def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
     result = call("reconstruct", "back-train-modules", "--sample", 3)
     assert isinstance(result.exception, QuestionError)
-    assert "weighted one by one" in str(result.exception)
+    assert "weighted individually" in str(result.exception)
 
 
 def test_known_trains_are_ranked() -> None:
@@ -369,4 +369,4 @@ def test_the_report_is_written(tmp_path: Path) -> None:
     assert call("reconstruct", "metonic-l-m", "-o", "-").stdout.startswith("# Trains that explain metonic-l-m")
     same = tmp_path / "one.html"
     result = ended("reconstruct", "metonic-l-m", "-o", same, "--page", same)
-    assert (result.returncode, "two results have the same file" in result.stderr) == (2, True)
+    assert (result.returncode, "two results are written to the same file" in result.stderr) == (2, True)

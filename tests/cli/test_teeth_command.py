@@ -278,7 +278,7 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
     ("requested", "said"),
     [
         (("train", "hands.yaml", "--range", "12:20"), "--range"),
-        (("train", "hands.yaml", "-o", "hands.yaml", "--force"), "train itself"),
+        (("train", "hands.yaml", "-o", "hands.yaml", "--force"), "the input file"),
         (("train", "hands.yaml", "--tolerance", "-1"), "--tolerance"),
         (("ratio", "235/19", "--minimum", "20"), "--minimum"),
         (("ratio", "235/19", "--planets", "3"), "--planets"),

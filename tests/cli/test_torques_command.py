@@ -91,7 +91,7 @@ def test_another_link_can_be_requested_and_a_period_followed(pin: Path) -> None:
     assert json.loads(turned.output)["over_turn"]["turns"] == 1
     requested = call("torques", "norton-planetary", "--turns", "period")
     assert requested.exit_code == 2
-    assert "no torque ripples" in requested.stderr
+    assert "the torque has no period" in requested.stderr
 
 
 @pytest.mark.parametrize("words", [("-o", "-.csv"), ("--of", "a")])
@@ -171,4 +171,4 @@ def test_trials_are_the_same_whoever_works(pin: Path) -> None:
 
 def test_trials_need_a_spread(pin: Path) -> None:
     done = call("torques", pin, "--turns", "1", *SAMPLES, "--trials", "5")
-    assert "declares no spread of friction" in str(done.exception)
+    assert "declares no random friction" in str(done.exception)

@@ -173,8 +173,8 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
         (("--embed", "--kiosk"), "--embed and --kiosk are given together"),
         (("planetary", "--embed"), "two trains"),
         (("planetary", "--kiosk"), "two trains"),
-        (("--skip", "1"), "options of --dynamics are given without it"),
-        (("--turns", "2"), "options of --dynamics are given without it"),
+        (("--skip", "1"), "options of --dynamics are given without --dynamics"),
+        (("--turns", "2"), "options of --dynamics are given without --dynamics"),
         (("planetary", "--dynamics"), "two trains are given with --dynamics"),
     ],
 )

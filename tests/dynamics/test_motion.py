@@ -208,7 +208,7 @@ def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_trans
 
 def test_teeth_that_close_a_redundant_loop_are_named() -> None:
     text = "extends: four-gear-loop\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n"
-    with pytest.raises(GearTrainError, match="a20~b30, b30~c40, c40~d50, d50~a20 close a loop, a - b - c - d - a"):
+    with pytest.raises(GearTrainError, match="a20~b30, b30~c40, c40~d50, d50~a20 form a loop, a - b - c - d - a"):
         load(text).motion()
     # along a path that spans the loop it moves: around the other way without either pair next to d
     train = load(text)

@@ -154,7 +154,7 @@ def test_wheels_that_lean_alike_run() -> None:
 def test_an_angle_that_is_none_is_refused(angle: str) -> None:
     with pytest.raises(GearTrainError, match="helix_angle"):
         train({"teeth": 20, "helix_angle": angle}, {"teeth": 40})
-    with pytest.raises(GearTrainError, match="a bevel wheel has a helix angle"):
+    with pytest.raises(GearTrainError, match="a bevel wheel cannot have a helix angle"):
         train({"teeth": 20, "kind": "bevel", "helix_angle": "20 deg"}, {"teeth": 40})
 
 

@@ -231,7 +231,7 @@ def test_no_error_steers_one(tmp_path: Path, wrong: dict[str, Any]) -> None:
         (EVIL,),
         (f"--{EVIL}",),
         ("solve", "worm", f"--x{EVIL}"),
-        ("draw", "worm", "-k", EVIL),
+        ("draw", "worm", "--kind", EVIL),
         ("inspect", "bench", EVIL),
     ],
 )

@@ -74,7 +74,7 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_anything_is_timed(
     with pytest.raises(GearTrainError) as caught:
         expect_cost(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
     (problem,) = caught.value.problems
-    assert "up to 1000 added wheels of 10 to 45 teeth have 1e1556 choices" in problem.what
+    assert "up to 1000 added wheels of 10 to 45 teeth have 1e1556 combinations" in problem.what
     assert "at most 25 wheels: `-k 25`" in problem.fix
 
 

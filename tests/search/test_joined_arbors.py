@@ -123,11 +123,11 @@ REFUSED = {
     "mesh": (COUPLED.replace("[m, k]", "[m, n]") + "gears: [{pair: [w, x]}]\n", ["known mesh 'w~x'", "lock"]),
     "follower": (
         COUPLED + "couplings: [{kind: pin_follower, pin: m, slot: n}]\n",
-        ["'m~n' is not a pin and slot", "give the speed of the arbor before it"],
+        ["'m~n' is not a pin and slot", "give the speed of the arbor that drives it"],
     ),
     "carrier": (
         COUPLED + "revolutes: [{pair: [n, k], axis: K}]\n",
-        ["'k', which turns on 'n'", "crosses a carrier", "before and behind 'n'"],
+        ["'k', which turns on 'n'", "crosses a carrier", "before and after 'n'"],
     ),
     "axes": (
         COUPLED + "revolutes: [{pair: [frame, n], axis: N}, {pair: [frame, k], axis: N}]\n",

@@ -619,7 +619,7 @@ def test_an_assignment_stands_where_brute_force_puts_it() -> None:
     assert "period 10000/3183 d in either sense within 0.01" in far.refused[0]
     (outside,) = found.standing({"a0": 11, "b0": 23, "a1": 12, "b1": 99})
     assert "99 teeth are not admissible for 'b1'" in outside.refused
-    with pytest.raises(QuestionError, match="no complete part"):
+    with pytest.raises(QuestionError, match="all tooth counts of no part"):
         found.standing({"a0": 11})
     with pytest.raises(QuestionError, match="'z' is not in the solutions"):
         found.standing({"z": 11})
@@ -856,7 +856,7 @@ def test_questions_that_cannot_be_requested_are_refused_in_words() -> None:
             assert problem.fix
     assert find(plain, free="uncertain").count == find(plain, free=["b"]).count == 3
     nothing = train([("A", "a", "B", "b")], {"a": 20, "b": free(20, 30)}, {"A": {}})
-    with pytest.raises(QuestionError, match="nothing is required"):
+    with pytest.raises(QuestionError, match="no requirement restricts"):
         find(nothing, rules=())
     wide = train([("A", "a", "B", "b")], {"a": 20, "b": free(20, 30_000_000)}, {"B": target(1)})
     with pytest.raises(GearTrainError, match="too wide"):

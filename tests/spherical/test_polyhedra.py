@@ -213,8 +213,8 @@ def test_vertices_in_any_order_make_the_solid() -> None:
         ([*BOX, (1, 2, 3)], "vertices[8] repeats vertices[7] (1, 2, 3)"),
         ([*BOX, (1, 2, 3 + 1e-9)], "vertices[8] repeats vertices[7]"),
         (BOX[:3], "3 points do not make a solid"),
-        (BOX[:4], "lie in one plane"),
-        ([(0, 0, 0)] * 5, "lie in one plane"),
+        (BOX[:4], "are in one plane"),
+        ([(0, 0, 0)] * 5, "are in one plane"),
         ([(0, 0), (1, 1)], "not a list of points"),
         ([(0, 0, float("inf"))] * 4, "not a list of points"),
         ([(0, 0, 1), (0, 1)], "not a list of points"),
@@ -369,7 +369,7 @@ def test_without_its_meshes_of_hexagons_a_buckyball_is_an_icosidodecahedron() ->
         ({"teeth": {"4": 12}}, "unknown kind of gear '4'"),
         ({"teeth": {"5": 0}}, "0 is not a tooth number"),
         ({"teeth": 12.5}, "12.5 is not a tooth number"),
-        ({"teeth": {"5": 20}, "exact": True}, "requires the teeth of 3"),
+        ({"teeth": {"5": 20}, "exact": True}, "no tooth number is given for 3"),
         ({"gears": "faces+vertices+edges"}, "cannot have two gears on each edge"),
     ],
 )
@@ -724,7 +724,7 @@ def test_awkward_texts_survive_yaml() -> None:
 
 
 def test_a_set_without_teeth_or_gears_is_no_train() -> None:
-    with pytest.raises(GearTrainError, match="no tooth number for 3"):
+    with pytest.raises(GearTrainError, match="no tooth number is given for 3"):
         to_train(from_polyhedron("icosidodecahedron", teeth={5: 20}))
     with pytest.raises(GearTrainError, match="without gears"):
         to_train(from_polyhedron("cube", teeth=12, drop=["4"]))

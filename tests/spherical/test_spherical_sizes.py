@@ -224,7 +224,7 @@ def test_few_teeth_are_undercut() -> None:
 
 
 def test_a_set_without_teeth_is_requested_for_them() -> None:
-    with pytest.raises(GearTrainError, match="no tooth number for 5, 3"):
+    with pytest.raises(GearTrainError, match="no tooth number is given for 5, 3"):
         size_gears(quasiregular("icosidodecahedron"))
 
 

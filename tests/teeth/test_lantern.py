@@ -216,7 +216,7 @@ def test_teeth_of_the_mate_have_what_the_pins_leave_of_the_pitch() -> None:
         ({"arcs": [0.6, 1]}, "too long"),
         ({"addendum": "60"}, "does not reach the tip radius"),
         ({"pin_diameter": "2 mm"}, "cannot be converted to modules"),
-        ({"centre_distance": "31"}, "off its design"),
+        ({"centre_distance": "31"}, "off the design distance"),
     ],
 )
 def test_lanterns_that_do_not_fit_are_refused_with_a_reason(given: dict[str, Any], words: str) -> None:

@@ -77,7 +77,7 @@ MISTAKES = {
     ),
     "a cycle of turning pairs": (changed("gears:", "  - {pair: [a, b], axis: A}\ngears:"), 8, ["cycle"]),
     "a turning pair twice": (changed("gears:", "  - {pair: [frame, b], axis: B}\ngears:"), 8, ["cycle"]),
-    "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["'b' with itself"]),
+    "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["joins 'b' to itself"]),
     "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not joined"]),
     "one label for two axes": (
         changed("  b: {wheels", "  c: {}\n  b: {wheels").replace(

@@ -103,7 +103,7 @@ MISTAKES = {
         9,
         "the sense of 'nodes' is not known, and its speed is relative to the frame",
     ),
-    "as the frame": (changed("of: n, expect: -5/93", "expect: 0"), 9, "'nodes' has the speed of the frame"),
+    "as the frame": (changed("of: n, expect: -5/93", "expect: 0"), 9, "'nodes' may be the speed of the frame"),
     "geometry": (changed("  carrier", "  geometry: {}\n  carrier"), 12, "`geometry` is not supported"),
     "given": (
         changed("  carrier", "  given: [{pair: [p, n]}]\n  carrier"),

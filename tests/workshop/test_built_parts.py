@@ -50,7 +50,7 @@ def overlaps(work: SolidModel) -> Iterator[tuple[str, str, float]]:
 
 
 def test_a_process_that_is_not_known_is_refused() -> None:
-    with pytest.raises(GearTrainError, match="'lazer' is not a process"):
+    with pytest.raises(GearTrainError, match="'lazer' is not a manufacturing process"):
         ManufacturingSizes(process="lazer")
 
 

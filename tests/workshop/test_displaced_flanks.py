@@ -462,5 +462,5 @@ def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
         assert one.name == other.name == ripple.name
         assert other.errors.std() == pytest.approx(ripple.rms, rel=0.15)
         assert one.errors.std() > 2 * ripple.rms or not ripple.rms
-    with pytest.raises(GearTrainError, match="declares no errors"):
+    with pytest.raises(GearTrainError, match="declares no manufacturing errors"):
         find_trial_plan(train)

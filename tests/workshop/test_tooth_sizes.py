@@ -181,8 +181,8 @@ def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
 @pytest.mark.parametrize(
     ("aims", "free", "limits", "word"),
     [
-        (("speed",), None, (), "not an objective"),
-        (("loss", "loss"), None, (), "not an objective"),
+        (("speed",), None, (), "does not name one objective"),
+        (("loss", "loss"), None, (), "does not name one objective"),
         (("loss",), {"depth": None}, (), "not a free parameter"),
         (("loss",), {"window": (0.5, 1.5)}, (), "not valid"),
         (("loss",), {"radii": (1.0, 0.9)}, (), "not valid"),

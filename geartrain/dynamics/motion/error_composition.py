@@ -108,7 +108,7 @@ class SeenLink(NamedTuple):
 
 
 class ErrorSamples(NamedTuple):
-    """Transmission errors of outputs at positions of the input.
+    """Transmission errors and speed deviations of outputs at given positions of the input.
 
     See Also
     --------
@@ -123,11 +123,11 @@ class ErrorSamples(NamedTuple):
     With a pin and slot it includes the designed deviation from uniform motion (anomaly).
     """
     rate: Floats
-    """Speed of each output minus its mean, over the speed of the input [1], shape (outputs, n)."""
+    """Speed of each output minus its mean, divided by the input speed [1], shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
-    """Names of pairs whose driver turns against its mean motion at some of these positions.
+    """Names of pairs whose driver temporarily turns against its mean motion at these positions.
 
-    The contact then changes to the other flanks, but the transmission function of the drive flanks is used, without
+    There the contact changes to the coast flanks, but the transmission function of the drive flanks is used, without
     backlash.
     """
 

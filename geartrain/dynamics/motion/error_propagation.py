@@ -39,7 +39,7 @@ _FORGIVEN = 1e-9  # rad: accepted residual if no step reduces it further, as at 
 _HALVINGS = 64  # bisections of four pitches, or of four turns for cut wheels, to rounding
 
 _NO_FIT = "no angles satisfy all transmission functions simultaneously"
-_DEAD_CENTRE = "it is past a dead centre: an error moves its own driver by more than the error itself"
+_DEAD_CENTRE = "the motion is past a dead centre: an error moves its own driver by more than the error itself"
 
 
 @dataclass(frozen=True)
@@ -179,9 +179,13 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
     names = ", ".join(pairs)
     if len(pairs) == 1:
         what = f"the motion of pair {names}, which moves its own driver, has no unique solution"
-        return GearTrainError(Problem(what, why, "give it ideal teeth, or declare its driving wheel with `driver`"))
+        return GearTrainError(
+            Problem(
+                what, why, "declare it without `tooth_form` (ideal teeth), or declare its driving wheel with `driver`"
+            )
+        )
     what = f"the motion of the coupled pairs {names} has no unique solution"
-    return GearTrainError(Problem(what, why, "give some of them ideal teeth"))
+    return GearTrainError(Problem(what, why, "declare some of them without `tooth_form` (ideal teeth)"))
 
 
 class ErrorPath(NamedTuple):
@@ -255,9 +259,9 @@ class ErrorPropagation:
                     found[list(part.pairs)] = own @ part.from_pairs
                     weight[list(part.known)] += own @ part.from_known
         if not np.isfinite(found).all():
-            what = f"'{self.links[link]}' turns more than 1e308 times as far as a pair's error"
+            what = f"'{self.links[link]}' turns by more than 1e308 times the error of a pair"
             why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
-            raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
+            raise RangeError(Problem(what, why, "choose an input nearer to this output, or use `solve`"))
         return found
 
 

@@ -225,7 +225,7 @@ class KinkSearch:
     def over(self, start: float, end: float) -> KinkPositions:
         """Return the kinks between two positions of the input [revolutions], both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
-            what = f"from {start:g} to {end:g} turns, pairs pass about {expected:.2g} kinks"
+            what = f"there are about {expected:.2g} kinks from {start:g} to {end:g} turns"
             why = f"at most {MOST_KINKS:g} are listed"
             raise QuestionError(Problem(what, why, "request fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]

@@ -101,13 +101,13 @@ class TransmissionErrorCurve(Tabular, Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the speed of the input [1]."""
+    """Exact mean speed divided by the input speed [1]."""
     angle: Floats
     """Angle of the input [rad], shape (n,)."""
     error: Floats
     """Angle of the output minus its mean motion [rad], shape (n,)."""
     speed: Floats
-    """Speed of the output over the speed of the input [1], shape (n,)."""
+    """Speed of the output divided by the input speed [1], shape (n,)."""
 
     def _summary(self) -> str:
         figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
@@ -120,12 +120,12 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed over the speed of the input [1]."""
+        """Mean speed divided by the input speed [1]."""
         return mean_speed(self.name, self.ratio)
 
     @cached_property
     def statistics(self) -> RunningStatistics:
-        """Peaks and moments of error and speed."""
+        """Peak values and moments of the error and the speed."""
         found = RunningStatistics(self.name, self.ratio)
         found.add(self.error, self.speed - self.mean)
         return found
@@ -147,15 +147,14 @@ _MAIN = 3  # outputs in a summary
 class Motion(Shown):
     """Motion of a train with real teeth and pins, as a function of the revolutions of its input.
 
-    Transmission functions are composed along the order of solution of the train: equations (2) and (3) of
+    Transmission functions are composed in the order in which the train is solved: equations (2) and (3) of
     docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link the position that it
-    would
-    have with ideal teeth (section 3 of that page).
+    would have with ideal teeth (section 3 of that page).
 
     Parameters
     ----------
     train : MotionProblem
-        Equations, mean speeds, transmission functions and drivers, as collected by `GearTrain.motion`.
+        Equations, mean speeds, transmission functions and driving sides, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
     tolerance : float, optional
@@ -163,8 +162,7 @@ class Motion(Shown):
         evaluated directly.
     fast : bool, optional
         True to use compiled kernels, which agree to 1e-12 rad. By default they are used if numba is installed and there
-        are enough
-        positions to justify loading it.
+        are enough positions to justify loading it.
 
     Raises
     ------
@@ -243,7 +241,7 @@ class Motion(Shown):
             "other pairs already determine the motion of its wheels, and backlash and errors decide how they share the "
             "load"
         )
-        fix = f"leave it out with --without {pair}, or declare one of several equal planets, with `copies: 3`"
+        fix = f"omit it with --without {pair}, or declare one of several equal planets, with `copies: 3`"
         raise QuestionError(Problem(f"the dynamics of the redundant pair '{pair}' cannot be simulated", why, fix))
 
     @cached_property
@@ -286,8 +284,8 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """Output -> angle by which its pointer is turned relative to its wheels so that teeth cause no error at
-        position 0 [rad].
+        """Output -> angle by which its pointer is turned relative to its wheels so that the error at position 0 is 0
+        [rad].
         """
         found = self._compositions.setting
         return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
@@ -297,9 +295,9 @@ class Motion(Shown):
             path = " - ".join((*loop.links, loop.links[0]))
             raise GearTrainError(
                 Problem(
-                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that locks with real teeth",
+                    f"the pairs {', '.join(loop.pairs)} form a loop, {path}, that locks with real teeth",
                     f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
-                    f"leave out one of the loop's pairs, such as `--without {loop.pairs[-1]}`",
+                    f"omit a pair of the loop, such as `--without {loop.pairs[-1]}`",
                 )
             )
 
@@ -326,12 +324,12 @@ class Motion(Shown):
 
     @cached_property
     def period(self) -> Fraction | None:
-        """Revolutions of the input after which every pair repeats its position; None if every error is constant."""
+        """Revolutions of the input after which all pairs repeat their positions; None if every error is constant."""
         return common_period(self._forward.used)
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Output -> pair -> sensitivity of the output to the error of the pair's driven side [rad/rad], also for ideal
+        """Output -> pair -> sensitivity of the output to an error of the pair's driven side [rad/rad], also for ideal
         teeth.
         """
         found = {}
@@ -408,7 +406,8 @@ class Motion(Shown):
         return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the errors and rates of the outputs at positions of the input, while it turns in the declared sense.
+        """Return transmission errors and speed deviations of the outputs at given positions of the input, which turns
+        in its declared sense.
 
         Parameters
         ----------
@@ -418,7 +417,7 @@ class Motion(Shown):
         Returns
         -------
         ErrorSamples
-            Errors [rad] and rates [1] at these positions.
+            Transmission errors [rad] and speed deviations [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
         composition = self._sampler(1, len(turns))
@@ -428,7 +427,7 @@ class Motion(Shown):
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Return the positions of the input at which some pair has a kink. All errors are smooth between them.
+        """Return the positions of the input at which a pair has a kink. All errors are smooth between these positions.
 
         Only pairs on which an output depends are included. A speed may jump at a kink: evaluate it slightly before and
         after the kink for its one-sided limits.
@@ -533,7 +532,7 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over some revolutions of the input, and return its peaks and moments by output.
+        """Compute the motion over some revolutions of the input, with peak values and moments of each output.
 
         Parameters
         ----------
@@ -567,7 +566,7 @@ class Motion(Shown):
         return motion
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
-        """Return a matplotlib figure of angles, errors and speeds over the revolutions of the input.
+        """Draw angles, errors and speeds against the revolutions of the input as a matplotlib figure.
 
         Parameters
         ----------

@@ -115,9 +115,12 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
     own, declared, meshes, pins = train.kinematics, train.declaration, train.undriven, train.pins
     case = own.case(state)
     solution = own.solution(case)
-    if not solution.verdict or not any(case.inputs.values()):
-        what = f"'{declared.name}' does not move"
-        raise QuestionError(Problem(what, solution.verdict.text, "declare a non-zero speed under `inputs`"))
+    if not any(case.inputs.values()):
+        what, why = f"'{declared.name}' does not move", "no input has a speed other than 0"
+        raise QuestionError(Problem(what, why, "declare a non-zero speed under `inputs`"))
+    if not solution.verdict:
+        what = f"the motion of '{declared.name}' is not determined"
+        raise QuestionError(Problem(what, solution.verdict.text, "`geartrain check FILE` shows the cause"))
     circuits, drivers = own.circuits_without(without), train.drivers(case.state, without)
     links = tuple(declared.links)
     parts = SolvedPart(links, declared.frame, circuits, tuple(case.inputs)).reduced.components

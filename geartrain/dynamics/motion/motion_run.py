@@ -55,7 +55,7 @@ class HarmonicShare(NamedTuple):
 
 @dataclass(frozen=True)
 class SpectrumLine(Result):
-    """Line of the spectrum of an output's transmission error, at an exact order of the input.
+    """Line in the spectrum of an output's transmission error, at an exact order of the input.
 
     See Also
     --------
@@ -67,9 +67,9 @@ class SpectrumLine(Result):
     order: Fraction
     """Exact number of periods per revolution of the input."""
     shares: tuple[HarmonicShare, ...]
-    """Harmonics of pairs with this order."""
+    """Harmonics of pairs that have this order."""
     expected: float
-    """First-order amplitude of the sum of `shares`, including phases [rad]."""
+    """First-order amplitude: sum of `shares` with their phases [rad]."""
     measured: float
     """Amplitude in the composed motion, from a Fourier sum [rad]."""
 
@@ -213,7 +213,7 @@ class MotionRun(Tabular, Pictured):
     FIGURE = "motion_figure"
 
     motion: Motion
-    """Motion that is evaluated."""
+    """Motion that the run evaluates."""
     turns: float
     """Revolutions of the input, up to 1e12 in magnitude; negative against the declared sense, with the coast flanks
     driving.
@@ -221,23 +221,23 @@ class MotionRun(Tabular, Pictured):
     samples: int
     """Number of positions including both ends, 2 or more."""
     statistics: list[RunningStatistics] = field(default_factory=list)
-    """Peaks and moments by output."""
+    """Peak values and moments of each output."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
-    """Peaks and moments by output, for each set of random phases."""
+    """Peak values and moments of each output, for each set of random phases."""
     seed: int | None = None
     """Random seed of the phases; None if no random phases were used."""
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
-    """First-order estimates of peaks by output."""
+    """First-order estimates of the peak values of each output."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
-    """Spectral lines by output, sorted by falling amplitude."""
+    """Spectral lines by output, in descending order of amplitude."""
     done: int = 0
     """Number of positions evaluated so far; less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
-    """Names of pairs whose driver turned against its mean motion at some position; backlash is not modelled there."""
+    """Names of pairs whose driver temporarily turned against its mean motion; backlash is not modelled there."""
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
-            why = "beyond that, positions in float64 do not resolve the teeth of one turn"
+            why = f"float64 resolves single teeth only up to {MOST_TURNS:g} turns"
             fix = f"pass turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
             raise QuestionError(Problem(f"turns = {self.turns:g}", why, fix))
         if self.samples < 2:
@@ -260,8 +260,8 @@ class MotionRun(Tabular, Pictured):
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Table with a row for each evaluated output.
 
-        Its columns are the mean speed over the speed of the input [1], the error [rad], and the speed over its mean
-        [1].
+        Its columns are the mean speed divided by the input speed [1], the error [rad], and the speed divided by its
+        mean [1].
         """
         return {
             "output": [each.name for each in self.statistics],
@@ -274,7 +274,7 @@ class MotionRun(Tabular, Pictured):
         }
 
     def run(self, on_done: OnDone = _ignore) -> None:
-        """Evaluate the outputs at every position, and search for the extremes between positions.
+        """Evaluate the outputs at every position, and search for extremes between the positions.
 
         Parameters
         ----------
@@ -315,7 +315,7 @@ class MotionRun(Tabular, Pictured):
         """
         self.seed = seed if count else None
         if seed < 0:
-            raise QuestionError(Problem(f"seed = {seed}", "a random seed is not negative", "pass seed >= 0"))
+            raise QuestionError(Problem(f"seed = {seed}", "a random seed must not be negative", "pass seed >= 0"))
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)
@@ -323,7 +323,7 @@ class MotionRun(Tabular, Pictured):
             self.phase_statistics.append(other.statistics)
 
     def find_estimates(self, on_done: OnDone = _ignore) -> None:
-        """Compute first-order estimates of peaks and rms values, with their true errors.
+        """Compute first-order estimates of peak and rms values, and their errors relative to the exact composition.
 
         Parameters
         ----------
@@ -335,7 +335,7 @@ class MotionRun(Tabular, Pictured):
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def find_spectra(self, on_done: OnDone = _ignore) -> None:
-        """Compute the spectrum of every output by exact orders of the input.
+        """Compute the spectrum of every output at exact orders of the input.
 
         Parameters
         ----------

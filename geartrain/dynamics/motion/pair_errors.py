@@ -58,9 +58,9 @@ class PairErrors:
         if found is None:
             raise GearTrainError(
                 Problem(
-                    "the motion of this train has no order of solution",
+                    "the propagation of errors in this train cannot be solved",
                     "some of its pairs are redundant, although they do not close a loop on one carrier",
-                    "leave out a redundant pair with --without (`geartrain check` names the link at which they meet)",
+                    "omit a redundant pair with --without (`geartrain check` names the link at which they meet)",
                 )
             )
         return found
@@ -151,7 +151,7 @@ class PairErrors:
                 Problem(
                     f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth per turn of '{self.train.driving_link}'",
                     "positions of the input in float64 do not resolve these teeth",
-                    "drive the train nearer to this pair, or give it ideal teeth",
+                    "choose an input nearer to this pair, or declare it without `tooth_form` (ideal teeth)",
                 )
             )
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)

@@ -28,9 +28,9 @@ def mean_speed(name: str, ratio: Fraction) -> float:
     """Return an exact mean speed as a float. Raise `RangeError` beyond the range of float64."""
     found = as_float(ratio)
     if found is None:
-        what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
+        what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the speed of the input"
         why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
-        raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
+        raise RangeError(Problem(what, why, "choose an input nearer to this output, or use `solve`"))
     return found
 
 
@@ -50,7 +50,7 @@ class SpeedSpan(NamedTuple):
 
 @dataclass
 class RunningStatistics(Result):
-    """Peaks and moments of error and speed of one output over the positions evaluated so far (Welford, Chan et al.).
+    """Running peak values and moments of error and speed of one output (algorithm of Welford, Chan et al.).
 
     See Also
     --------
@@ -67,7 +67,7 @@ class RunningStatistics(Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the speed of the input."""
+    """Exact mean speed divided by the input speed."""
     count: int = 0
     """Number of positions evaluated so far."""
     centre: float = 0.0
@@ -79,28 +79,28 @@ class RunningStatistics(Result):
     most: float = -inf
     """Maximum error [rad]."""
     slow: float = inf
-    """Minimum speed minus mean speed, over the speed of the input."""
+    """Minimum speed minus mean speed, divided by the input speed."""
     fast: float = -inf
-    """Maximum speed minus mean speed, over the speed of the input."""
+    """Maximum speed minus mean speed, divided by the input speed."""
     error_within: float | None = 0.0
     """Upper bound on the difference between the true extremes of the error and `minimum`, `most` [rad].
 
     It is 0 if the run was searched completely, with a tolerance of 1e-9 of the range; None if no bound is known.
     """
     speed_within: float | None = 0.0
-    """Upper bound on the difference between the true extremes of the speed and `slow`, `fast`, over the speed of the
-    input; 0 or None as for `error_within`.
+    """Upper bound on the difference between the true extremes of the speed and `slow`, `fast`, divided by the input
+    speed. It is 0 or None as for `error_within`.
     """
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Add positions to the statistics: peaks and moments.
+        """Add positions to the peak values and moments.
 
         Parameters
         ----------
         error : array of float, (n,)
             Errors at these positions [rad].
         rate : array of float, (n,)
-            Speeds minus the mean speed, over the speed of the input.
+            Speeds minus the mean speed, divided by the input speed.
         """
         new = len(error)
         centre = float(error.mean())
@@ -125,7 +125,7 @@ class RunningStatistics(Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed over the speed of the input."""
+        """Mean speed divided by the input speed."""
         return mean_speed(self.name, self.ratio)
 
     @property
@@ -140,12 +140,14 @@ class RunningStatistics(Result):
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Minimum and maximum speed relative to the mean, with the mean speed over the speed of the input."""
+        """Minimum and maximum deviation of the speed relative to the mean speed, with the mean speed divided by the
+        input speed.
+        """
         return SpeedSpan(*self.speeds, self.mean)
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Minimum and maximum speed over the mean speed, or over the speed of the input if the mean is 0."""
+        """Minimum and maximum speed divided by the mean speed, or by the input speed if the mean is 0."""
         scale = self.mean or 1.0
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high

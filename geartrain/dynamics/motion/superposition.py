@@ -102,7 +102,7 @@ class SuperpositionEstimate(Result):
 
 @dataclass(frozen=True)
 class ErrorEstimates(Result):
-    """First-order estimates of one output's error, with the exact result: equation (6) of docs/motion.md.
+    """First-order estimates of one output's error, compared with the exact result: equation (6) of docs/motion.md.
 
     See Also
     --------
@@ -117,9 +117,9 @@ class ErrorEstimates(Result):
     )
 
     true: RunningStatistics
-    """Statistics of the exact composition over the same positions."""
+    """Statistics of the exact composition at the same positions."""
     bound: float
-    """Sum over pairs of sensitivity times range, an upper bound on the range of the error [rad]."""
+    """Sum over all pairs of sensitivity times error range, an upper bound on the range of the error [rad]."""
     independent: float
     """Rms value of the error for independent phases of the pairs [rad]."""
     nominal: SuperpositionEstimate

@@ -36,7 +36,7 @@ _NO_HELIX = (
     "these teeth slide along their length, and their helix angles or their friction are not known: declare the "
     "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
 )
-_MEAN = "the torques given are means over a turn"
+_MEAN = "the reported torques are means over a turn"
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ class PowerNode(NamedTuple):
     """
 
     kind: PowerNodeKind
-    """Kind of the node. Power enters the train at `in` and leaves it at `out`."""
+    """Kind of the node. Power enters the train at the node `in` and leaves it at the node `out`."""
     name: str
     """Name of the link, pair or shaft.
 
@@ -81,7 +81,7 @@ class RecirculatingPower(Result):
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Recirculating power over the power that enters the train; None if no power enters."""
+        """Recirculating power divided by the power that enters the train; None if no power enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
@@ -179,7 +179,7 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
 
 @dataclass(frozen=True)
 class PowerLoss(Result):
-    """Loss of a pair or bearing, compared with the power input of the train and with its total loss.
+    """Power loss of a pair or bearing, compared with the power input and the total loss of the train.
 
     See Also
     --------
@@ -202,12 +202,12 @@ class PowerLoss(Result):
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Lost power over the power that enters the train; None if no power enters."""
+        """Lost power divided by the power that enters the train; None if no power enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def of_loss(self) -> Fraction:
-        """Lost power over the total lost power."""
+        """Lost power divided by the total lost power."""
         return self.power / self.loss
 
 
@@ -236,11 +236,11 @@ class PowerFlow(Result):
     power_in: Fraction = Fraction(0)
     """Power that enters the train [unit of torque times the train's unit of speed]."""
     streams: tuple[PowerStream, ...] = ()
-    """Streams from `in` through shafts and pairs to `out`."""
+    """Power streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Pair or bearing -> lost power, for losses other than 0, in the same unit."""
+    """Pair or bearing -> lost power, if it is not 0, in the same unit."""
     loops: tuple[RecirculatingPower, ...] = ()
-    """Power loops, sorted by falling power."""
+    """Power loops, in descending order of power."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:
@@ -258,8 +258,7 @@ class PowerFlow(Result):
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
     def surplus(self, node: PowerNode) -> Fraction:
-        """Return the power that flows into a node minus the power that flows out and the loss; 0 except at `in` and
-        `out`.
+        """Return power input minus power output and loss of a node, which is 0 except at `in` and `out`.
 
         Parameters
         ----------
@@ -269,7 +268,7 @@ class PowerFlow(Result):
         Returns
         -------
         Fraction
-            Power in minus power out and losses [unit of torque times the train's unit of speed].
+            Power input minus power output and loss [unit of torque times the train's unit of speed].
         """
         taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
         given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))

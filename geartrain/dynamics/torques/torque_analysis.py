@@ -118,7 +118,7 @@ def find_torque_verdict(
         return replace(verdict, text=verdict.text + but)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
-    free = f"; {_some(question.open)} turn freely: torques do not depend on their speeds" if question.open else ""
+    free = f"; {_some(question.open)} turn freely, but torques do not depend on their speeds" if question.open else ""
     return TorqueVerdict(
         "incomplete" if neglected else "determined",
         f"every torque follows from {source}{but}{_driving_note(question, flows[0])}{free}{sure}",
@@ -191,7 +191,7 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
         return TorqueVerdict("indeterminate", text, flows[0].solved.open)
     also = f", nor is the torque on {', '.join(links)}" if links else ""
     text = (
-        f"how {', '.join(loose)} share their load is not determined{also}: they are redundant, and `share` is not "
+        f"the load sharing of {', '.join(loose)} is not determined{also}: they are redundant, and `share` is not "
         "declared"
     )
     return TorqueVerdict("indeterminate", text, loose)
@@ -202,7 +202,7 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
-        f"{len(flows)} patterns of power flow balance {question.load}: in the one given, with minimum loss, "
+        f"{len(flows)} patterns of power flow balance {question.load}: in the reported one, with minimum loss, "
         f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
     )
     return TorqueVerdict("ambiguous", text)

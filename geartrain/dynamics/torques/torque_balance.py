@@ -50,7 +50,9 @@ class LoadedPair:
         """Raise `GearTrainError` if an efficiency exceeds 1."""
         if max(self.forward, self.backward) > 1:
             what = f"pair '{self.id}' has an efficiency of {float(max(self.forward, self.backward)):g}"
-            raise GearTrainError(Problem(what, "above 1 it would create power", "give an efficiency of at most 1"))
+            raise GearTrainError(
+                Problem(what, "an efficiency above 1 would create power", "give an efficiency of at most 1")
+            )
 
     @property
     def loses(self) -> bool:

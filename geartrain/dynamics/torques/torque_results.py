@@ -31,7 +31,7 @@ class LinkTorque(Result):
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
-    """Brake on one link, or lock of two links, with the torques that it exerts.
+    """Brake on one link or lock between two links, with the torques that it exerts.
 
     See Also
     --------
@@ -45,16 +45,16 @@ class HoldingTorque(Result):
     torques: tuple[Fraction, ...] | None
     """Torque on each of the links about its own axis [N m, or plain number]; None if undetermined."""
     clutch: str | None = None
-    """Name of the brake or clutch; empty if it has no name."""
+    """Name of the brake or clutch; empty if no clutch is declared for it."""
     cause: tuple[str, ...] = ()
-    """Links of the declared lock that causes this brake or lock; empty if it is declared itself.
+    """Links of the declared lock that implies this brake or lock; empty if it is declared itself.
 
     A lock across several axes closes every joint on the path between its links.
     """
 
     @property
     def declared_cause(self) -> tuple[str, ...] | None:
-        """Links of the declared lock that causes this brake or lock; None if it is declared itself."""
+        """Links of the declared lock that implies this brake or lock; None if it is declared itself."""
         return self.cause or None
 
     @property
@@ -129,7 +129,7 @@ class PairTorque(Result):
     The power from the first link to the second is -x times this speed.
     """
     share: Fraction
-    """Efficiency of the pair with the carrier at rest, for the given driver; 1 without loss."""
+    """Efficiency of the pair with the carrier at rest, for the given driver; 1 for a pair without losses."""
     loose: bool = False
     """True if the balance does not determine the torque of the pair."""
     exact: bool = True
@@ -179,9 +179,9 @@ TorqueVerdictKind = Literal[
 
 @dataclass(frozen=True)
 class TorqueVerdict(Result):
-    """Verdict on the torques under the loads: sections 5, 8, 11 and 13 of docs/torques.md.
+    """Verdict on whether and how the loads determine the torques: sections 5, 8, 11 and 13 of docs/torques.md.
 
-    It is true if torques are returned: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
+    The verdict is true if torques are returned: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
 
     Kinds:
 
@@ -193,7 +193,7 @@ class TorqueVerdict(Result):
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
     - `contradictory`: declared shares of pairs contradict the balance.
     - `unbalanced`: the loads set the train in motion, and no torques on the requested links can balance them.
-    - `undecided`: the link of unknown torque is not unique.
+    - `undecided`: several links could have the unknown torque.
     - `unloaded`: no load and no friction of a bearing is declared.
     - `still`: the train or the requested link is at rest, or its speed is undetermined.
 
@@ -221,7 +221,7 @@ class TorqueVerdict(Result):
 
 @dataclass(frozen=True)
 class NeglectedEffect(Result):
-    """Declared effect that the torques do not include: the table in section 13 of docs/torques.md.
+    """Declared effect that is not included in the torques: table in section 13 of docs/torques.md.
 
     See Also
     --------
@@ -231,14 +231,14 @@ class NeglectedEffect(Result):
     what: str
     """Neglected effect, such as `friction of bearings` or `variation within a turn`."""
     where: tuple[str, ...]
-    """Names of the pairs or links concerned."""
+    """Names of the affected pairs or links."""
     why: str
     """Reason why the effect is neglected."""
 
     @property
     def counts(self) -> bool:
-        """False for effects that change no mean value: variation within a revolution, and the choice between two
-        means.
+        """False for effects that do not change mean values: variation within a revolution, and the choice between two
+        mean values.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 
@@ -247,7 +247,7 @@ class NeglectedEffect(Result):
 
 
 class DrivenWay(NamedTuple):
-    """Torques of a train while link `source` drives and a unit of power leaves at `load`.
+    """Torques of a train in which link `source` drives and a unit of power leaves at link `load`.
 
     See Also
     --------
@@ -266,8 +266,8 @@ class DrivenWay(NamedTuple):
 class Torques(FrozenFields, Tabular, TrainResult):
     """Torques and powers of a train in one state, exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m if loads have units, else in the plain unit of the loads. Powers are torques times the train's
-    unit of speed, positive into the train.
+    Torques are in N m if loads have units, otherwise plain numbers. Powers are torques times the train's unit of speed,
+    positive into the train.
 
     Examples
     --------
@@ -311,7 +311,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on the torques. If it is not true, only `verdict` and `neglected` have values."""
+    """Verdict on the torques. If it is false, only `verdict` and `neglected` have values."""
     requested: tuple[str, ...] = ()
     """Links whose torque was computed from the balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
@@ -372,17 +372,17 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Return a figure of the power flow under these torques: `geartrain.drawing.power_figure`."""
+        """Draw the power flow under these torques with `geartrain.drawing.power_figure`."""
         return imported_function("drawing", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:
-        """Links with an external torque whose speed, and so also power, is undetermined."""
+        """Links with an external torque whose speed, and therefore power, is undetermined."""
         return tuple(link for link, torque in self.external.items() if torque and link not in self.speeds)
 
     @property
     def uncounted(self) -> tuple[NeglectedEffect, ...]:
-        """Neglected effects that change powers and efficiency; variation within a revolution does not change mean
+        """Neglected effects that change powers and efficiency. Variation within a revolution does not change mean
         values.
         """
         return tuple(each for each in self.neglected if each.counts)
@@ -416,7 +416,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output over power input; a float if pairs have mean efficiencies over teeth.
+        """Power output divided by power input; a float if pairs have mean efficiencies over teeth.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -431,9 +431,9 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def circulating(self) -> Fraction | None:
-        """Maximum power through a pair over the power input; None if a power is undetermined.
+        """Maximum power through a pair divided by the power input; None if a power is undetermined.
 
-        Power recirculates if the quotient exceeds 1.
+        Power recirculates if the ratio exceeds 1.
         """
         powers = [None if pair.loose else pair.power for pair in self.pairs.values()]
         known = [power for power in powers if power is not None]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class TorqueExtreme(NamedTuple):
-    """Extreme torque, and its position in the run.
+    """Extreme value of the torque, and its position in the run.
 
     See Also
     --------
@@ -49,7 +49,7 @@ class CycleFigures(NamedTuple):
 
 
 class PlaceInRun(NamedTuple):
-    """Position in a run.
+    """Position in a run, in revolutions of the input and in days.
 
     See Also
     --------
@@ -79,13 +79,13 @@ class CycleEnergy(Result):
     )
 
     put_in: float
-    """Energy that the unknown torques (such as the torque at the crank) put in while their power is positive."""
+    """Energy supplied by the unknown torques (such as the torque at the crank) while their power is positive."""
     returned: float
-    """Energy that the unknown torques take out while their power is negative, because the loads drive them."""
+    """Energy absorbed by the unknown torques while their power is negative because the loads drive."""
     taken_out: float
-    """Energy that loads take out while their power is negative."""
+    """Energy absorbed by the loads while their power is negative."""
     loads_put_in: float
-    """Energy that loads put in while their power is positive."""
+    """Energy supplied by the loads while their power is positive."""
     mesh: float
     """Energy lost in gear pairs, 0 or more."""
     pin: float
@@ -95,17 +95,17 @@ class CycleEnergy(Result):
 
     @property
     def net_in(self) -> float:
-        """Energy that the unknown torques put in minus the energy that they take out."""
+        """Energy supplied minus energy absorbed by the unknown torques."""
         return self.put_in - self.returned
 
     @property
     def net_out(self) -> float:
-        """Energy that the loads take out minus the energy that they put in."""
+        """Energy absorbed minus energy supplied by the loads."""
         return self.taken_out - self.loads_put_in
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input; None if the net energy input is not positive."""
+        """Energy output divided by energy input; None if the net energy input is not positive."""
         if self.net_in > 0:
             return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))
         return -self.net_in / -self.net_out if self.net_out < 0 else None
@@ -132,9 +132,11 @@ class PairCycle(Result):
     loss: float
     """Lost energy [J, or plain torque times rad]."""
     passed: float
-    """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it equals the loss."""
+    """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it is equal to the
+    loss.
+    """
     flank_changes: int = 0
-    """Number of sign changes of the torque through the pair; at each of them real teeth cross their backlash.
+    """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each sign change.
 
     If the run is an integer number of periods, a change between its end and its start is included.
     """
@@ -148,7 +150,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     The run has about `samples` equally spaced positions. Positions are added at both sides of every kink and jump of
     the transmission functions, where a motion reverses or the flank in contact changes, and where integrals need them.
-    Arrays over positions are read-only. Where no torque balances the loads, the train is locked and the torque is NaN.
+    Arrays with one value per position are read-only. At positions where no torque balances the loads, the train is
+    locked and the torque is NaN.
 
     Examples
     --------
@@ -193,9 +196,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Verdict on the torques.
 
     `determined`: all torques follow from the loads. `incomplete`: some effects are neglected. `ambiguous`: several
-    patterns of power flow balance the loads at some position. `self-locking`: no torque balances them at some position.
-    `indeterminate`: redundant pairs share a load in an undetermined way, and the minimum-norm torques are returned. If
-    no torque can be requested, this is the verdict of `Torques`, and the other fields are empty.
+    patterns of power flow balance the loads at some position. `self-locking`: no torque balances the loads at some
+    position. `indeterminate`: redundant pairs share a load in an undetermined way, and the minimum-norm torques are
+    returned. If no torque can be requested, the verdict is the verdict of `Torques`, and the other fields are empty.
     """
     link: str = ""
     """Link whose torque is computed."""
@@ -206,7 +209,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     period: float | None = None
     """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None
-    """Positions of the input [revolutions], ascending, shape (n,). The two sides of a jump have the same position."""
+    """Positions of the input [revolutions], ascending, shape (n,). A jump has two entries with the same position, one
+    for each side.
+    """
     torque: Floats | None = None
     """Torque at the link in the solution with minimum loss [N m, or plain number], shape (n,).
 
@@ -218,13 +223,13 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     standing: Floats | None = None
     """Breakaway torque at each position, with static friction in every contact [N m, or plain number], shape (n,)."""
     speeds: LabelledArray | None = None
-    """Speeds of links over the speed of the input, axes (link, position)."""
+    """Speeds of links divided by the input speed, axes (link, position)."""
     powers: LabelledArray | None = None
-    """Power of each external torque over the speed of the input, positive into the train, axes (link, position) [N m,
-    or plain number].
+    """Power of each external torque divided by the input speed, positive into the train, axes (link, position) [N m, or
+    plain number].
     """
     losses: LabelledArray | None = None
-    """Lost power over the speed of the input, axes (part, position) [N m, or plain number]."""
+    """Lost power divided by the input speed, axes (part, position) [N m, or plain number]."""
     mean: float | None = None
     """Mean torque over the run [N m, or plain number]; None if the train locks."""
     maximum: TorqueExtreme | None = None
@@ -232,7 +237,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     minimum: TorqueExtreme | None = None
     """Minimum torque over all solutions at all positions; None if the train locks."""
     starting: TorqueExtreme | None = None
-    """Torque that starts the train at the position with maximum breakaway torque; None if the train locks there."""
+    """Torque that starts the train from rest at the position with the maximum breakaway torque; None if the train locks
+    there.
+    """
     energy: CycleEnergy | None = None
     """Energies over the run; None if the train locks."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
@@ -240,13 +247,15 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads."""
     held_share: float = 0.0
-    """Fraction of the run in which loads and the requested link both put power in, which is lost completely."""
+    """Fraction of the run in which both the loads and the requested link supply power, all of which is lost to
+    friction.
+    """
     ambiguous_share: float = 0.0
     """Fraction of the run in which several patterns of power flow balance the loads."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
     """Start and end of each part of the run in which no torque balances the loads."""
     complete: bool = True
-    """False if there were too many patterns of power flow to try all of them."""
+    """False if there were too many patterns of power flow to examine all of them."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that the torques do not include."""
 
@@ -305,7 +314,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def starting_torque(self) -> float | None:
-        """Torque that starts the train at the position with maximum breakaway torque; None if the train locks there."""
+        """Torque that starts the train from rest at the position with the maximum breakaway torque; None if the train
+        locks there.
+        """
         return None if self.starting is None else self.starting.torque
 
     @property
@@ -315,7 +326,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input of the run; None if the train locks or has no net energy input."""
+        """Energy output divided by energy input of the run; None if the train locks or has no net energy input."""
         return None if self.energy is None else self.energy.efficiency
 
     @property
@@ -331,7 +342,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Pair -> transmitted energy over the energy put into the train, for pairs with a quotient above 1."""
+        """Pair -> transmitted energy divided by the energy input of the train, for pairs with a ratio above 1."""
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}
@@ -339,7 +350,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         return {name: share for name, share in shares.items() if share > 1 + 1e-9}
 
     def at(self, turns: float) -> float:
-        """Return the torque at a position between those of the run, by linear interpolation.
+        """Return the torque at any position of the run, by linear interpolation.
 
         Parameters
         ----------

@@ -166,7 +166,7 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
     Parameters
     ----------
     train : TrainMechanics
-        Mechanics of the train, `GearTrain.mechanics`.
+        Train to analyse, `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state. None is allowed only for a train without states.
     of : str, optional
@@ -176,8 +176,7 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
     -------
     Fraction or None
         Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because no pair
-        that
-        transmits it has a variable ratio or friction.
+        that transmits it has a variable ratio or variable friction losses.
 
     Examples
     --------

@@ -97,7 +97,7 @@ def find_torque_cycle(
     on_done   progress function, called with the number of positions computed since the last call
     """
     if not 0 < turns <= MOST_TURNS:
-        what, why = f"turns = {turns:g}", "a run has a positive number of turns"
+        what, why = f"turns = {turns:g}", f"a run has more than 0 and at most {MOST_TURNS:g} turns"
         raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
     if samples < 2:
         raise QuestionError(
@@ -106,7 +106,7 @@ def find_torque_cycle(
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"
         fix = "request the torque at a link without a load"
-        raise QuestionError(Problem(f"the torque at '{of}' is requested, but it is known", why, fix))
+        raise QuestionError(Problem(f"the torque at '{of}' is already known", why, fix))
     train = find_turn_balance(setting, problem, of)
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")
@@ -267,13 +267,13 @@ class _RunResults:
             return TorqueVerdict("self-locking", text)
         if shared := self.run.train.shared:
             text = (
-                f"how {', '.join(shared)} share their load is not determined: they are redundant, and `share` is not "
+                f"the load sharing of {', '.join(shared)} is not determined: they are redundant, and `share` is not "
                 "declared"
             )
-            return TorqueVerdict("indeterminate", f"{text}; the minimum-norm torques are given", shared)
+            return TorqueVerdict("indeterminate", f"{text}; minimum-norm torques are reported", shared)
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
-            return TorqueVerdict("ambiguous", f"{text}; the one with minimum loss is given")
+            return TorqueVerdict("ambiguous", f"{text}; the pattern with minimum loss is reported")
         if neglected:
             what = ", ".join(map(str, neglected))
             return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")

@@ -72,7 +72,7 @@ def check_kinds(
 def _incompatible_kinds(pair: PitchPair) -> Problem:
     first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
     return Problem(
-        f"pair '{pair.name}': {first} meets {second}",
+        f"pair '{pair.name}': {first} meshes with {second}",
         "bevels mesh with bevels; contrates and worms mesh with spur wheels",
         "give both wheels kinds that mesh: both `bevel`, or one `contrate` or `worm`",
         pair.place,
@@ -82,8 +82,8 @@ def _incompatible_kinds(pair: PitchPair) -> Problem:
 def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
     return Problem(
         f"bevels '{one}' and '{other}' of one axis meet '{shared}' from the same side",
-        "their pitch cones have the same apex and axis, so both would be in the same place",
-        f"give the one on the negative side of the axis `facing: -1`, such as '{other}'",
+        "their pitch cones have the same apex and axis, so the wheels would overlap",
+        f"declare `facing: -1` for the wheel on the negative side of the axis, such as '{other}'",
         train.place("links", train.wheels[other][0], "wheels", other),
     )
 
@@ -91,10 +91,10 @@ def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
 def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Problem:
     first, second = pair.axes
     if declared:
-        what = f"{shape} pair '{pair.name}' on parallel axes '{first}' and '{second}'"
+        what = f"the axes '{first}' and '{second}' of the {shape} pair '{pair.name}' are parallel"
         fix = f"correct the directions under `axes`, or remove `kind: {shape}`"
     else:
-        what = f"{shape} pair '{pair.name}' has no declared directions of axes"
+        what = f"no directions are declared for the axes of the {shape} pair '{pair.name}'"
         fix = f"declare the directions of '{first}' and '{second}' under `axes`, or remove `kind: {shape}`"
     why = _NEEDS[shape] + (
         "" if declared else ", and axes without a direction count as parallel, so its wheels are drawn as spur wheels"
@@ -107,7 +107,7 @@ def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) ->
     first, second = pair.axes
     if shape == "spur":
         return Problem(
-            f"pair '{pair.name}': spur wheels on axes '{first}' and '{second}' that are not parallel",
+            f"pair '{pair.name}': the axes '{first}' and '{second}' of two spur wheels are not parallel",
             "spur teeth touch along their width only if the axes are parallel",
             "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
             pair.place,
@@ -115,7 +115,7 @@ def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) ->
     # worms and crossed helical wheels need skew axes, bevel and crown wheels intersecting axes
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
-    far = f"pass each other at {offset * 1000:.6g} mm" if offset else "intersect"
+    far = f"pass each other at a distance of {offset * 1000:.6g} mm" if offset else "intersect"
     fix = "move one of the axes" + (", or declare one wheel `kind: worm`" if offset else ", or declare both `bevel`")
     return Problem(
         f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}", _NEEDS[shape], fix, pair.place
@@ -228,7 +228,7 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
         if escapement is not None and escapement.has_wheel(link, wheel.count):
             continue
         problem = Problem(
-            f"wheel '{name}' {wheel.count or ''}".rstrip() + " is not in mesh",
+            f"wheel '{name}' is not in mesh",
             "no pair in `gears` contains it",
             "add its gear pair, give its purpose in its `note`, or remove it",
             train.place("links", link, "wheels", name),
@@ -268,8 +268,8 @@ def check_shared_wheels(
                     f"pairs '{one.name}' and '{other.name}' need different distances of their axes: {first:.6g} and "
                     f"{second:.6g} modules",
                     f"the teeth of '{wheel}' have the same size in both, and two axes have only one distance",
-                    "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with one "
-                    f"radius of '{wheel}'",
+                    "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with the "
+                    f"same radius of '{wheel}'",
                     other.place,
                 ),
             )
@@ -303,7 +303,7 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
     first, second = pair.axes
     sides = " and ".join(f"'{wheel}' {radius:.6g}" for wheel, radius in zip(pair.wheels, radii, strict=True))
     what = (
-        f"pair '{pair.name}': axes '{first}' and '{second}' pass each other at {sum(radii) + off:.6g} mm, "
+        f"pair '{pair.name}': axes '{first}' and '{second}' are {sum(radii) + off:.6g} mm apart, "
         f"but the pair needs {sum(radii):.6g} mm"
     )
     why = f"the pitch radii are {sides} mm, and their sum is the distance of the axes"

@@ -15,7 +15,7 @@ BuildLevel = Literal["error", "note"]
 
 @dataclass(frozen=True, slots=True)
 class BuildFinding(Result):
-    """Violation of one rule of buildability by a train.
+    """Violation of one buildability rule by a train.
 
     `geartrain check`, reports, drawings and exports print the text of its problem.
 
@@ -38,9 +38,11 @@ class BuildFinding(Result):
     rule: str
     """Identifier of the rule in docs/buildability.md, such as `M1` or `P2`."""
     level: BuildLevel
-    """Severity: an error cannot be built; a note can be built, and is inadvisable or undecided."""
+    """Severity. `error`: the train cannot be built as declared. `note`: it can be built but is inadvisable, or the rule
+    is undecided.
+    """
     problem: Problem
-    """Place, problem, reason and fix."""
+    """Location, problem, reason and fix."""
 
     def _summary(self) -> str:
         return f"{self.level} {self.rule}: {self.problem.what}"
@@ -52,7 +54,7 @@ class BuildFinding(Result):
 
     @property
     def text(self) -> str:
-        """Problem, reason and fix on one line, without the place."""
+        """Problem, reason and fix on one line, without the location."""
         return f"{self.problem.text} [{self.rule}]"
 
     def __str__(self) -> str:

@@ -577,7 +577,7 @@ class _EqualPlanets:
         what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot be evenly spaced"
         why = f"they mesh only at multiples of {self._degrees}, and {self.step} is not a multiple of {self.number}"
         if not fits:
-            why += "; other positions leave no clearance"
+            why += "; with uneven spacing, planets would collide"
         others = f"use {_enumerated(even)} planets, which can be evenly spaced" if even else "change a tooth count"
         spread = f"space them by {whole} and {whole + 1} of these steps ({rest} times {whole + 1}), or " if fits else ""
         return BuildFinding(

@@ -101,12 +101,15 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
         # the teeth of a flexible wheel engage radially, and clear the ring's at its minor axis
         judged = pair.form is None and not pair.declared[1 - pair.ring].flexible
         if ring <= planet:
-            why = f"the distance of their axes would be ({ring} - {planet})/2 modules, which must be positive"
+            why = f"the centre distance of ({ring} - {planet})/2 modules is not positive"
             fix = f"make the other wheel the ring, or use a ring of at least {minimum_ring(planet)} teeth"
-            what = f"pair '{pair.name}': ring '{name}' {ring} is too small for '{mate}' {planet}"
+            what = f"pair '{pair.name}': ring '{name}' ({ring} teeth) is too small for wheel '{mate}' ({planet} teeth)"
             yield BuildFinding("R1", "error", Problem(what, why, fix, pair.place))
         elif judged and 33 < ring < minimum_ring(planet):
-            what = f"pair '{pair.name}': tips of '{mate}' {planet} collide with tips of the ring '{name}' {ring}"
+            what = (
+                f"pair '{pair.name}': the tips of '{mate}' ({planet} teeth) collide with the tips of the ring '{name}' "
+                f"({ring} teeth)"
+            )
             why = "standard teeth of 20 degrees collide outside the mesh (trochoid interference)"
             fix = (
                 "declare a tooth form with shorter addenda or a larger pressure angle, or use a ring of at least "
@@ -114,7 +117,10 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
         elif judged and ring > 33 and radial_margin(planet, ring, PRESSURE, 1.0, 1.0) < 0:
-            what = f"pair '{pair.name}': '{mate}' {planet} can only be inserted axially into the ring '{name}' {ring}"
+            what = (
+                f"pair '{pair.name}': '{mate}' ({planet} teeth) can be inserted into the ring '{name}' ({ring} teeth) "
+                "only axially"
+            )
             why = "in radial assembly the tips of standard teeth collide (trimming interference)"
             fix = f"leave space for axial assembly, or use a ring of at least {_radial_ring(planet)} teeth"
             yield BuildFinding("R3", "note", Problem(what, why, fix, pair.place))
@@ -345,7 +351,7 @@ class PitchDistances:
             Problem(
                 f"pair '{pair.name}' has two modules",
                 f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh",
-                "give wheels that mesh the same `module`",
+                "give both wheels the same `module`",
                 pair.place,
             ),
         )
@@ -427,10 +433,10 @@ class PitchDistances:
         # if only one wheel declares a module, the distance may be right and the module wrong
         rule = "M2" if pair.modules.count(None) == 1 else "P1"
         module = self.module(pair.wheels[0]) or Fraction(1)
-        first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
+        first, second = (f"'{wheel}' ({count} teeth)" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
         what = (
             f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart according to {by}, "
-            f"and {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
+            f"but {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
         )
         move, shift = f"move an axis by {_mm(abs(off) * module)}", f", or {shifts}" if shifts else ""
         if low <= found <= high or (shifts and pair.form is None):
@@ -444,7 +450,7 @@ class PitchDistances:
         # module with which the wheels have the given distance
         fits = found / wanted * module
         fix = f"{move}, " + (
-            f"or remove the module: the distance requires {_mm(fits)}"
+            f"or remove the module, which must be {_mm(fits)} at this distance"
             if rule == "M2"
             else f"or give both wheels module {_mm(fits)}"
         )
@@ -489,7 +495,7 @@ class PitchDistances:
         why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
         # the distance is half of the sum of the tooth counts
         teeth = 2 * off
-        fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
+        fix = "change tooth counts" + (f", their sum by {teeth}" if teeth.denominator == 1 else "")
         fix += ", or give each pair its own pinion and module" if shared else ", or give one pair another module"
         return Problem(what, why, fix, pair.place)
 

@@ -25,7 +25,7 @@ from geartrain.train import Train, Wheel
 class Circuit(NamedTuple):
     """Fundamental circuit with its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
-    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j. For a coupling, i is the slot (or
+    For an external gear pair a = z_i and b = z_j; for an internal gear pair b = -z_j. For a coupling, i is the slot (or
     holes) with a = 1 and j the pin with b = -m, where m is the winding number, equations (13) to (15).
 
     Examples
@@ -53,7 +53,7 @@ class Circuit(NamedTuple):
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
-    """Note if the sense of rotation is only a convention; otherwise empty."""
+    """Note on a sense of rotation that is only a convention; otherwise empty."""
 
     @property
     def swings(self) -> bool:
@@ -75,8 +75,7 @@ class Circuit(NamedTuple):
         """Links with non-zero coefficients of the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair
-        without losses, and the row modulo 1 gives the phases of its teeth.
+        pair without losses, and the row modulo 1 gives the phases of its teeth.
         """
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
@@ -84,12 +83,12 @@ class Circuit(NamedTuple):
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
-        """Return the same pair with other tooth counts; senses of rotation and other wheels are unchanged.
+        """Return the same pair with other tooth counts; senses of rotation are unchanged.
 
         Parameters
         ----------
         counts : mapping of str to int
-            Tooth count by wheel, 1 or more.
+            Wheel -> tooth count, 1 or more. Other wheels keep their counts.
         """
         if self.kind != "gear" or counts.keys().isdisjoint(self.wheels):
             return self
@@ -208,7 +207,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     return Problem(
         f"wheel '{name}' has no tooth count yet",
         "only `search` is declared, and speeds need a definite count",
-        "add a `value` besides `search`",
+        "add a `value` next to `search`",
         train.place("links", train.wheels[name][0], "wheels", name),
     )
 

@@ -35,7 +35,7 @@ class Tree(FrozenFields):
     parent: Mapping[str, tuple[str, str]]
     """Link -> parent link (its neighbour towards the frame) and label of the axis between them, as declared."""
     top: Mapping[str, str]
-    """Link -> link that carries its axis: the first one on the path to the frame that is not on the same axis."""
+    """Link -> link that carries its axis: the first link on the path to the frame that is not on the same axis."""
 
     def axis(self, link: str) -> str | None:
         """Return the axis label of the joint between a link and its parent; None for the frame."""
@@ -46,7 +46,7 @@ class Tree(FrozenFields):
         return self.parent[link][0] if link in self.parent else None
 
     def bears(self, carrier: str, link: str) -> bool:
-        """Return whether `carrier` carries the axis of `link`."""
+        """Return True if `carrier` carries the axis of `link`."""
         return self.top.get(link) == carrier
 
     def axis_seen_from(self, carrier: str, link: str) -> str:
@@ -106,7 +106,7 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
     links, _ = tree.path(link, other)
     return Problem(
         f"the turning pairs form a cycle: {' - '.join([*links, link])}",
-        "turning pairs must form a tree; links on one axis are joined by one pair fewer than there are links",
+        "turning pairs must form a tree: n links on one axis are joined by n - 1 turning pairs",
         f"remove one of these turning pairs, such as [{link}, {other}]",
         train.place("revolutes", at),
     )
@@ -116,7 +116,7 @@ def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, a
     return Problem(
         f"axis label '{axis}' names two axes",
         f"one is carried by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
-        "joints of one label are coaxial",
+        "joints with one label must be coaxial",
         "give the second axis a different label",
         train.place("revolutes", at),
     )
@@ -237,12 +237,12 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
 
 
 def _not_aligned(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
-    hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
-    over = " about the way from the second to the first" if side else ""
+    hands = [f"{degrees(abs(wheel.helix)):.6g} deg ({wheel.hand or 'right'} hand)" for wheel in wheels]
+    seen = ", measured about the line from the second axis to the first" if side else ""
     return Problem(
-        f"teeth of {hands[0]} and {hands[1]} are not aligned in mesh",
-        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} need helix angles with that sum, right "
-        "hands positive",
+        f"teeth with helix angles of {hands[0]} and {hands[1]} are not aligned in mesh",
+        f"the sum of the helix angles, positive for right hands, must be the shaft angle of "
+        f"{degrees(angle) * (side or 1):.6g} deg{seen}",
         "change a `helix_angle` or a `hand`, or the axes",
     )
 
@@ -256,8 +256,8 @@ _Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
 class Axes:
     """Directions of the axes of a train, and the signs of speeds and meshes that follow from them.
 
-    Speeds of parallel axes are added with their signs. Over non-parallel joints the sum of joint speeds is used, as the
-    scalar equation requires (Freudenstein, Longman and Chen 1984).
+    Speeds of parallel axes are added with their signs. Speeds of non-parallel joints are also added, as the scalar
+    equation requires (Freudenstein, Longman and Chen 1984).
     """
 
     def __init__(self, train: Train, tree: Tree) -> None:
@@ -294,8 +294,8 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links separated from the frame by non-parallel joints. Their "speed" is a sum of joint speeds, not a
-        rotation.
+        """Links separated from the frame by non-parallel joints. Their "speed" is a sum of joint speeds, not the speed
+        of a rotation.
         """
         if self.plain:
             return frozenset()
@@ -307,25 +307,25 @@ class Axes:
         return frozenset(sums)
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return whether all joint axes between two links are parallel, which makes their relative speed a rotation."""
+        """Return True if all joint axes between two links are parallel, so that their relative speed is the speed of a
+        rotation.
+        """
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return whether all these axes have the same or the opposite direction while all angles are 0."""
+        """Return True if all these axes have the same or opposite directions in the pose in which all angles are 0."""
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return whether two axes with declared positions are collinear; axes without positions are treated as
-        different lines.
-        """
+        """Return True if two axes with declared positions are collinear. Axes without positions are never collinear."""
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the non-zero components of the screw of an axis (direction, velocity of the origin); None without a
-        position.
+        """Return the non-zero components of the screw of an axis (direction, and velocity of the origin); None if no
+        position is declared.
         """
         here = self.positions.get(label)
         if here is None:
@@ -369,8 +369,10 @@ class Axes:
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
-            what = "a ring on an axis that is not parallel to its mate's"
-            raise GearTrainError(Problem(what, "a ring and its mate have parallel axes", "use a bevel pair"))
+            what = "the axes of a ring and its mate are not parallel"
+            raise GearTrainError(
+                Problem(what, "an internal pair needs parallel axes", "correct the axes, or use a bevel pair")
+            )
         # bevel and crown wheels: the sense depends on the sides on which their cones open
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
@@ -435,12 +437,12 @@ class Rigid:
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the cases with each brake on a link that turns on the frame, and each lock between two coaxial links.
+    """Return the cases with brakes and locks joint by joint: brakes on links that turn on the frame, locks between
+    coaxial links.
 
     A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
     `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
-    if
-    every case has problems.
+    if every case has problems.
     """
     lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
     closed = [_closed_case(train, lines, sums, case) for case in cases]
@@ -460,9 +462,10 @@ def _closed_case(train: Train, lines: JointLines, sums: frozenset[str], case: St
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the brakes and locks that no device on one axis can realise, because they close two or more joints.
+    """Yield the brakes and locks that cannot be realised by a device on one axis, because they close two or more
+    joints.
 
-    Joints that other brakes and locks close are not counted.
+    Joints that are closed by other brakes and locks are not counted.
     """
     lines = JointLines(train, tree)
     bodies = _Bodies(lines, case)
@@ -591,7 +594,7 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
 
 
 def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
-    """Return the path in the declaration at which a brake or lock is declared."""
+    """Return the path of the declaration keys that declare a brake or lock."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])
     key = "fixed" if len(links) == 1 else "locks"

@@ -370,25 +370,26 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Formulas(Mapping[str, Formula], Result):
-    """Outputs of a train in one state as functions of its free wheels. As a mapping, it contains `outputs`.
+    """Outputs of a train in one state as functions of the tooth counts of its free wheels. As a mapping, it contains
+    `outputs`.
 
-    A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with free wheels are assumed to turn,
-    so
-    a train that moves although such a loop is locked has no formulas. Loops of fixed counts may be of either kind.
+    A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with free wheels are assumed to turn. A
+    train that moves although such a loop is locked therefore has no formulas. Loops without free wheels may turn or be
+    locked.
     """
 
     outputs: Mapping[str, Formula]
     """Exact speed of each output [unit of the train]; with `relative_to` a difference of speeds."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 if the train is to turn, because of loops, or of links driven or fixed in several
-    ways.
+    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that are driven or fixed in
+    several ways.
 
     The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
     all conditions are satisfied.
     """
     exclusions: tuple[Formula, ...]
-    """Functions that must not be 0. Where one is 0 the train is locked or free, although the outputs have values,
-    because the factor cancels in them.
+    """Functions that must not be 0. If one is 0, the train is locked or free, although the outputs have values because
+    the factor cancels in them.
     """
     undetermined: tuple[str, ...]
     """Names of outputs that the inputs do not determine for any tooth counts."""
@@ -403,7 +404,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """Return whether at these tooth counts every condition is 0 and no exclusion is 0."""
+        """Return True if every condition is 0 and no exclusion is 0 at these tooth counts."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
@@ -437,7 +438,7 @@ def find_formulas(
 
 
 def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
-    """Return a copy of a validated declaration with other tooth counts; line numbers and uncertainties are kept.
+    """Return a copy of a validated declaration with other tooth counts; line numbers and uncertainties are preserved.
 
     counts   wheel -> tooth count, from 1 to 10^12
 
@@ -574,7 +575,7 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
 
 def _too_coupled(train: Train) -> Problem:
     return Problem(
-        f"'{train.name}' is too coupled for formulas",
-        "its formulas would have millions of terms, because many speeds depend on each other",
-        "free fewer wheels, or request fewer outputs",
+        f"'{train.name}' has formulas that are too long",
+        "they would have millions of terms, because many speeds depend on each other",
+        "vary fewer wheels, or request fewer outputs",
     )

@@ -179,11 +179,11 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
 class Formula:
     """Rational function of tooth counts in lowest terms: its numerator and denominator are coprime.
 
-    A denominator without terms is 0, and the function then has no value anywhere; `fixed` may return such a function.
+    If the denominator has no terms, it is 0 and the function has no value anywhere; `fixed` may return such a function.
     """
 
     label: str
-    """Name of the output whose speed the function gives, or cause of a condition."""
+    """Name of the output whose speed is given by the function, or cause of a condition."""
     wheels: tuple[str, ...]
     """Free wheels on which the function depends, in the order of the declaration."""
     numerator: tuple[Term, ...]
@@ -201,7 +201,7 @@ class Formula:
 
     @property
     def constant(self) -> Fraction | None:
-        """Value of a function that depends on no wheel; None if it depends on wheels, or has no value."""
+        """Value of a function that does not depend on any wheel; None if it depends on wheels or has no value."""
         return None if self.wheels else self.value({})
 
     @property
@@ -210,7 +210,7 @@ class Formula:
         return any(term.coefficient < 0 for term in self.denominator) or not self.denominator
 
     def value(self, counts: Mapping[str, int]) -> Fraction | None:
-        """Return the exact value; None if the denominator is 0, where the train is locked or free.
+        """Return the exact value of the function; None if the denominator is 0, so that the train is locked or free.
 
         counts   wheel -> tooth count, at least for all `wheels`
         """
@@ -219,7 +219,7 @@ class Formula:
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
     def values(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return the values for many combinations of tooth counts in float64; nan or infinite at poles. `accuracy`
+        """Return the values for many combinations of tooth counts in float64; NaN or infinite at poles. `accuracy`
         bounds their error.
 
         columns   wheel -> array of tooth counts; the arrays are broadcast
@@ -241,9 +241,7 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels after substitution of tooth counts for some wheels; other names
-        are ignored.
-        """
+        """Return the function of the remaining wheels with some tooth counts substituted; other names are ignored."""
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
             return self

@@ -35,9 +35,9 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Find the parts of a train that meshes lock, without regard to brakes, locks, inputs and followers.
+    """Find the parts of a train that are locked by its meshes, ignoring brakes, locks, inputs and followers.
 
-    Followers are ignored because they only oscillate: no mesh causes their mean speed of 0.
+    Followers are ignored because they only oscillate; their mean speed of 0 is not caused by meshes.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:

@@ -18,7 +18,8 @@ _WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "gre
 class RemovalBound(Result):
     """Lower bound on the number of meshes to remove, proved by inconsistent loops.
 
-    Each mesh belongs to at most `sharing` of the loops, so removal of one mesh resolves at most that number of loops.
+    Each mesh belongs to at most `sharing` of the loops. The removal of one mesh therefore opens at most that number of
+    loops.
     """
 
     KEYS = ("sharing", "loops")
@@ -30,7 +31,7 @@ class RemovalBound(Result):
 
     @property
     def at_least(self) -> int:
-        """Lower bound on the number of meshes to remove: number of loops over `sharing`, rounded up."""
+        """Lower bound on the number of meshes to remove: number of loops divided by `sharing`, rounded up."""
         return -(-len(self.loops) // self.sharing)
 
     def __str__(self) -> str:
@@ -43,7 +44,7 @@ class RemovalBound(Result):
 
 @dataclass(frozen=True, slots=True)
 class MeshRemoval(Result):
-    """Meshes to disengage so that all locked links can move. The set is minimal: each mesh in it is necessary.
+    """Meshes to remove so that all locked links can move. The set is minimal: each mesh in it is necessary.
 
     See Also
     --------
@@ -57,9 +58,9 @@ class MeshRemoval(Result):
     method: RemovalMethod
     """Method by which the set was found.
 
-    "one": a single mesh is enough for each part. "loops": smallest, because as many inconsistent loops share no mesh.
-    "matching": smallest, by matching the odd faces of a planar graph (a T-join). "search": smallest, by exhaustive
-    search or branch and bound. "greedy": heuristic, not proved to be the smallest.
+    "one": a single mesh is enough for each part. "loops": smallest, because an equal number of inconsistent loops share
+    no mesh. "matching": smallest, by matching the odd faces of a planar graph (a T-join). "search": smallest, by
+    exhaustive search or branch and bound. "greedy": heuristic, not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
@@ -103,7 +104,7 @@ class MeshRemoval(Result):
 
 @dataclass(frozen=True, slots=True)
 class LockedSubgraph(Result):
-    """Component that its meshes lock to its carrier, and the meshes whose removal frees it.
+    """Component that is locked to its carrier by its meshes, and the meshes whose removal frees it.
 
     See Also
     --------
@@ -166,9 +167,9 @@ class Gridlock(Result):
     jams: tuple[LockedSubgraph, ...] = ()
     """Components with an inconsistent loop, equation (21) of docs/theory.md."""
     held: tuple[str, ...] = ()
-    """Links that meshes of several carriers lock together, although every loop can turn."""
+    """Links that are locked together by meshes of several carriers, although every loop can turn."""
     release: MeshRemoval | None = None
-    """Meshes whose removal frees the whole train; None if it moves, or if no set was found."""
+    """Meshes whose removal frees the whole train; None if the train moves, or if no such set was found."""
 
     def _summary(self) -> str:
         return str(self)
@@ -182,7 +183,7 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield one sentence for each locked part and its remedy; none for a train that moves.
+        """Yield one sentence for each locked part with its remedy; nothing for a train that moves.
 
         Parameters
         ----------

@@ -71,7 +71,7 @@ class DivisibilityRule(Result):
 
     @property
     def text(self) -> str:
-        """Rule as text, such as `3 divides za and 5 divides zb`."""
+        """Rule in words, such as `3 divides za and 5 divides zb`."""
         kinds = [kind for _, terms in self.conditions for kind in terms]
         short = all(
             kind[:1].isdigit() or len(kind) <= 2 for kind in kinds
@@ -80,7 +80,7 @@ class DivisibilityRule(Result):
         return " and ".join(sums) or "always"
 
     def holds(self, teeth: Mapping[str, int]) -> bool:
-        """Return whether all loops close with these tooth counts.
+        """Return True if all loops close with these tooth counts.
 
         Parameters
         ----------
@@ -91,12 +91,12 @@ class DivisibilityRule(Result):
 
 
 def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
-    """Find the condition under which the sum of form[kind] z[kind] is an integer for each of the given linear forms.
+    """Find the condition on tooth counts z under which the sum of form[kind] z[kind] is an integer for each linear
+    form.
 
     Only the coefficients modulo 1 matter. The forms generate a finite abelian group, which is the direct sum of its
-    p-parts.
-    In every part the rows modulo a power of p are brought to triangular (Howell) form. Conditions on one kind only are
-    combined again.
+    p-parts. In every p-part the rows modulo a power of p are reduced to triangular (Howell) form. Conditions on a
+    single kind are then combined.
 
     Parameters
     ----------
@@ -233,7 +233,7 @@ def _sum(terms: Mapping[str, int], short: bool) -> str:
 
 @dataclass(frozen=True)
 class LoopPhase(Result):
-    """Phase condition of one loop of meshes and its residue: equations (2) and (3) of docs/closure.md.
+    """Phase condition of one loop of meshes, with its residue: equations (2) and (3) of docs/closure.md.
 
     See Also
     --------
@@ -247,7 +247,7 @@ class LoopPhase(Result):
     other.
     """
     meshes: tuple[str, ...]
-    """Pairs in order around the loop; the last one closes it. If `together` is True, pairs of several loops in any
+    """Pairs in order around the loop; the last one closes it. If `together` is True, the pairs of several loops in any
     order.
     """
     weights: tuple[int, ...]
@@ -257,28 +257,28 @@ class LoopPhase(Result):
     slack: float
     """Maximum error of the residue [pitch]; 0 if it is exact."""
     how: ResidueKnowledge
-    """Basis of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions), or
+    """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions), or
     "numeric".
     """
     inside: Mapping[str, Fraction | float] | None
-    """Wheel -> signed angle inside the loop that multiplies its tooth count in the sum [turn]; None for compound
+    """Wheel -> signed angle inside the loop [turn], the coefficient of its tooth count in the sum; None for compound
     wheels.
     """
     retime: Mapping[str, float]
-    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; rotation of one wheel is enough.
+    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of these rotations is enough.
     """
     together: bool = False
-    """True for a condition on several loops together that does not follow from the conditions of the single loops."""
+    """True for a condition on several loops that does not follow from the conditions of the single loops."""
 
     @property
     def kind(self) -> PhaseKind:
-        """Verdict: "closes", "misses", or "unclear" if positions are too inaccurate."""
+        """Verdict: "closes", "misses", or "unclear" if the positions are not accurate enough."""
         return judge_residue(self.residue, self.slack)
 
     @property
     def miss(self) -> Fraction | float:
-        """Error of the last pair if all other pairs mesh exactly [pitch], minimised over the choice of the engaged
-        teeth.
+        """Error of the last pair if all other pairs mesh exactly [pitch], for the choice of engaged teeth with the
+        minimum error.
         """
         return self.residue / self.weights[-1]
 
@@ -377,7 +377,7 @@ _SHOWN = 10  # maximum number of loops listed in a text
 class MeshPhasing(Result):
     """Assembly condition: whether the teeth of every loop mesh, and the angles at which the wheels are mounted.
 
-    The equations are (1) to (4) of docs/closure.md. The result is True unless a loop misses or is unclear.
+    See equations (1) to (4) of docs/closure.md. The result is true unless a loop misses or is unclear.
 
     Examples
     --------
@@ -418,7 +418,7 @@ class MeshPhasing(Result):
     backlashes: Mapping[str, float] = field(default_factory=dict)
     """Pair -> circumferential backlash [pitch], for pairs whose tooth form determines it."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
-    """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have one name."""
+    """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have the same name."""
     unjudged: int = 0
     """Number of loops that cannot be checked, because a pair or pin in them has no known position."""
 
@@ -430,12 +430,12 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """Conditions of a cycle basis of short loops, followed by conditions on several loops together."""
+        """Phase conditions of a cycle basis of short loops, followed by conditions on several loops together."""
         return _Loops(self.problem)
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
-        """Indices of the loops that do not close, sorted by falling error."""
+        """Indices of the loops that do not close, in descending order of error."""
         found = [(-abs(float(one.miss)), at) for at, one in enumerate(self.problem.conditions) if one.kind == "misses"]
         return tuple(at for _, at in sorted(found))
 
@@ -454,13 +454,13 @@ class MeshPhasing(Result):
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Basis of the residues, the weakest of all loops: "exact", "recognised" or "numeric"."""
+        """Accuracy of the residues, the lowest of all loops: "exact", "recognised" or "numeric"."""
         ways = {one.how for one in self.problem.conditions}
         return "numeric" if "numeric" in ways else "recognised" if "recognised" in ways else "exact"
 
     @property
     def rigid(self) -> int:
-        """Number of loops with a ratio product other than 1. They cannot turn, and have no phase condition."""
+        """Number of loops with a ratio product other than 1. These loops cannot turn and have no phase condition."""
         return len(self.problem.parts.breaking)
 
     @property
@@ -477,7 +477,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def angles(self) -> Mapping[str, float]:
-        """Angle of the zero mark of every link at which all teeth mesh [rad], 0 to 2 pi.
+        """Angle of the zero mark of every link in the pose in which all teeth mesh [rad], 0 to 2 pi.
 
         Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
         nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If
@@ -515,7 +515,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Error of every pair if the pairs assembled last have the whole error of the loops [pitch]."""
+        """Error of every pair if the last assembled pair of each loop has the whole error of the loop [pitch]."""
         return self._errors(self.problem.tree_angles)
 
     @cached_property
@@ -555,7 +555,7 @@ class MeshPhasing(Result):
 
     @property
     def text(self) -> str:
-        """Verdict and its consequences as lines of text."""
+        """Verdict and its consequences, as lines of text."""
         return "\n".join(self._lines())
 
     def _lines(self) -> Iterator[str]:
@@ -641,7 +641,7 @@ _OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regula
 
 
 class SphericalGears(Protocol):
-    """Protocol of a configuration of gears whose axes pass through one point.
+    """Protocol of a set of gears whose axes pass through one point.
 
     See Also
     --------
@@ -678,7 +678,7 @@ class SphericalGears(Protocol):
 def find_phasing(
     train: Train, tree: Tree, circuits: Sequence[Circuit], backlashes: Mapping[str, float] | None = None
 ) -> MeshPhasing:
-    """Check the phase closure of a declared train, in the pose in which its moving axes are declared.
+    """Check the assembly condition of a declared train, in the pose in which its moving axes are declared.
 
     backlashes   pair -> circumferential backlash [pitch], as far as it is known
     """
@@ -710,7 +710,7 @@ def _equal_wheels(train: Train) -> dict[str, str]:
 
 
 def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | None = None) -> MeshPhasing:
-    """Check the phase closure of gears with axes through one point.
+    """Check the assembly condition of gears whose axes pass through one point.
 
     Parameters
     ----------
@@ -741,7 +741,7 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
     counts = {**configuration.teeth, **(teeth or {})}
     missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
     if missing:
-        what = f"no tooth count for {', '.join(missing)}"
+        what = f"no tooth count is given for {', '.join(missing)}"
         raise QuestionError(
             Trouble(
                 what,
@@ -753,7 +753,7 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
 
 
 def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRule | None:
-    """Return the rule for tooth counts with which gears with axes through one point can be assembled.
+    """Return the rule for the tooth counts with which gears whose axes pass through one point can be assembled.
 
     Parameters
     ----------
@@ -763,7 +763,7 @@ def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRu
     Returns
     -------
     DivisibilityRule or None
-        Rule; None if contacts are not at known rational fractions of a turn.
+        Rule; None if the contacts are not at known rational fractions of a turn.
 
     Examples
     --------

@@ -413,12 +413,12 @@ class Solution:
     signs: Mapping[str, int]
     """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
     loose: FreeForms | None = None
-    """Speeds of all links as linear forms of the free unknowns; None if all links are determined, or none."""
+    """Speeds of all links as linear forms of the free unknowns, if the train is free; otherwise None."""
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        It can be determined although both links are free: if the difference is in the row space of the system.
+        It can be determined although both links are free, if the difference is in the row space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.loose is None:
@@ -512,7 +512,7 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """Return the verdict only, by elimination modulo a prime, for systems too dense for rational elimination."""
+    """Return only the verdict, by elimination modulo a prime, for systems too dense for rational elimination."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
@@ -527,7 +527,7 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
 
 
 def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
-    """Return the verdict that all speeds are determined; it mentions a loop that locks a part of the train."""
+    """Return the verdict that all speeds are determined; its text mentions a loop that locks a part of the train."""
     parts = reduced.components if reduced else None
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"

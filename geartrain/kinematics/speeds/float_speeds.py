@@ -156,7 +156,8 @@ _ORDINARY = 400  # exponents of two up to which speeds are solved unscaled: squa
 class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds by sparse LU and iterative refinement, with an estimate of their error (docs/theory.md, 11).
 
-    `floats[link]` returns the speed of a link in the first case; `RangeError` beyond the range of float64.
+    `floats[link]` returns the speed of a link in the first case, and raises `RangeError` if it exceeds the range of
+    float64.
 
     Notes
     -----
@@ -178,8 +179,8 @@ class FloatSpeeds(FrozenFields, Shown):
     estimate: LabelledArray
     """Estimated absolute error of each speed, with axes and unit of `speeds`."""
     residual: LabelledArray
-    """Relative residual |b - A x| over |A| |x| of each row of the matrix, axes (row, case), in twice the working
-    precision [1].
+    """Relative residual |b - A x| / (|A| |x|) of each row of the matrix, axes (row, case), computed in twice the
+    working precision [1].
     """
     condition: Mapping[str, float]
     """Link -> component-wise condition number cond(A, x) of the first case, equation (25), for the requested links. It
@@ -196,7 +197,7 @@ class FloatSpeeds(FrozenFields, Shown):
         if isinstance(speed, float):
             return speed
         what = f"the speed of '{link}' is {speed}, beyond the range of float64"
-        fix = f"use `decimal('{link}')`, or `speeds` times 2**`exponents`"
+        fix = f"use `decimal('{link}')`, or multiply `speeds` by 2**`exponents`"
         raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", fix))
 
     def number(self, link: str, case: int = 0) -> Real:
@@ -212,7 +213,7 @@ class FloatSpeeds(FrozenFields, Shown):
         return scaled(float(self.speeds[link][case]), int(self.exponents[link][case]))
 
     def decimal(self, link: str, case: int = 0, digits: int = 10) -> str:
-        """Return the speed of a link as decimal text; its magnitude is not limited.
+        """Return the speed of a link of any magnitude as decimal text.
 
         Parameters
         ----------
@@ -245,7 +246,7 @@ def solve_floats(
 
     If speeds leave the range of float64, each case is solved with a separate power of two for every link. Raises
     `RangeError` if the system is not square and regular, or if scaling does not bring it within the range either.
-    Underflow to 0 is never returned.
+    Speeds never underflow to 0.
     """
     matrix, rows = prepare(system)
     found, exponents = _solve_with_scaling(
@@ -405,8 +406,8 @@ def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
             Problem(what, "no speeds satisfy all equations", "print `train.solve().verdict`, which names the cause")
         )
     if len(rows) < len(links):
-        what = f"{len(rows)} independent equations for {len(links)} moving links"
-        why = "a train that is free, locked or contradictory has no float solution"
+        what = f"there are only {len(rows)} independent equations for {len(links)} moving links"
+        why = "speeds in float64 are computed only if they are determined"
         raise RangeError(Problem(what, why, "print `train.solve().verdict`, which names the cause"))
     return PaddedRows(links, rows), rows
 
@@ -489,7 +490,7 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     if (condition <= _LARGEST_CONDITION).all():
         return
     at = int(np.argmax(condition.max(axis=1)))
-    what = f"no digit of the speed of '{list(matrix.at)[at]}' is known in float64"
+    what = f"no digit of the speed of '{list(matrix.at)[at]}' is correct in float64"
     why = f"rounding errors of the equations are amplified more than {_LARGEST_CONDITION:.0e} times"
     raise RangeError(Problem(what, why, "use the exact method"))
 
@@ -507,10 +508,11 @@ def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limi
 
 
 def is_regular(system: WillisSystem) -> bool:
-    """Return whether float64 proves that the system determines all speeds; False also means that this is undecided.
+    """Return True if float64 arithmetic proves that the system determines all speeds, False if it does not or if the
+    test is inconclusive.
 
-    The factors of a singular matrix are those of a regular one that differs by roundings, so their condition number is
-    about 1 / eps. The limit is a thousand times lower.
+    The computed factors of a singular matrix are the exact factors of a regular matrix that differs from it by rounding
+    errors, so their condition number is about 1 / eps. The limit is a thousand times lower.
     """
     try:
         matrix, _ = prepare(system)
@@ -525,7 +527,7 @@ def is_regular(system: WillisSystem) -> bool:
 def _out_of_range(label: str) -> Problem:
     return Problem(
         f"a speed leaves the range of float64 near '{label}'",
-        "ratios beyond 1e308 would become 0 or infinity",
+        "a ratio above 1e308 or below 1e-308 would become infinity or 0",
         "use the exact method",
     )
 
@@ -533,6 +535,6 @@ def _out_of_range(label: str) -> Problem:
 def _no_factors(size: int, message: str) -> Problem:
     return Problem(
         f"the {size} equations cannot be factorised in float64 ({message.strip()})",
-        "ratios beyond 1e308, and differences below one rounding, make a regular system singular to working precision",
+        "ratios above 1e308, and differences smaller than the rounding error, make the system numerically singular",
         "use the exact method",
     )

@@ -16,8 +16,8 @@ from geartrain.numerics.results import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Mobility of a train by count and by exact rank, with the reasons for their difference; docs/theory.md, (16),
-    (17), (20).
+    """Mobility of a train by count and by exact rank, with the reasons for the difference; docs/theory.md, (16), (17),
+    (20).
 
     Examples
     --------
@@ -61,7 +61,7 @@ class Mobility(Result):
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
     still: tuple[str, ...]
-    """Links that cannot move, whichever link drives the train."""
+    """Links that cannot move, whichever link drives."""
     idle: tuple[str, ...]
     """Names of pairs whose wheels never roll on each other."""
     certain: bool = True

@@ -29,10 +29,10 @@ _KINDS = (
 
 
 def destination(path: Path, force: bool = False) -> Path:
-    """Return the file to which a result for `path` is written, after resolving symbolic links.
+    """Return the file to which a result for `path` is written, after symbolic links are resolved.
 
-    Only regular files are overwritten, only with `force`, and never files with read-only permissions, even by root.
-    Raises `GearTrainError` otherwise. Nothing is changed on the disk.
+    Existing files are overwritten only with `force`, and only if they are regular files whose permissions allow
+    writing, even for root. Otherwise `GearTrainError` is raised. The function does not change the disk.
     """
     try:
         real, mode = _target(path)
@@ -47,12 +47,18 @@ def destination(path: Path, force: bool = False) -> Path:
 
 
 def write_text(path: Path, text: str, force: bool = False) -> None:
-    """Write `text` to `path` as UTF-8, atomically. Raises `GearTrainError`."""
+    """Write `text` atomically to `path` as UTF-8, following symbolic links.
+
+    An existing file is overwritten only with `force`. Raises `GearTrainError` if the file cannot be written.
+    """
     write_bytes(path, text.encode("utf-8"), force)
 
 
 def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
-    """Write `data` to the `destination` of a path, atomically. Raises `GearTrainError`."""
+    """Write `data` atomically to `path`, following symbolic links.
+
+    An existing file is overwritten only with `force`. Raises `GearTrainError` if the file cannot be written.
+    """
     real = destination(path, force)
     try:
         handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:64]}.")
@@ -206,9 +212,9 @@ def _sync_folder(folder: Path) -> None:
 
 
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
-    """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written into a folder.
+    """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written to a folder.
 
-    Existing files are refused without `force`.
+    Without `force`, it is also raised for existing files.
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
@@ -231,7 +237,7 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write files by name into a folder, all of them or none, and return their number.
+    """Write files by name to a folder, either all of them or none, and return their number.
 
     The files are created in a temporary folder next to it and moved when all are complete. Existing files are
     overwritten only with `force`. Raises `GearTrainError`.

@@ -23,7 +23,7 @@ PARTIAL_SUFFIX = "# partial: "
 
 
 def partial_name(path: Path) -> Path:
-    """Return the name of the partial file: `run.csv` -> `run.partial.csv`."""
+    """Return the name of the partial file of an interrupted run: `run.csv` -> `run.partial.csv`."""
     return path.with_name(f"{path.stem}.partial{path.suffix}")
 
 
@@ -47,7 +47,7 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
 
 
 class LongTable:
-    """CSV file that is written row by row as `name.partial.csv`, and renamed to `name.csv` when it is complete.
+    """CSV file that is written row by row as `name.partial.csv` and renamed to `name.csv` when it is complete.
 
     rows     number of rows, including those of an interrupted run that is resumed
     resume   True to continue the partial file
@@ -93,7 +93,7 @@ class LongTable:
         return max(rows, 0)
 
     def last(self) -> str:
-        """Return the last complete row of the interrupted run."""
+        """Return the last complete row of an interrupted run."""
         with self.partial.open("rb") as file:
             lines = file.read().splitlines()
         return lines[-1].decode("utf-8") if self.rows else ""
@@ -122,14 +122,14 @@ class LongTable:
 
 
 class ColumnTable:
-    """Parquet file that is written by row groups as `name.partial.parquet`, and renamed when it is complete.
+    """Parquet file that is written by row groups as `name.partial.parquet` and renamed when it is complete.
 
     about    metadata of the file, by key
     force    True to overwrite an existing table
     replay   True to overwrite the partial file of an interrupted run
 
-    After an interrupt the partial file is closed and readable. Raises `MissingExtraError` without pyarrow, and
-    `GearTrainError` if the file cannot be written.
+    After an interrupt the partial file is closed and readable. Raises `MissingExtraError` if pyarrow is not installed,
+    and `GearTrainError` if the file cannot be written.
     """
 
     def __init__(self, path: Path, about: Mapping[str, str], force: bool = False, replay: bool = False) -> None:
@@ -175,12 +175,12 @@ _FORMULA = ("=", "@", "+", "-", "\t", "\r", "\n")
 
 
 def csv_line(cells: Iterable[object]) -> str:
-    r"""Format one row as CSV without a line end, quoted where needed.
+    r"""Format one row as CSV without a line end; cells are quoted where necessary.
 
-    None becomes empty text, and floats have all digits.
+    None is written as an empty cell, and floats with all digits.
 
-    An apostrophe is put before a text that a spreadsheet would interpret as a formula, except numbers and fractions.
-    Control characters are escaped, so that a row is always one line of a file.
+    Text that a spreadsheet would interpret as a formula is preceded by an apostrophe, except numbers and fractions.
+    Control characters are escaped, so that a row is always one line of the file.
 
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
     '"a,b",\'=1+1,-254/19,-0.5,'
@@ -189,7 +189,7 @@ def csv_line(cells: Iterable[object]) -> str:
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
-    """Format several rows as CSV, each as `csv_line` does."""
+    """Format several rows as CSV with `csv_line`."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows([_cell(cell) for cell in row] for row in rows)
     return out.getvalue().split("\n")[:-1]

@@ -13,7 +13,7 @@ from geartrain.numerics.work.worker_pool import Announcement, WorkerPool
 
 
 def cores() -> int:
-    """Return the number of cores that this process may use, according to its affinity; at least 1."""
+    """Return the number of processor cores that this process may use according to its affinity; at least 1."""
     if hasattr(os, "process_cpu_count"):  # Python 3.13
         return os.process_cpu_count() or 1
     if hasattr(os, "sched_getaffinity"):
@@ -25,8 +25,7 @@ def cores() -> int:
 def open_executor(
     workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
 ) -> Iterator[Executor | None]:
-    """Return a context manager with an executor for `run`; None if one worker is enough, and work is done in this
-    process.
+    """Return a context manager with an executor for `run`, or with None if the tasks run in this process.
 
     On exit the context manager ends all running work.
 
@@ -34,13 +33,13 @@ def open_executor(
     ----------
     workers : int, optional
         Number of processes on this machine, 1 or more, started with the first task. The default is the number of cores
-        available to this process. Default processes are started only if the work is not almost finished after a second
-        in this process.
+        available to this process. With the default number, processes are started only if the work is not nearly
+        finished after one second in this process.
     dask : str, optional
         Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers do the work. Needs the extra `dask`,
         and the same version of geartrain on the cluster.
     announce : callable, optional
-        Function called once with (tasks, workers) when other processes begin to work.
+        Function that is called once with (tasks, workers) when other processes begin to work.
 
     Yields
     ------
@@ -78,7 +77,9 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
         why = "the number of workers of a cluster is set when it is started"
         raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give only one of them"))
     if workers is not None and workers < 1:
-        raise QuestionError(Problem(f"{workers} workers", "at least one worker is needed", "give 1 or more"))
+        raise QuestionError(
+            Problem(f"the number of workers is {workers}", "at least one worker is needed", "give 1 or more")
+        )
     if dask is not None:
         from geartrain.numerics.work.cluster import DaskPool
 

@@ -34,19 +34,19 @@ _SYNC_INTERVAL = 1.0  # s between flushes to disk: a power failure loses at most
 
 
 class Journal:
-    """Results by task number, stored in a file until the run is complete.
+    """Results of the tasks of a run, stored by task number in a file until the run is complete.
 
-    A journal is a context manager, which leaves the file for a later run. `len()` is the number of stored results. A
-    journal needs 8 bytes of memory per task.
+    A journal is a context manager, which closes the file but keeps it for a later run. `len()` returns the number of
+    stored results. A journal needs 8 bytes of memory per task.
 
     Parameters
     ----------
     path : path or str
         Path of the file; it is created, or resumed if it contains the same `question`.
     question : mapping
-        Plain data that identify the run: all data on which tasks and results depend.
+        Plain data that identify the run: all data on which the tasks and their results depend.
     resume : bool
-        False to discard the results in the file, also those of another run.
+        False to discard the results in the file, including the results of another run.
 
     Raises
     ------
@@ -210,7 +210,7 @@ class Journal:
 
     @property
     def closed(self) -> bool:
-        """True if the journal cannot be written any more."""
+        """True if the journal is closed, so that no results can be stored."""
         return self._file.closed
 
     def close(self) -> None:
@@ -257,7 +257,7 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem that an existing journal has another `question`, and so belongs to another run."""
+    """Return the problem that an existing journal has another `question` and therefore belongs to another run."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]

@@ -47,18 +47,17 @@ def run(
 ) -> Iterator[Any]:
     """Yield `work(task)` for each task, in the order of the tasks.
 
-    The death of a worker loses only its unfinished tasks, which are repeated. A task that repeatedly kills workers is
-    run without others before it is reported. Pending tasks are cancelled however the iterator ends.
+    If a worker dies, its unfinished tasks are repeated. A task that repeatedly kills workers is run without other tasks
+    before an error is raised. Pending tasks are cancelled when the iterator ends for any reason.
 
     Parameters
     ----------
     work : callable
         Function at the top level of a module, so that other processes can import it. Its results are plain JSON data
-        and
-        depend only on the task.
+        and depend only on the task.
     tasks : iterable
-        Any number of tasks. They are read when needed, and only results ahead of a missing one are stored (at most 64
-        per worker).
+        Any number of tasks, which are read when needed. At most 64 results per worker are stored while an earlier
+        result is missing.
     executor : concurrent.futures.Executor, optional
         Any executor; by default tasks run in this process. An executor from `open_executor` survives the death of its
         workers.
@@ -66,13 +65,12 @@ def run(
         Stored results, which are not computed again; new results are added.
     tell : callable, optional
         Progress function, called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten
-        times
-        a second and at the end.
+        times a second and at the end.
 
     Yields
     ------
     plain data
-        Results as read from JSON: tuples are lists, keys are texts.
+        Results as read from JSON: tuples become lists, and keys become strings.
 
     Raises
     ------
@@ -92,7 +90,7 @@ def run(
 
 @dataclass(frozen=True, slots=True)
 class Execution:
-    """Execution of independent tasks; by default they run in this process without a journal.
+    """Execution of independent tasks, by default in this process and without a journal.
 
     Examples
     --------
@@ -106,7 +104,7 @@ class Execution:
     executor: Executor | None = None
     """Executor of the tasks, such as one from `open_executor`; None for this process."""
     journal: Journal | None = None
-    """Journal of finished results, by which a run can be resumed."""
+    """Journal of finished results, with which a run can be resumed."""
     tell: ProgressReport | None = None
     """Progress function, called with (tasks done, total number), at most ten times a second and at the end."""
 
@@ -341,8 +339,8 @@ def _killer_error(submission: _Submission) -> GearTrainError:
     return GearTrainError(
         Problem(
             f"task {submission.index} kills its worker: {shown}",
-            f"{submission.deaths} worker processes died during it, the last one without other tasks: out of memory, "
-            "killed from outside, or unable to start",
+            f"{submission.deaths} worker processes died during it, the last one without other tasks; possible causes: "
+            "too little memory, a signal from another process, or an error at the start",
             "provide more memory, smaller tasks or fewer workers; a script that starts workers needs the line "
             'if __name__ == "__main__": before its code',
         )

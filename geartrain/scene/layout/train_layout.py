@@ -91,7 +91,7 @@ def notices(
         if name not in gaps:
             yield Problem(
                 f"the teeth of '{name}' do not mesh: their phase is wrong by {abs(miss):.3g} of a pitch",
-                "the pair closes a loop of wheels, whose places determine the phases of all teeth",
+                "the pair closes a loop of wheels, whose positions determine the phases of all teeth",
                 "declare positions of the axes at which teeth mesh, or change tooth counts",
                 place[name],
             )
@@ -114,7 +114,7 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
     for stray in declared.strays:
         yield Problem(
             f"wheel '{stray.wheel}' is drawn only on axis '{declared.axis[stray.wheel]}'",
-            f"pair '{stray.pair}' has it on axis '{stray.axis}' as well",
+            f"pair '{stray.pair}' requires it on axis '{stray.axis}' as well",
             "declare a separate wheel for each of its meshes",
             place[stray.pair],
         )
@@ -129,14 +129,14 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they are in one level, like their mates, and their axes are too close together",
+            "they and their mates are on one level, and their axes are too close together",
             "declare positions of their axes, or change the order of their pairs",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:
         yield Problem(
             f"arbors pass through wheels: {_listed(pierced)}",
-            "no order of the levels was found that keeps all arbors clear",
+            "no order of the levels was found in which all arbors are clear of wheels",
             "declare positions of the axes at which the arbors are clear of wheels",
         )
 
@@ -278,7 +278,7 @@ _PARALLEL = 1e-9  # of the cosine, because directions are rounded to floats
 
 @dataclass(frozen=True, slots=True)
 class AxisPlace(Shown):
-    """An axis in the zero pose.
+    """Position and direction of an axis in the zero pose.
 
     See Also
     --------
@@ -286,20 +286,22 @@ class AxisPlace(Shown):
     """
 
     label: str
-    """Label in the declaration."""
+    """Label of the axis in the declaration."""
     point: Vector
     """Point of the axis [mm]."""
     direction: Vector
-    """Declared unit vector, about which speeds of its links are positive."""
+    """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
-    """`given` in the declaration, `found` from wheels that mesh, or `free`: placed without overlap."""
+    """Origin of the position: `given` in the declaration, `found` from wheels that mesh, or `free` (placed without
+    overlap).
+    """
     carrier: str
-    """Link that carries it: the frame or a carrier."""
+    """Link that carries the axis: the frame or a carrier."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelPlace(Shown):
-    """A wheel on its axis in the zero pose.
+    """Position and size of a wheel in the zero pose.
 
     See Also
     --------
@@ -309,40 +311,41 @@ class WheelPlace(Shown):
     wheel: str
     """Name of the wheel."""
     link: str
-    """Link that carries it."""
+    """Link that carries the wheel."""
     axis: str
-    """Axis about which it turns."""
+    """Label of the axis about which the wheel turns."""
     centre: Vector
     """Centre of its pitch circle, on its axis [mm]."""
     radius: float
-    """Pitch radius [mm], of a bevel wheel at its wide end."""
+    """Pitch radius [mm]; for a bevel wheel, at the wide end."""
     module: float
     """Pitch diameter divided by the tooth count [mm]."""
     thickness: float
     """Thickness of its rim along the axis [mm]."""
     given: bool = False
-    """True if the declaration gives the module of this wheel, or of one that it meshes with."""
+    """True if the module of this wheel, or of a wheel that meshes with it, is declared."""
     cone: float = 0.0
     """Half angle of its pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
     """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of its level, from 0 for the level nearest the origin, increasing along the axis; None off the main axes.
+    """Number of the level, from 0 for the level nearest to the origin, increasing along the axis; None for wheels that
+    are not on the main axes.
     """
     turn: float = 0.0
-    """Angle of its first tooth about the direction of its axis from `reference`, at which teeth mesh [rad]."""
+    """Angle of the first tooth from `reference` about the direction of the axis, such that the teeth mesh [rad]."""
     reference: Vector = (1.0, 0.0, 0.0)
     """Unit vector across the axis from which `turn` is measured."""
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of its body along the direction of the axis, from its centre [mm]."""
+        """Lower and upper end of the wheel body along the direction of the axis, from the centre [mm]."""
         return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 
 @dataclass(frozen=True, slots=True)
 class Layout(Shown):
-    """All axes and wheels of a train in space.
+    """Layout of a train: positions of all axes and wheels in space.
 
     See Also
     --------
@@ -354,18 +357,20 @@ class Layout(Shown):
     wheels: Mapping[str, WheelPlace]
     """Wheels by name."""
     notices: tuple[Problem, ...] = ()
-    """Wheels and axes that could not be placed as declared, or that collide, with reasons and remedies."""
+    """Problems with wheels and axes that could not be placed as declared or that collide, with reasons and remedies."""
     front: int = 1
     """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
-    """Gap of the pitch circles [mm] of gear pairs whose wheels do not touch as placed, negative for an overlap."""
+    """Gap between the pitch circles [mm] of gear pairs whose wheels do not touch in the layout; negative for an
+    overlap.
+    """
 
     def _summary(self) -> str:
         notices = f", {len(self.notices)} notices" if self.notices else ""
         return f"{len(self.axes)} axes, {len(self.wheels)} wheels{notices}"
 
     def axis_distance(self, first: str, second: str) -> float | None:
-        """Return the distance of the axes of two wheels, if they are parallel.
+        """Return the distance between the axes of two wheels if they are parallel.
 
         Parameters
         ----------
@@ -387,11 +392,12 @@ class Layout(Shown):
 
 
 def lay_out(train: GearTrain) -> Layout:
-    """Return places of all axes and wheels of a train, by beam search and local search; the result is deterministic.
+    """Return the positions of all axes and wheels of a train, found by beam search and local search; the result is
+    deterministic.
 
     Declared positions, modules and offsets of pins are always kept. All other sizes are chosen so that pitch circles
-    touch, wheels of one level do not overlap and the plan is compact. Every train that loads has a layout. The time
-    grows with the square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
+    touch, wheels on one level do not overlap and the plan is compact. Every valid train has a layout. The computing
+    time is a quarter of a second for 70 wheels and a second for 1000 axes.
 
     Parameters
     ----------
@@ -401,7 +407,8 @@ def lay_out(train: GearTrain) -> Layout:
     Returns
     -------
     Layout
-        Lengths in mm, in the pose in which all angles are zero. Its `notices` report conditions that are not satisfied.
+        Layout with lengths in mm, in the pose in which all angles are 0. Its `notices` report conditions that are not
+        satisfied.
 
     Notes
     -----

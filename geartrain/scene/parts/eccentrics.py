@@ -60,7 +60,7 @@ class FlexibleCup:
         what = f"'{self.wheel}' and the wall of '{self.link}' are one thin part, which cannot be cut from sheet"
         why = f"a wave generator deforms it, and its wall is {self.wall:.3g} mm thick"
         solids = f"wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
-        fix = f"turn it, or print it in a flexible material, from {solids}"
+        fix = f"make it on a lathe, or print it in a flexible material, from {solids}"
         yield Problem(what, why, fix)
 
 
@@ -188,7 +188,7 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None
-    what = f"'{eccentric.name}' leaves a wall of only {beside:.3g} mm beside its arbor"
+    what = f"'{eccentric.name}' leaves a wall of only {beside:.3g} mm around its arbor"
     radius, offset = eccentric.radius, eccentric.offset
     why = f"its radius is {radius:g} mm, and its arbor has a diameter of {arbor:g} mm and is {offset:g} mm off centre"
     return Problem(what, why, "use a smaller --bore, a larger module, or pins farther from the centre")

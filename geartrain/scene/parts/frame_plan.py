@@ -443,7 +443,7 @@ class FramePlan:
         for column in self.all_columns:
             if column.tangled:
                 one, other = column.tangled
-                why = f"each has a wheel between two of the other, on axis '{column.axis}'"
+                why = f"each has a wheel between two wheels of the other, on axis '{column.axis}'"
                 fix = "move one of them to another axis, or remove one of these wheels"
                 yield Problem(f"arbors '{one}' and '{other}' cannot be nested", why, fix)
             for disc, room in column.hit:

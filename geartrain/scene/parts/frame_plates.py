@@ -317,7 +317,7 @@ class FramePlates:
                 other = next(each for each in (*taken, *kept) if _meet(hole, each))
                 what = f"{where} has no hole for axis '{hole.name}'"
                 why = f"it would overlap the hole of '{other.name}', {dist(hole.at, other.at):.3g} mm away"
-                yield Problem(what, why, "use a smaller --bore, or turn one stepped stud for both")
+                yield Problem(what, why, "use a smaller --bore, or make one stepped stud for both")
 
 
 def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:

@@ -317,7 +317,7 @@ class FrameStack:
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
                 upright = self.is_upright(axis)
                 why = (
-                    f"its carrier '{axis.carrier}' is itself carried"
+                    f"its carrier '{axis.carrier}' turns on another carrier"
                     if upright
                     else "it is not perpendicular to the plates"
                 )

@@ -53,5 +53,5 @@ def process_named(name: str | None) -> Process:
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         fix = suggest(wanted, PROCESSES)
-        raise QuestionError(Problem(f"'{wanted}' is not a process", "", fix, "--process"))
+        raise QuestionError(Problem(f"'{wanted}' is not a manufacturing process", "", fix, "--process"))
     return PROCESSES[wanted]

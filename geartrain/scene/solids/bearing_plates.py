@@ -178,14 +178,14 @@ def _discs(
 ) -> Iterator[Plate]:
     for coupling in couplings:
         if isinstance(coupling, Parallel):
-            what = f"'{coupling.name}' is not made"
-            why = "the mechanism that keeps its two links parallel is not declared"
+            what = f"the mechanism of '{coupling.name}' is not made"
+            why = "the parts that keep its two links parallel are not declared"
             notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
             continue
         if isinstance(coupling, PinsInHoles):
             lacking = "pins" if coupling.name in holed else "pins and holes"
             what = f"the {lacking} of '{coupling.name}' are not made"
-            why = "they are cut into sufficiently wide wheels of both links if sizes are declared"
+            why = "they are made only if their sizes are declared, and both links have sufficiently large wheels"
             fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; else add them by hand"
             notices.append(Problem(what, why, fix))
             continue

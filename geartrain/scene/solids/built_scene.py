@@ -40,24 +40,24 @@ _SAME = 1e-6
 def build_scene(
     train: GearTrain, state: str | None = None, run: TimeRun | None = None, formulas: bool = False
 ) -> Scene:
-    """Return the scene of a train with its structural parts, at the same places as in exports.
+    """Return the scene of a train with its structural parts, at the same positions as in exports.
 
     Parameters
     ----------
     train : GearTrain
         Loaded or declared train.
     state : str, optional
-        State of the train; by default the first, or that of the run.
+        State of the train; by default the first state, or the state of the run.
     run : geartrain.simulation.TimeRun, optional
-        Result of `train.dynamics(...)` in that state, which is then the motion of the scene.
+        Result of `train.dynamics(...)` in that state, which replaces the exact motion of the scene.
     formulas : bool
         Same as in `make_scene`.
 
     Returns
     -------
     Scene
-        Same as from `make_scene`, with `parts`, and with wheels moved along their axes to make space for plates. If
-        nothing can be built, the scene of `make_scene` is returned.
+        Scene of `make_scene` with `parts`, and with wheels moved along their axes to make space for plates. If no parts
+        can be built, the scene of `make_scene` is returned.
 
     Raises
     ------

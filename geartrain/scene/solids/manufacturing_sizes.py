@@ -34,12 +34,12 @@ _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inver
 
 @dataclass(frozen=True, slots=True)
 class ManufacturingSizes(Shown):
-    """Sizes in which a train is made; None leaves a size to the layout.
+    """Manufacturing sizes of the parts of a train. Sizes that are None are chosen by the layout.
 
     Raises
     ------
     QuestionError
-        For a size that is none.
+        If a value is not a valid size.
 
     Examples
     --------
@@ -48,20 +48,20 @@ class ManufacturingSizes(Shown):
     """
 
     module: float | None = None
-    """Pitch diameter divided by the tooth count [mm], above 0; only for declarations without sizes."""
+    """Module: pitch diameter divided by tooth count [mm], above 0. Only for declarations without sizes."""
     thickness: float | None = None
     """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
-    """Diameter of the arbors [mm]. 0 omits arbors and plates, and holes of wheels."""
+    """Diameter of the arbors [mm]. With 0, arbors, plates and the holes of wheels are omitted."""
     backlash: float | None = None
     """Circumferential backlash at the pitch circle of every pair that does not declare its own [mm], 0 or more.
 
     The default is 1/20 of the module.
     """
     process: str | None = None
-    """Manufacturing process: laser, cnc, fdm or hand. It sets kerf, fits, and the default backlash."""
+    """Manufacturing process: laser, cnc, fdm or hand. It determines kerf, fits and the default backlash."""
     arms: int | None = None
-    """Number of spokes of wheels that have space for windows between them, 3 or more; None for solid webs."""
+    """Number of spokes of wheels with enough space for windows between them, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None
     """Width and height of the sheets on which flat parts are arranged [mm], above 0; None for no sheets."""
 
@@ -88,7 +88,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
+    why = "drawings are accurate to 0.001 mm, and their arbors and plates are a few millimetres thick"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 

@@ -47,12 +47,13 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class SolidModel(Shown):
-    """Solid model of a train, from which exports are made; each part is computed at first use.
+    """Solid model of a train for exports. Each part is computed at first use.
 
     Raises
     ------
     QuestionError
-        At first use, if the train declares sizes that `making` gives too, or teeth that cannot have the backlash.
+        If the train declares sizes that `making` also gives, or if its teeth cannot have the backlash. It is raised at
+        first use.
 
     Examples
     --------
@@ -66,7 +67,7 @@ class SolidModel(Shown):
     train: GearTrain
     """Loaded or declared train."""
     making: ManufacturingSizes
-    """Sizes in which it is made."""
+    """Manufacturing sizes."""
     state: str | None = None
     """State of the train; by default the first."""
 
@@ -81,7 +82,7 @@ class SolidModel(Shown):
 
     @cached_property
     def layout(self) -> Layout:
-        """Places of axes and wheels, at the requested sizes, with space for plates."""
+        """Positions of axes and wheels at the requested sizes, with space for plates."""
         return self._spread if self.plan is None else self.plan.layout
 
     @cached_property
@@ -91,7 +92,7 @@ class SolidModel(Shown):
 
     @cached_property
     def plan(self) -> FramePlan | None:
-        """Places of plates and arbors; None if the frame carries no axis, or arbors are not requested."""
+        """Positions of plates and arbors; None if the frame carries no axis, or if arbors are not requested."""
         stack = FrameStack(self.sized, self._spread, self._toothed.wheels, self.making.bore)
         # a bore of 0 requests wheels without arbors and plates
         if self.making.bore == 0 or stack.normal is None:
@@ -114,7 +115,7 @@ class SolidModel(Shown):
 
     @cached_property
     def hanging(self) -> HangingParts | None:
-        """Pendulum and weight, and their supports; None without a plan."""
+        """Pendulum and weight with their supports; None without a plan."""
         if self.plan is None:
             return None
         crank = self.scene.crank
@@ -128,12 +129,12 @@ class SolidModel(Shown):
 
     @cached_property
     def cages(self) -> tuple[Cage, ...]:
-        """Cages of axes that are carried at an angle to the axis of their carrier."""
+        """Cages for axes that are at an angle to the axis of their carrier."""
         return () if self.plan is None else find_cages(self.scene, self.plan, bores(self.layout, self.making))
 
     @cached_property
     def blanks(self) -> Blanks:
-        """Flat shapes of the wheels, with holes for arbors, and for other parts that they bear."""
+        """Flat shapes of the wheels, with holes for arbors and for other parts that they carry."""
         holes = self.bores_of_wheels
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
@@ -147,7 +148,7 @@ class SolidModel(Shown):
 
     @cached_property
     def bores_of_wheels(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel (mm)."""
+        """Diameter of the hole of each wheel [mm]."""
         rods = bores(self._spread, self.making)
         found = {name: rods[place.axis] for name, place in self._spread.wheels.items()}
         return found if self.plan is None else found | self.plan.bores
@@ -186,7 +187,7 @@ class SolidModel(Shown):
 
     @cached_property
     def dials(self) -> list[DialPlate]:
-        """Plates of dials; empty without plates of the frame."""
+        """Plates of dials; empty if the frame has no plates."""
         thickness = self.making.thickness or THICKNESS
         return [] if self.plan is None else dial_plates(self.scene, self.plan, thickness)
 

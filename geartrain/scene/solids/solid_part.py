@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SolidPart(Shown):
-    """One solid of a body. Its point p is placed at turn p + place.
+    """Solid of a body. The point p of the solid is at turn p + place in the zero pose.
 
     See Also
     --------
@@ -39,23 +39,23 @@ class SolidPart(Shown):
     pin, rod, bob or weight.
     """
     turn: Floats
-    """Rotation matrix into the zero pose. Shape (3, 3)."""
+    """Rotation matrix from the part to the zero pose. Shape (3, 3)."""
     place: Floats
-    """Translation into the zero pose [mm]."""
+    """Translation from the part to the zero pose [mm]."""
     status: str = ""
     """Declared status of a wheel: surviving, reconstructed, ..."""
     contours: tuple[Contour, ...] = ()
-    """Flat shape from which the solid is made; empty if it has none."""
+    """Flat shape from which the solid is made; empty if there is none."""
     height: float = 0.0
     """Thickness of the flat shape [mm]."""
     turned: TurnedPart | None = None
-    """Turned part about its own z, if it is a body of revolution."""
+    """Turned part about its z axis, if the solid is a body of revolution."""
     drawn: Solid | None = None
-    """Surface, if it follows from neither of these: helical teeth, and approximate wheels."""
+    """Surface, if the solid is neither flat nor turned: helical teeth, and approximate wheels."""
 
     @cached_property
     def solid(self) -> Solid:
-        """Closed surface of triangles about its own origin (mm), computed at first use."""
+        """Closed surface of triangles relative to the origin of the part [mm], computed at first use."""
         if self.drawn is not None:
             return self.drawn
         return plate_solid(self.contours, self.height) if self.turned is None else self.turned.solid()

@@ -257,7 +257,7 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
         return blank, []
     windows = spoke_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
-        what = f"wheel '{blank.wheel}' keeps its web"
+        what = f"wheel '{blank.wheel}' keeps its solid web"
         return blank, [Problem(what, "it has holes for other parts", "cut its windows by hand", "--spokes")]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 

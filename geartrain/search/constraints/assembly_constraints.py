@@ -132,7 +132,8 @@ class _ConstraintBuilder:
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
                     f"its module is {declared}" if module else "several modules are declared for it",
-                    "give radius and modules with units; without modules a radius is a plain number of modules",
+                    "give the radius and all modules with units, or, without modules, the radius as a number of "
+                    "modules",
                 )
             )
         # pitch radius r = m z / 2
@@ -302,7 +303,7 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     what = f"'{unknown[0]}' carries no planets" if unknown else "no link carries planets"
     return Problem(
         what,
-        "the axes of planets are carried by a link other than the frame",
+        "the axes of planets must be on a link other than the frame",
         f"name one of: {', '.join(known)}" if known else "omit the number of planets",
     )
 
@@ -310,15 +311,16 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
 def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
     if one.planets is None:
         why = "planets that mesh with each other in a loop are not supported"
+        fix = "give a number for each of the other carriers, such as planets={'arm': 3}"
     elif number < 1:
-        why = "a carrier has at least one planet"
+        why, fix = "a carrier has at least one planet", "give a number of 1 or more"
     else:
         why = f"{declared} equal sets are declared"
-    return Problem(
-        f"{number} equal planets {one.title} on '{one.carrier}' cannot be required",
-        why,
-        "give the declared number, declare one set that represents all, or use planets={'arm': 3}",
-    )
+        fix = (
+            "require the declared number, declare one planet set that represents all, or give a number for each "
+            "carrier, such as planets={'arm': 3}"
+        )
+    return Problem(f"cannot require {number} equal planets {one.title} on '{one.carrier}'", why, fix)
 
 
 # ------------------------------------------------- declared positions: centre distances and the phasing of loops

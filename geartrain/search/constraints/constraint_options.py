@@ -17,7 +17,8 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, slots=True)
 class ConstraintOptions:
-    """Constraints on tooth counts in addition to ratios. By default only equal coaxial centre distances are required.
+    """Constraints on tooth counts in addition to the required ratios. By default only equal coaxial centre distances
+    are required.
 
     See Also
     --------
@@ -32,27 +33,27 @@ class ConstraintOptions:
     coaxial: bool | None = None
     """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
 
-    Wheels without a declared module are assumed to have the same one. None requires it unless declared counts that are
-    not varied already violate it, because the modules then differ or the profiles are shifted.
+    Wheels without a declared module are assumed to have the same module. With None, the constraint is required unless
+    declared counts that are not varied already violate it, because modules then differ or profiles are shifted.
     """
     shift: int = 0
     """Maximum difference between coaxial centre distances, to be compensated by profile shift [half modules]."""
     planets: int | Mapping[str, int] | None = None
-    """Number of equal, equally spaced planets on every carrier that moves planets, or a mapping carrier -> number.
+    """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number.
 
-    The wheels of equal planets also have the same relative orientation on their arbors.
+    The wheels on the arbors of equal planets must have the same relative orientation.
     """
     clearance: Fraction | None = None
-    """Minimum clearance between the tips of neighbouring planets [modules], exclusive."""
+    """Lower bound of the clearance between the tips of neighbouring planets [modules], not included."""
     undercut: Quantity | None = None
     """Pressure angle, above 0 and below 90 deg, at which no external spur wheel may be undercut by a rack."""
     interference: Quantity | None = None
-    """Pressure angle at which the tips of spur wheels must not interfere with their mates."""
+    """Pressure angle at which the tips of spur wheels must not interfere with the flanks of their mates."""
     addendum: Fraction = Fraction(1)
     """Addendum of external wheels and of the rack [modules]."""
     ring_addendum: Fraction | None = None
-    """Addendum of rings [modules]; None for that of external wheels. The teeth of rings are often shortened: with
-    addendum 1 at 20 deg, 18 teeth in a ring of 60 interfere.
+    """Addendum of rings [modules]; None for the addendum of external wheels. The teeth of rings are often shortened:
+    with an addendum of 1 at 20 deg, a wheel of 18 teeth interferes with a ring of 60.
     """
     minimum: int | None = None
     """Minimum tooth count of every varied wheel, inclusive; worms are exempt."""
@@ -65,12 +66,12 @@ class ConstraintOptions:
     hunting: bool = False
     """Requirement that the tooth counts of meshing wheels are coprime."""
     closure: bool = False
-    """Requirement that meshing wheels reach each other at the declared positions of axes and that the teeth of loops
+    """Requirement that meshing wheels reach each other at the declared axis positions, and that the teeth of all loops
     mesh.
     """
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON, quantities as written; constraints that are not required are omitted."""
+        """Return plain data for JSON, with quantities as written. Constraints that are not required are omitted."""
         found = {}
         for field in fields(self):
             value = getattr(self, field.name)
@@ -133,8 +134,10 @@ def _read(problems: list[Problem], option: str, text: str | None, parse: Callabl
     try:
         return parse(text)
     except PydanticCustomError as error:
-        fix = (error.context or {}).get("fix", "")
-        problems.append(Problem(error.message(), "", str(fix), f"--{option}"))
+        context = error.context or {}
+        problems.append(
+            Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), f"--{option}")
+        )
         return None
 
 

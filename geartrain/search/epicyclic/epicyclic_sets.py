@@ -293,21 +293,23 @@ class EpicyclicSet(CountSizes, Result):
     )
 
     kind: str
-    """Name of the type of set, such as "planetary"."""
+    """Name of the type of epicyclic set, such as "planetary"."""
     mode: EpicyclicMode
-    """Driving, driven and fixed member."""
+    """Driving, driven and fixed members."""
     teeth: Mapping[str, int]
     """Tooth count of each wheel."""
     ratio: Fraction
-    """Speed of the input over speed of the output, exact; negative if they turn in opposite senses."""
+    """Input speed divided by output speed, exact; negative if they have opposite senses."""
     error: Fraction
-    """Relative error: magnitude of the ratio, as defined by `ratio_is`, over the requested ratio, minus 1; exact."""
+    """Relative error: absolute value of the ratio, as defined by `ratio_is`, divided by the requested ratio, minus 1;
+    exact.
+    """
     planets: int
     """Requested number of planets."""
     places: int
     """Number of equally spaced positions at which identical planets can be assembled; 0 if any position is possible."""
     room: float
-    """Clearance between the tips of equally spaced neighbouring planets [modules]; negative if they overlap."""
+    """Clearance between the tips of equally spaced neighbouring planets [modules]; negative if the planets overlap."""
 
     def _summary(self) -> str:
         teeth = ", ".join(f"{wheel} {count}" for wheel, count in self.teeth.items())
@@ -320,7 +322,7 @@ class EpicyclicSet(CountSizes, Result):
 
     @property
     def inverse(self) -> Fraction:
-        """Speed of the output over speed of the input."""
+        """Output speed divided by input speed."""
         return 1 / self.ratio
 
     @property
@@ -329,7 +331,7 @@ class EpicyclicSet(CountSizes, Result):
         return self.places % self.planets == 0
 
     def to_train(self) -> dict[str, Any]:
-        """Return a declaration of the set as plain data.
+        """Return a declaration of the epicyclic set as plain data.
 
         The train has one planet, input speed 1, and the exact output speed as its expected value.
         """
@@ -354,7 +356,7 @@ class EpicyclicSet(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class SetFindings(Tabular, Result):
-    """Best epicyclic sets of one type for a ratio, best first.
+    """Best epicyclic sets of one type for a ratio, in the order of the search criterion.
 
     See Also
     --------
@@ -392,17 +394,17 @@ class SetFindings(Tabular, Result):
     ratio_is: RatioIs
     """Definition of the ratio `wanted`: input/output or output/input."""
     modes: tuple[EpicyclicMode, ...]
-    """Modes that were searched."""
+    """Operating modes that were searched."""
     tolerance: Fraction | None
     """Maximum absolute relative error; None for no limit."""
     complete: bool
     """True; the search always examines all sets within the bounds."""
     count: int
-    """Number of sets within the tolerance, over all modes; without a tolerance, number of sets that transmit motion."""
+    """Number of sets within the tolerance in all modes; without a tolerance, number of sets that transmit motion."""
     solutions: tuple[EpicyclicSet, ...]
-    """Best sets, best first."""
+    """Best sets, in the order of the search criterion."""
     shortfall: Shortfall
-    """Number of rejected sets by reason. Each combination of a set and a mode is one candidate."""
+    """Numbers of rejected sets by reason. Each combination of a set and a mode is one candidate."""
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""

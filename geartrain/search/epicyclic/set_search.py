@@ -89,7 +89,7 @@ def find_sets(
     clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
-    """Find the best tooth counts of a type of epicyclic set for a ratio, by enumeration of all sets in all modes.
+    """Find the best tooth counts of one type of epicyclic set for a ratio, by enumeration of all sets in all modes.
 
     The coaxial equations leave at most three independent counts (Willis 1841; Mueller, Epicyclic Drive Trains, 1982).
     All modules are equal.
@@ -102,9 +102,9 @@ def find_sets(
         "planetary", "stepped-suns", "stepped-sun-ring", "stepped-rings", "meshed-planets", "ravigneaux", "bevel",
         "wolfrom" or "3k-two-suns".
     modes : str or iterable of str or EpicyclicMode
-        "all", or any of `input:output:held`, such as "sun:carrier:ring".
+        "all", or modes as `input:output:held`, such as "sun:carrier:ring".
     counts : sequence of int, or mapping of str to sequence of int
-        Admissible tooth counts from 1 to 10^5, including rings: the same for every wheel, or by wheel.
+        Admissible tooth counts from 1 to 10^5, either the same for all wheels including rings, or by wheel.
     planets : int
         Number of equal planets, 1 or more.
     tolerance : Fraction, optional
@@ -112,13 +112,14 @@ def find_sets(
     best : int
         Maximum length of the list, 1 or more.
     sense : {-1, 0, 1}
-        Sense of rotation of the output: 1 for that of the input, -1 for the opposite, 0 for either.
+        Sense of rotation of the output: 1 for the sense of the input, -1 for the opposite sense, 0 for either.
     ratio_is : {"input/output", "output/input"}
-        Definition of the ratio `wanted`: input over output, or output over input.
+        Definition of the ratio `wanted`: input speed divided by output speed, or the inverse.
     by : {"error", "total", "largest"}
         Primary criterion: minimum error, minimum sum of counts, or minimum largest count.
     spaced : bool
-        True to require that the planets can be equally spaced and clear each other. With False it is only reported.
+        True to require that the planets can be equally spaced and do not overlap. With False these properties are only
+        reported.
     clearance : Fraction or float
         Minimum clearance between the tips of neighbouring planets [modules] if `spaced`.
     slack : int
@@ -127,7 +128,7 @@ def find_sets(
     Returns
     -------
     SetFindings
-        The best sets, and the numbers of rejected sets by reason.
+        Best sets, and numbers of rejected sets by reason.
 
     Raises
     ------

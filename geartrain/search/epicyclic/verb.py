@@ -26,33 +26,42 @@ context_settings = NEGATIVE_NUMBERS
 
 def run(
     context: typer.Context,
-    kind: Annotated[str, typer.Option("--kind", help="Kind of set; 'list' prints the kinds.")],
+    kind: Annotated[str, typer.Option("--kind", help="Kind of epicyclic set; 'list' prints all kinds.")],
     ratio: Annotated[
         str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="RATIO")
     ] = None,
     counts: Range = ANY_COUNT,
-    mode: Annotated[str, typer.Option("--mode", help="Modes input:output:held, separated by commas, or all.")] = "all",
+    mode: Annotated[
+        str,
+        typer.Option("--mode", help="Modes INPUT:OUTPUT:HELD such as sun:carrier:ring, separated by commas, or all."),
+    ] = "all",
     ratio_is: Annotated[
         str, typer.Option("--ratio-is", help="Definition of the ratio: input/output or output/input.")
     ] = "input/output",
-    planets: Annotated[int | None, typer.Option("--planets", help="Number of equal, equally spaced planets.")] = None,
+    planets: Annotated[
+        int | None,
+        typer.Option("--planets", help="Require that this number of equal, equally spaced planets can be assembled."),
+    ] = None,
     clearance: Annotated[
         str | None,
         typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
     ] = None,
     shift: Annotated[
-        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
+        int,
+        typer.Option(
+            "--centre-tolerance", min=0, help="Maximum difference between coaxial centre distances, in half modules."
+        ),
     ] = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
-    by: Annotated[str, typer.Option("--sort", help="Order of the solutions: error, total, largest.")] = "error",
+    by: Annotated[str, typer.Option("--sort", help="Order of the solutions: error, total or largest.")] = "error",
     per: Per = None,
     pick: Pick = 1,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets.
+    """Find epicyclic sets of one kind that have a given ratio and can be assembled with equal planets.
 
     Example: `geartrain teeth set 7/2 --kind planetary --planets 3`.
     """
@@ -66,7 +75,7 @@ def run(
         _list(answer)
         return
     if ratio is None:
-        raise option_error("RATIO", "the ratio is missing", "give one, or list the kinds by --kind list")
+        raise option_error("RATIO", "the ratio is missing", "give one, or list the kinds with --kind list")
     if clearance is not None and planets is None:
         raise option_error("--clearance", "the number of planets is missing", "give --planets too")
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
@@ -89,7 +98,7 @@ def run(
 
 
 def _list(answer: SearchAnswer) -> None:
-    """Print the types of epicyclic sets."""
+    """Print the kinds of epicyclic sets."""
     from geartrain.search.epicyclic.epicyclic_sets import kinds
     from geartrain.search.tooth_numbers_report import describe_set_kinds
 

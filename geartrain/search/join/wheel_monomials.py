@@ -144,8 +144,10 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
     elif len(wheels) == 1:
         wheel, power = wheels[0]
         what = f"the counts of '{wheel}' cannot be listed"
-        why = f"{len(domains[wheel])} counts up to {domains[wheel][-1]}, to the power {power}, exceed the limit"
-        raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts below 10^9"))
+        why = (
+            f"{len(domains[wheel])} counts up to {domains[wheel][-1]}, to the power {power}, are too many or too large"
+        )
+        raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts, none above 10^{18 // power}"))
     else:
         middle = len(wheels) // 2
         yield from _listable_groups(wheels[:middle], domains)

@@ -164,7 +164,11 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
     admissible = tuple(sorted(set(counts)))
     if not admissible or admissible[0] < 1:
         raise QuestionError(
-            Problem("no admissible tooth counts", "tooth counts must be positive", "give counts such as 12:400")
+            Problem(
+                "no tooth counts are given, or some are below 1",
+                "tooth counts must be positive",
+                "give for example 12:400",
+            )
         )
     # terms below 2^31, because both terms of a ratio are packed into one integer below
     if len(admissible) ** 2 > _MOST_PAIRS or admissible[-1] >= 2**31:

@@ -80,7 +80,7 @@ class OrreryPair(Result):
 
 @dataclass(frozen=True, slots=True)
 class Orrery(Tabular, Result):
-    """Tree of gear pairs that shows every requested period.
+    """Tree of gear pairs whose arbors show all requested periods.
 
     See Also
     --------
@@ -106,19 +106,21 @@ class Orrery(Tabular, Result):
     periods: Mapping[str, Fraction]
     """Requested periods by name [revolutions of the first arbor]."""
     tolerances: Mapping[str, Fraction]
-    """Maximum absolute relative error of each speed, by name."""
+    """Maximum absolute relative error of the speed of each period, by name."""
     arbors: tuple[OrreryArbor, ...]
-    """Arbors in topological order: the first arbor, then each arbor after the one that drives it."""
+    """Arbors in topological order: the first arbor, then each arbor after the arbor that drives it."""
     pairs: tuple[OrreryPair, ...]
-    """Gear pairs in the order of the driven arbors."""
+    """Gear pairs in the order of their driven arbors."""
     errors: Mapping[str, Fraction]
-    """Relative error of each speed by name: speed over requested speed, minus 1, exact; positive if fast."""
+    """Relative error of each speed by name: speed divided by requested speed, minus 1, exact; positive if the arbor is
+    fast.
+    """
     minimum_pairs: int
-    """Proved lower bound of the number of pairs; all smaller trees were enumerated."""
+    """Proved lower bound on the number of pairs; all smaller trees were enumerated."""
     minimum_wheels: int
-    """Proved lower bound of the number of wheels."""
+    """Proved lower bound on the number of wheels."""
     ended: str
-    """Reason for the end of the search: proved, effort, time, or interrupted."""
+    """Reason why the search ended: proved, effort, time, or interrupted."""
 
     def _summary(self) -> str:
         worst = max((abs(error) for error in self.errors.values()), default=0)
@@ -126,12 +128,12 @@ class Orrery(Tabular, Result):
 
     @property
     def wheels(self) -> int:
-        """Number of wheels; a wheel with several mates is counted once."""
+        """Number of wheels. A wheel that meshes with several others is counted once."""
         return sum(len(arbor.wheels) for arbor in self.arbors)
 
     @property
     def complete(self) -> bool:
-        """True if it is proved that no orrery has fewer wheels."""
+        """True if the search proved that no orrery has fewer wheels."""
         return self.wheels <= self.minimum_wheels
 
     @property
@@ -140,8 +142,8 @@ class Orrery(Tabular, Result):
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration as plain data, in which the first arbor turns once per `unit` and outputs expect their
-        speeds.
+        """Return a declaration as plain data. The first arbor turns once per `unit`, and the outputs expect their
+        requested speeds.
 
         A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 
@@ -213,14 +215,14 @@ def find_orrery(
 ) -> Orrery:
     """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger ones.
 
-    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumerated trees give proofs,
-    and wider beams give better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and `complete`.
-    The result is deterministic unless the search was ended by time or by the user.
+    The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumeration proves lower
+    bounds, and wider beams find better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and
+    `complete`. The result is deterministic unless the search was ended by time or by the user.
 
     Parameters
     ----------
     periods : mapping of str to Fraction
-        Name -> period [revolutions of the first arbor], positive; at most 30.
+        Name -> period [revolutions of the first arbor], above 0; at most 30 periods.
     counts : sequence of int
         Admissible tooth counts, the same for all wheels.
     tolerance : Fraction, float, or mapping of str to these
@@ -228,10 +230,11 @@ def find_orrery(
     first : str
         Name of the first arbor.
     effort : int
-        Width of the widest beam. Widths increase fourfold up to it, and the time nearly as much.
+        Maximum width of the beam. The width is increased fourfold from search to search up to this value, and the time
+        nearly in proportion.
     walk : int, optional
-        Enumerate all trees with up to this number of arbors that do not show a period. By default 1, or more if that is
-        quick. With 90,000 ratios of two wheels and 7 periods, 1 takes a moment and 2 takes one or two minutes.
+        Maximum number of arbors without a period in the trees that are enumerated. By default 1, or more if the
+        enumeration is fast.
     seconds : float, optional
         Time after which the search stops with the best orrery so far [s].
     tell : callable, optional
@@ -240,7 +243,7 @@ def find_orrery(
     Returns
     -------
     Orrery
-        The best orrery. A keyboard interrupt returns the best so far.
+        Best orrery found; after a keyboard interrupt, the best so far.
 
     Raises
     ------
@@ -259,12 +262,12 @@ def find_orrery(
     (6, True, Fraction(0, 1))
     """
     targets = read_period_targets(periods, tolerance)
-    if first in targets.names or "frame" in (first, *targets.names):
-        raise QuestionError(
-            Problem(
-                "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one"
-            )
-        )
+    if first in targets.names:
+        what = f"the first arbor and a period are both named {first!r}"
+        raise QuestionError(Problem(what, "each period names an arbor, and names must be distinct", "rename one"))
+    if "frame" in (first, *targets.names):
+        what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
+        raise QuestionError(Problem(what, why, "rename this arbor"))
     search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
     ended = search.run(effort, walk)
     if search.best is None:
@@ -416,7 +419,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
         Problem(
             f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
             f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
-            "loosen the tolerance, allow more tooth counts, or raise effort",
+            "increase the tolerance or the effort, or allow more tooth counts",
         )
     )
 

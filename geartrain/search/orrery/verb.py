@@ -17,20 +17,25 @@ _TOLERANCE = Fraction(1, 10**6)
 
 def run(
     periods: Annotated[
-        list[str], typer.Argument(help="Names and periods in revolutions of the first arbor.", metavar="NAME=PERIOD")
+        list[str],
+        typer.Argument(
+            help="Name of a pointer, and its period in revolutions of the first arbor.", metavar="NAME=PERIOD"
+        ),
     ],
     counts: Range = ANY_COUNT,
     tolerance: Tolerance = None,
     effort: Annotated[int, typer.Option("--beam-width", min=1, help="Maximum beam width of the search.")] = 16,
     walk: Annotated[
         int | None,
-        typer.Option("--extra-arbors", min=0, help="Enumerate all trees with up to this number of extra arbors."),
+        typer.Option(
+            "--extra-arbors", min=0, help="Enumerate all trees with up to this number of arbors that show no period."
+        ),
     ] = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find a gear train that shows several periods from one arbor with few wheels and arbors.
+    """Find a train with few wheels and arbors that shows several periods, driven from one arbor.
 
     Example: `geartrain teeth orrery moon=29.53 venus=224.7`.
     """

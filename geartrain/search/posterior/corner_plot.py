@@ -66,7 +66,7 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
-        raise _cannot_draw(f"{len(wheels)} wheels do not fit on a page; choose from 1 to {MOST}")
+        raise _cannot_draw(f"{len(wheels)} wheels do not fit on a page")
     side = max(5.0, 0.9 + _CELL * len(wheels))
     figure = Figure(figsize=(side, side), layout="constrained")
     panels = figure.subplots(len(wheels), len(wheels), squeeze=False)
@@ -155,7 +155,7 @@ def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapp
 def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
     counts = [*likely.single[wheel], *likely.before.get(wheel, {})]
     if not likely.single[wheel]:
-        raise _cannot_draw(f"wheel '{wheel}' has no count")
+        raise _cannot_draw(f"no count of wheel '{wheel}' has a probability")
     return min(counts), max(counts)
 
 
@@ -179,19 +179,22 @@ def _modes(probabilities: Chances) -> str:
 
 
 def _cannot_draw(why: str) -> QuestionError:
-    return QuestionError(Problem("no tooth counts to draw", why, "give 1 to 9 wheels with their probabilities"))
+    return QuestionError(
+        Problem("the tooth counts cannot be drawn", why, f"give 1 to {MOST} wheels with their probabilities")
+    )
 
 
 Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair of wheels.
+    """Draw a corner plot of uncertain tooth counts: posterior and prior of each wheel, and joint posterior of each pair
+    of wheels.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        Posterior of the counts.
+        Posterior of the tooth counts.
     pairs : mapping
         Joint probability of each pair of counts, by pair of wheels in the order of declaration; see `joint_posterior`.
 

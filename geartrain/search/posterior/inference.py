@@ -80,29 +80,30 @@ def infer_counts(
     """Compute the posterior of uncertain tooth counts, given the observed speeds of outputs.
 
     After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join
-    has no partial result; a short sample is drawn instead, and a remark says so.
+    has no partial result; a short sample is then drawn instead, which a remark reports.
 
     Parameters
     ----------
     train : Train
         Declared train with uncertain counts: `teeth: {value: 64, range: [63, 66]}`, `choices` or `search`.
     state : str, optional
-        State of a train with states; None uses all of them at once.
+        Name of a state; by default the observations of all states are used together.
     free : mapping of str to sequence of int, optional
         Wheel -> possible counts, which replace the declared ones.
     outputs : sequence of str
         Outputs used as evidence; default all.
     tolerance : Fraction, optional
-        Relative tolerance of targets without one, at least 0.
+        Relative tolerance of targets without a declared tolerance, at least 0.
     against : {"all", "targets", "figures"}
-        Kinds of observations that are used; figures are `expect` and `published`.
+        Kinds of observations to use; "figures" are the values under `expect` and `published`.
     scale : Fraction
         Factor of every tolerance, at least 0.
     soft : bool
         False for the likelihood 1 within all tolerances and 0 otherwise. True for a Gaussian likelihood with the
         tolerances as standard deviations.
     method : {"exact", "sample"}, optional
-        By default exact if there are at most `limit` combinations or it takes at most `limit` steps.
+        Method of computation. By default "exact" if there are at most `limit` combinations, or if the exact join needs
+        at most `limit` steps.
     most : int
         Number of combinations to list, at least 1.
     limit : int
@@ -112,12 +113,12 @@ def infer_counts(
     seed : int
         Random seed of the sample, and of estimated Sobol indices; at least 0.
     executor : Executor, optional
-        By default work runs in this process; see `geartrain.numerics.work.open_executor`. It does not change the
-        result.
+        Executor of the tasks, by default this process; see `geartrain.numerics.work.open_executor`. It does not change
+        the result.
     journal : Journal, optional
         Journal of completed work, for a run that may be interrupted.
     tell : callable, optional
-        Called with (number of completed tasks, number of all tasks).
+        Progress function, called with (number of completed tasks, total number of tasks).
 
     Returns
     -------
@@ -136,7 +137,7 @@ def infer_counts(
     p(counts | outputs) = p(counts) L(outputs | counts) / evidence. The prior p treats wheels as independent. The
     likelihood L is 1 or 0, or exp(-misfit / 2) with `soft`. The evidence is the sum of the products of prior and
     likelihood (docs/which-counts.md). The exact join merges partial combinations that no later output distinguishes,
-    and sums in integers.
+    and adds integers.
 
     Examples
     --------
@@ -393,14 +394,14 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 
 
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """Return the wheels on which the outputs give the most information [bit], in the order of declaration.
+    """Return the wheels about which the outputs give the most information [bit], in the order of declaration.
 
     Wheels with one possible count are omitted.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        Posterior of the counts.
+        Posterior of the tooth counts.
     most : int
         Maximum number of wheels.
 
@@ -422,16 +423,17 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
     """Compute the joint posterior of each pair of wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    One further posterior is computed for each possible count of every wheel but the last.
+    One further posterior is computed for each possible count of every wheel except the last.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        Posterior of the counts.
+        Posterior of the tooth counts.
     wheels : sequence of str
         Wheels in the order of declaration.
     again : callable
-        Function of wheel -> fixed counts that returns the posterior of the same train for the same evidence.
+        Function that takes fixed counts (wheel -> counts) and returns the posterior of the same train for the same
+        evidence.
 
     Returns
     -------

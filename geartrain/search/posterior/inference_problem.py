@@ -273,7 +273,7 @@ def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
     if not found:
         what = f"wheel '{name}' has no possible counts"
         why = "a range ends before it begins, or the list is empty"
-        raise QuestionError(Problem(what, why, "write the smaller count first"))
+        raise QuestionError(Problem(what, why, "give at least one count, or a range with the smaller count first"))
     for count in (found[0], found[-1]):
         if not 0 < count <= MOST_TEETH:
             why = "a tooth count is an integer from 1 to 10^12"

@@ -42,8 +42,7 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """Return the report on uncertain tooth counts: evidence, posterior of each wheel, and variance shares of the
-    outputs.
+    """Return the report on uncertain tooth counts: evidence, posterior of each wheel, and Sobol indices of the outputs.
 
     Parameters
     ----------
@@ -53,7 +52,7 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     Returns
     -------
     Document
-        Document that begins with the assumptions. Estimated probabilities have 95 % intervals.
+        Document that begins with the assumptions. Estimated probabilities have 95 % confidence intervals.
 
     Examples
     --------

@@ -19,7 +19,7 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """Probability that is exact, correct up to rounding, or estimated from a sample.
+    """Probability that is exact, correct up to rounding errors, or estimated from a sample.
 
     Examples
     --------
@@ -32,15 +32,15 @@ class CountProbability(Result):
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
     value: Fraction | float
-    """Probability, 0 to 1: exact for a Fraction, correct up to rounding or estimated for a float."""
+    """Probability, 0 to 1. A Fraction is exact; a float is correct up to rounding errors, or estimated."""
     low: float | None = None
-    """Lower end of the 95 % interval of an estimate; None otherwise."""
+    """Lower end of the 95 % confidence interval of an estimate; otherwise None."""
     high: float | None = None
-    """Upper end of the 95 % interval of an estimate; None otherwise."""
+    """Upper end of the 95 % confidence interval of an estimate; otherwise None."""
 
     @property
     def exact(self) -> Fraction | None:
-        """Value if it is exact; None otherwise."""
+        """Value of an exact probability; otherwise None."""
         return self.value if isinstance(self.value, Fraction) else None
 
     @property
@@ -76,7 +76,9 @@ class WheelPosterior(Result):
 
     @property
     def likeliest(self) -> int | None:
-        """Most probable count (the smallest if several are); None if no combination satisfies the observations."""
+        """Most probable count (the smallest, if several are equally probable); None if no combination satisfies the
+        observations.
+        """
         if not self.probabilities:
             return None
         # -at: the smallest of equally probable counts
@@ -115,7 +117,7 @@ class CombinedOutput:
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
-    """Combination of the tooth counts of all wheels that an observed output depends on.
+    """Combination of tooth counts of all wheels on which observed outputs depend.
 
     See Also
     --------
@@ -129,15 +131,15 @@ class CountCombination(Result):
     speeds: Mapping[str, Fraction]
     """Exact speed of each output in the unit of the train."""
     errors: Mapping[str, Fraction]
-    """Relative error of each output with respect to the observation with the largest misfit; the speed itself if 0 was
-    observed.
+    """Relative error of each output with respect to the observation with the largest misfit; the speed itself if the
+    observed speed is 0.
     """
     misfit: Fraction
-    """Sum of (error / tolerance)^2 over the observations; exact observations add 0."""
+    """Sum of (error / tolerance)^2 of all observations; exact observations add 0."""
     probability: CountProbability | None
-    """Posterior probability; None if it is unknown, as for a sample."""
+    """Posterior probability; None if it is unknown, for example in a sample."""
     changed: tuple[str, ...]
-    """Wheels whose count differs from the declared one."""
+    """Wheels whose count differs from the declared count."""
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
@@ -237,7 +239,7 @@ class ToothCountPosterior(Tabular, Result):
     witnesses: tuple[ObservedOutput, ...]
     """Outputs with observed speeds."""
     alone: Mapping[str, CountProbability]
-    """Evidence of each output by itself, without the observations of the others."""
+    """Evidence of each output without the observations of the other outputs."""
     posteriors: Mapping[str, WheelPosterior]
     """Posterior of the tooth count of each wheel."""
     correlations: Mapping[tuple[str, str], float]
@@ -245,9 +247,9 @@ class ToothCountPosterior(Tabular, Result):
     best: tuple[CountCombination, ...]
     """Best combinations, in ascending order of misfit."""
     ranked: bool
-    """True if no combination that is not listed is better than the last one listed."""
+    """True if no unlisted combination is better than the last listed combination."""
     shares: Mapping[str, VarianceShares]
-    """Sobol indices of the speed of each output."""
+    """Sobol indices of the speed of each output, by wheel."""
     remarks: tuple[str, ...]
     """Remarks on observations that are not used, and on the reliability of estimates."""
     seed: int | None
@@ -268,7 +270,7 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with one row for each count of each wheel: its prior and posterior probability.
+        """Table with one row for each count of each wheel: prior and posterior probability.
 
         The posterior is None if no combination satisfies the observations.
         """
@@ -286,7 +288,7 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """End of the computation: "whole" or "interrupted"."""
+        """End of the computation: "whole" if it was completed, otherwise "interrupted"."""
         return "interrupted" if self.cut else "whole"
 
     @property

@@ -1,4 +1,4 @@
-"""Command `geartrain posterior`: tooth counts that fit the outputs, where evidence leaves counts uncertain."""
+"""Command `geartrain posterior`: probabilities of uncertain tooth counts, given the outputs."""
 
 from __future__ import annotations
 
@@ -45,36 +45,49 @@ FORMS = (".md", ".html", ".json", ".csv", ".parquet")
 def run(
     file: File,
     free: Annotated[
-        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: possible counts of a wheel; may be repeated.")
+        Names,
+        typer.Option(
+            "--free", help="Possible tooth counts of a wheel: WHEEL=60:64, WHEEL=60,62 or WHEEL=60; may be repeated."
+        ),
     ] = None,
     output: Annotated[Names, typer.Option("--of", help="Use only this output as evidence; may be repeated.")] = None,
     state: StateName = None,
     tolerance: Annotated[
         str | None,
-        typer.Option("--tolerance", help="Relative tolerance of targets without one, such as 0.5 % or 1/446."),
+        typer.Option(
+            "--tolerance", help="Relative tolerance of targets that declare no tolerance, such as 0.5 % or 1/446."
+        ),
     ] = None,
     against: Annotated[
-        str, typer.Option("--against", help="Kinds of claims used: all, targets, or figures (expect).")
+        str,
+        typer.Option(
+            "--against", help="Evidence to use: all, targets, or figures (values under expect and published)."
+        ),
     ] = "all",
-    scale: Annotated[str, typer.Option("--scale", help="Factor of every tolerance, such as 1/4.")] = "1",
+    scale: Annotated[str, typer.Option("--scale", help="Factor that multiplies every tolerance, such as 1/4.")] = "1",
     soft: Annotated[
         bool, typer.Option("--gaussian", help="Use a Gaussian likelihood with the tolerances as standard deviations.")
     ] = False,
     method: Annotated[
-        str | None, typer.Option("--method", help="Method: exact or sample; default exact if it stays within --limit.")
+        str | None,
+        typer.Option(
+            "--method", help="Method: exact or sample; default: exact if it stays within --limit, else sample."
+        ),
     ] = None,
-    most: Annotated[int, typer.Option("--best", min=0, max=1_000_000, help="Number of combinations to list.")] = 20,
+    most: Annotated[
+        int, typer.Option("--best", min=0, max=1_000_000, help="Number of combinations of tooth counts to list.")
+    ] = 20,
     limit: Annotated[
         int,
         typer.Option(
             "--limit",
             min=1,
             max=MOST_COUNT,
-            help="Maximum number of steps of the exact method; beyond it a sample is drawn.",
+            help="Maximum number of steps of the exact method, above which the default method draws a sample.",
         ),
     ] = 2_000_000,
     samples: Annotated[
-        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Number of combinations in a sample.")
+        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Number of combinations in the random sample.")
     ] = 1_000_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed of the sample.")] = 1,
     workers: Workers = None,
@@ -85,7 +98,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none.
+    """Compute the probabilities of uncertain tooth counts, given the outputs; exit code 0 if any counts fit, else 1.
 
     Example: `geartrain posterior freeth-2008-doubt --best 8`.
     """
@@ -119,7 +132,7 @@ def run(
         found = infer_counts(train, **requested, executor=given.executor, journal=given.journal, tell=given.tell)
         close_journal(given.journal, found.cut)
     if drawing.path is not None and not found.best:
-        tell(f"nothing fits, so {drawing.path} is not written")
+        tell(f"no tooth counts fit, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
         held = {**requested, "most": 1}
         _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**requested["free"], **one}}), drawing)
@@ -173,13 +186,13 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[s
             table.write({name: [row[name] for row in rows] for name in rows[0]})
             tell(f"wrote {to.path}")
         else:
-            tell(f"nothing fits, so {to.path} is not written")
+            tell(f"no tooth counts fit, so {to.path} is not written")
 
 
 def _draw_counts(
     found: ToothCountPosterior, again: Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior], to: Sink
 ) -> None:
-    """Draw a corner plot of the wheels with the most information, to a file.
+    """Draw a corner plot of the most informative wheels to a file.
 
     again   function that repeats the inference with the counts of some wheels fixed
     """

@@ -36,7 +36,8 @@ _TABLE = 1024  # maximum count of the lookup table of coprime pairs
 
 @dataclass(frozen=True, slots=True)
 class StageConstraints(Result):
-    """Constraints on the tooth counts of a train of stages, all of which one pairing of the counts must satisfy.
+    """Constraints on the tooth counts of a train of stages. At least one pairing of the counts must satisfy all of
+    them.
 
     Examples
     --------
@@ -53,8 +54,8 @@ class StageConstraints(Result):
     different: bool = False
     """Requirement that all counts are distinct."""
     internal: int = 0
-    """Number of internal meshes, 0 to the number of stages. An internal mesh keeps the sense of rotation, an external
-    mesh reverses it. The ring has more teeth than its pinion.
+    """Number of internal meshes, 0 to the number of stages. An internal mesh preserves the sense of rotation, an
+    external mesh reverses it. A ring has more teeth than its pinion.
     """
     minimum_total: int | None = None
     """Minimum sum of all counts."""
@@ -64,7 +65,7 @@ class StageConstraints(Result):
     """Maximum tooth count of a wheel."""
 
     def sense(self, stages: int) -> int:
-        """Return 1 if output and input turn in the same sense, -1 if in opposite senses.
+        """Return 1 if output and input turn in the same sense, -1 if they turn in opposite senses.
 
         Parameters
         ----------
@@ -75,7 +76,7 @@ class StageConstraints(Result):
 
     @property
     def pairs_matter(self) -> bool:
-        """True if a constraint depends on the pairing, not only on the counts."""
+        """True if a constraint depends on the pairing of the counts."""
         return self.hunting or self.reverted or self.internal > 0
 
     @property
@@ -91,7 +92,7 @@ class StageConstraints(Result):
 
     @property
     def free(self) -> bool:
-        """True if the constraints, apart from `largest`, are satisfied by every pair of multisets."""
+        """True if every pair of multisets satisfies all constraints except `largest`."""
         return not (self.pairs_matter or self.different or self.totals_matter)
 
     def check(self, stages: int) -> None:

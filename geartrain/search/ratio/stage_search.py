@@ -39,8 +39,7 @@ _QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more 
 
 @dataclass(frozen=True, slots=True)
 class StageFindings(Tabular, Result):
-    """Solutions for one ratio by stages, as pairs of multisets of tooth counts. The object is a sequence of its
-    `solutions`.
+    """Solutions of a search for a ratio by stages of gear pairs, as pairs of multisets of tooth counts.
 
     See Also
     --------
@@ -90,23 +89,23 @@ class StageFindings(Tabular, Result):
     fit: StageConstraints
     """Constraints on the counts."""
     by: str
-    """Order of `solutions`."""
+    """Order in which `solutions` are listed."""
     tolerance: Fraction | None
-    """Maximum absolute relative error: the requested one, or the one within which the list of the best is proved
-    complete.
+    """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best is
+    proved complete.
 
-    None if the best pairs of long ranges were found without a tolerance.
+    It is None if the best pairs of long ranges were found without a tolerance.
     """
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
     count: int | None
     """Number of solutions within the tolerance, exact if `complete`; None without a tolerance."""
     solutions: tuple[GearStages, ...]
-    """Best solutions in the order `by`."""
+    """Best solutions, in the order `by`."""
     shortfall: Shortfall
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """Assumption of the search that was not requested; "" if none."""
+    """Assumption of the search that was not requested; "" if there is none."""
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
@@ -121,7 +120,7 @@ class StageFindings(Tabular, Result):
 
     @property
     def considered(self) -> int:
-        """Number of pairs of multisets of admissible counts."""
+        """Number of pairs of multisets of admissible tooth counts."""
         return self.shortfall.considered
 
     @property
@@ -158,24 +157,24 @@ def find_stages(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> StageFindings:
-    """Find and count the solutions for a ratio by stages of gear pairs, and list the best; meet in the middle.
+    """Find, count and list the best solutions for a ratio by stages of gear pairs, with a meet-in-the-middle search.
 
-    For every denominator product the window of numerator products within the tolerance is found in a sorted list. The
-    ends of the windows are determined in integers, and the search is exhaustive.
+    For every product of denominator counts, the range of numerator products within the tolerance is located in a sorted
+    list. The ends of the ranges are determined in integers, and the search is exhaustive.
 
     Parameters
     ----------
     wanted : TargetRatio
-        The ratio, numerator over denominator. If its sense of rotation is given, it must agree with the numbers of
-        external and internal meshes.
+        Requested ratio, numerator divided by denominator. If it has a sense of rotation, the sense must agree with the
+        numbers of external and internal meshes.
     stages : int
         Number of gear pairs in series, 1 to 5.
     wheels, pinions : sequence of int
         Admissible tooth counts of the numerator and the denominator for a ratio of 1 or more, and the opposite for a
         ratio below 1.
     tolerance : Fraction, optional
-        Maximum absolute error as a fraction of the ratio, 0 or more. Without it, the order by error finds and proves
-        the best, within a tolerance that includes enough of them; other orders use 1e-6, which `note` reports.
+        Maximum absolute relative error, 0 or more. By default, the order "error" chooses a tolerance that includes
+        enough solutions and proves that the listed solutions are the best. Other orders use 1e-6, which `note` reports.
     best : int
         Maximum length of the list, 1 or more.
     by : {"error", "total", "largest", "distinct", "hunting", "centres"}
@@ -187,14 +186,14 @@ def find_stages(
     executor : concurrent.futures.Executor, optional
         Executor of the independent tasks of a large search; this process by default. It does not change the result.
     journal : Journal, optional
-        Store of finished tasks, so that an interrupted run can be resumed.
+        Journal of finished tasks, with which an interrupted run can be resumed.
     tell : callable, optional
         Progress function, called with (tasks done, total tasks).
 
     Returns
     -------
     StageFindings
-        Its `complete` is False if a keyboard interrupt ended the search early.
+        Solutions and their number. `complete` is False if a keyboard interrupt ended the search early.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Command `geartrain teeth ratio RATIO`: search for stages of gear pairs."""
+"""Command `geartrain teeth ratio RATIO`: search for gear pairs in series."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ def run(
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, hunting, centres.")
+        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, hunting or centres.")
     ] = "error",
     per: Per = None,
     internal: Annotated[
-        int, typer.Option("--internal", min=0, help="Number of internal pairs, which keep the sense.")
+        int, typer.Option("--internal", min=0, help="Number of internal gear pairs, which keep the sense of rotation.")
     ] = 0,
     hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
     reverted: Annotated[Flag, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
@@ -55,7 +55,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best.
+    """Find gear pairs in series for a ratio, count all solutions within the tolerance, and prove which are best.
 
     Example: `geartrain teeth ratio 235/19 --stages 2 --tolerance 1e-4`.
     """

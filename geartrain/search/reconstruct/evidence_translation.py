@@ -81,9 +81,9 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
     found = _bounds(evidence, name, free_sense)
     found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
-        what = f"'{name}' has the speed of the frame, so that the frame itself would show it"
+        what = f"the speed of '{name}' may be the speed of the frame, so its pointer could be on the frame"
         fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
-        raise DeclarationError(Problem(what, "its arbor is not known", fix, place))
+        raise DeclarationError(Problem(what, "its arbor is not declared", fix, place))
     return found
 
 
@@ -171,8 +171,10 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, -low)], name, place)
     if low <= 0:
         return _common([limits, (-high, high)], name, place)
-    why = "the targets with a sense allow both senses, and a target on the magnitude leaves one range in each sense"
-    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
+    why = "targets with a sense allow both senses, and a target of the magnitude allows one interval in each sense"
+    raise DeclarationError(
+        Problem(f"the possible speeds of '{name}' are two intervals", why, "give one target only", place)
+    )
 
 
 _UNSUPPORTED = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
@@ -184,7 +186,7 @@ _MOST_COUNTS = 10_000
 
 @dataclass(frozen=True)
 class EvidenceQuestion(Shown):
-    """Reconstruction problem of declared evidence, with its base and the unused declarations.
+    """Reconstruction problem derived from declared evidence, with its base link and the unused declarations.
 
     See Also
     --------
@@ -194,11 +196,11 @@ class EvidenceQuestion(Shown):
     problem: ReconstructionProblem
     """Reconstruction problem, the input of the search."""
     base: BaseLink
-    """Link that carries the arbors. Speeds of the problem are relative to it."""
+    """Link that carries the arbors. The speeds of the problem are relative to this link."""
     joined: Joined
-    """Links that given couplings join to each arbor."""
+    """Arbor -> links that are joined to it by given couplings."""
     unused: tuple[str, ...]
-    """Declarations that do not affect the answer, one line for each."""
+    """Declarations that do not affect the result, one line for each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
@@ -209,7 +211,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     evidence : Train
         Declaration with `reconstruct`.
     wheels : int, optional
-        Maximum number of added wheels. It replaces the number in the evidence.
+        Maximum number of added wheels, which replaces the number in the evidence.
     idlers : bool
         True if a driven wheel may also drive, even if the evidence does not allow it.
 
@@ -220,7 +222,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        For every declaration that is unsupported or does not define a problem, with its place.
+        If declarations are unsupported or do not define a problem. The message gives the location of each.
 
     Examples
     --------
@@ -236,7 +238,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     base = None if unclear else find_base(evidence)
     found += unclear
     if wheels and requested.add.teeth is None:
-        fix = "give `add` for example `teeth: [12, 225]`"
+        fix = "declare for example `add: {teeth: [12, 225]}`"
         place = evidence.place("reconstruct")
         why = "the search needs their minimum and maximum"
         found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))

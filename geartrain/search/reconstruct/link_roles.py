@@ -177,7 +177,7 @@ def carrier_axis(evidence: Train, carrier: str) -> str | None:
 def _carrier_pointer_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name, output in evidence.outputs.items():
         if output.of == carrier:
-            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is given"
+            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is an input already"
             place = evidence.place("outputs", name)
             yield Problem(what, why, "remove the output, or correct its `of`", place)
 
@@ -266,7 +266,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
         if coupling.kind != "pin_and_slot":
             what = f"the coupling '{coupling.name}' is not a pin and slot"
             why = "a reconstruction supports only couplings with a mean ratio of 1"
-            fix = "remove it, and give the speed of the arbor before it"
+            fix = "remove it, and give the speed of the arbor that drives it"
             yield Problem(what, why, fix, evidence.place("couplings", at))
     joined: dict[str, set[str]] = {}
     for pair, loc in _pairs(evidence):
@@ -309,7 +309,10 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
         else:
             what = f"the coupling of '{link}', which turns on '{bearing}', crosses a carrier"
             why = f"the speed of '{link}' depends on its carrier"
-            fix = f"give the arbors before and behind '{bearing}', which turn alike, as the pair, without arbors on it"
+            fix = (
+                f"join the arbors before and after '{bearing}', which have the same mean speed, and remove the arbors "
+                "on it"
+            )
             yield Problem(what, why, fix, place)
 
 

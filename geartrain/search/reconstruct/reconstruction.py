@@ -44,7 +44,7 @@ _MINIMUM_COMPARED = 2000
 
 @dataclass(frozen=True, slots=True)
 class ReconstructionRequest(Shown):
-    """Input of `reconstruct`: evidence, limits and options.
+    """Input of `reconstruct`: evidence, limits and options of the search.
 
     See Also
     --------
@@ -56,10 +56,11 @@ class ReconstructionRequest(Shown):
     lost: tuple[str, ...] = ()
     """Arbors of the train that are treated as lost."""
     source: str | None = None
-    """Link at which the part of the train begins (with `lost`); by default that of the first part with these arbors."""
-    seen: bool = False
-    """True if the meshes of surviving wheels are known, and at most as many arbors are added as are lost (with `lost`).
+    """Link at which the reconstructed part of the train begins (with `lost`); by default the first part that contains
+    the lost arbors.
     """
+    seen: bool = False
+    """True if the meshes of surviving wheels are known, and no more arbors are added than are lost (with `lost`)."""
     wheels: int | None = None
     """Maximum number of added wheels; by default the number in the evidence."""
     idlers: bool = False
@@ -67,19 +68,19 @@ class ReconstructionRequest(Shown):
     best: int | None = 20
     """Number of trains to list; None lists all of them."""
     counts_only: bool = False
-    """True if trains are counted but not listed."""
+    """True to count trains without listing them."""
     prior_of: Literal["solution", "class"] = "solution"
-    """Unit of the prior: one weight for every train, or one for every equivalence class of equal ratios."""
+    """Unit of the prior: one weight for every train, or one weight for every equivalence class of equal ratios."""
     sample: int = 0
-    """Number of trains drawn at random, with their posterior probabilities."""
+    """Number of trains to draw at random according to their posterior probabilities."""
     seed: int = 1
     """Random seed."""
     assumptions: bool = False
-    """True if the trains are counted again without each hard fact in turn."""
+    """True to count the trains again without each hard fact in turn."""
     known: tuple[Train, ...] = ()
     """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Name in the evidence of each wheel and output of the known trains that has another name there."""
+    """Wheel or output of a known train -> its name in the evidence, if the names differ."""
 
 
 class ReconstructionRun:
@@ -121,7 +122,7 @@ class ReconstructionRun:
 
 @dataclass(frozen=True, slots=True)
 class RankedTrain(Result):
-    """Explanation in the list of the best or of the sampled trains.
+    """Train that explains the evidence, in the list of the best trains or of the sampled trains.
 
     See Also
     --------
@@ -133,7 +134,7 @@ class RankedTrain(Result):
     rank: int
     """Position in the list, from 1."""
     ranks: tuple[int, int]
-    """First and last rank by probability. They differ if several trains are equally probable."""
+    """First and last rank by probability, which differ if several trains are equally probable."""
     added: int
     """Number of added wheels."""
     weight: float
@@ -141,14 +142,14 @@ class RankedTrain(Result):
     wheels: dict[str, int]
     """Tooth count of each added wheel."""
     doubtful: dict[str, int]
-    """Tooth count in this train of each surviving wheel with an uncertain count."""
+    """Tooth count in this train of each surviving wheel with an uncertain tooth count."""
     meshes: tuple[str, ...]
-    """All meshes as "driving > driven"."""
+    """All meshes, each as "driving > driven"."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReconstructionAnswer(Result):
-    """Result of `reconstruct`: counts, best trains, facts that they share, and ranks of known trains.
+    """Result of `reconstruct`: numbers of trains, best trains, their common facts, and ranks of known trains.
 
     See Also
     --------
@@ -182,25 +183,25 @@ class ReconstructionAnswer(Result):
     unused: tuple[str, ...]
     """Declared evidence that the search does not use, one line for each fact."""
     best: tuple[RankedTrain, ...]
-    """Best explanations, at most the requested number, in descending order of probability."""
+    """Best explanations in descending order of probability, at most the requested number."""
     original: tuple[int, int] | None = None
-    """First and last rank by probability of the original train, if arbors of a train are lost; None otherwise."""
+    """First and last rank of the original train by probability, if its arbors were treated as lost; otherwise None."""
     findings: CandidateFindings = NO_FINDINGS
     """Facts derived from the explanations: common facts, most informative facts, family tree."""
     base: BaseLink | None = None
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Links that given couplings join to each arbor of the problem."""
+    """Arbor -> links that are joined to it by given couplings."""
     expected: ExpectedCost | None = None
-    """Cost of the search as estimated before it began."""
+    """Estimated cost of the search, computed before the search."""
     drawn: tuple[RankedTrain, ...] = ()
-    """Randomly sampled trains, the requested number. Their field `rank` is the number of the draw."""
+    """Randomly sampled trains. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()
     """Ranks of the known trains, or the rules that they break."""
     evidence: Train | None = None
-    """Evidence of the problem; if arbors of a train are lost, the evidence that remains."""
+    """Evidence of the problem; if arbors of a train are treated as lost, the evidence that remains."""
     candidates: tuple[Candidate, ...] = ()
-    """Candidates in the order of `best`."""
+    """Candidate reconstructions, in the order of `best`."""
 
     def _summary(self) -> str:
         return f"{self.name}: {explanations_text(self.counts)}, {len(self.best)} listed" + (
@@ -219,14 +220,14 @@ class ReconstructionAnswer(Result):
 
 
 def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = None) -> ReconstructionAnswer:
-    """Find every train that explains the evidence, count the trains, and list the most probable.
+    """Find and count all trains that explain the evidence, and list the most probable.
 
     Parameters
     ----------
     request : ReconstructionRequest
         Evidence, limits and options.
     run : ReconstructionRun, optional
-        Executors of the long parts. By default they run one after the other in this process.
+        Executors of the long stages. By default the stages run one after the other in this process.
 
     Returns
     -------
@@ -291,7 +292,7 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
     """Raise `QuestionError` for known trains that cannot be ranked. This is done before the search."""
     if request.known and question.base.is_carrier:
         what = "known trains cannot be ranked if arbors turn on a carrier"
-        raise QuestionError(Problem(what, "known trains are read with fixed axes", "omit --rank"))
+        raise QuestionError(Problem(what, "ranking supports only trains with fixed axes", "omit --rank"))
     check_same(request.same, request.known, question.problem)
     for train in request.known:
         find_known_train(train, question.problem, request.same)

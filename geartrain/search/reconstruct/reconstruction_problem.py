@@ -155,13 +155,13 @@ class SurvivingWheel:
 
     @property
     def is_sure(self) -> bool:
-        """True if the wheel has one possible tooth count."""
+        """True if the wheel has a single possible tooth count."""
         return len(self.counts) == 1
 
 
 @dataclass(frozen=True)
 class SurvivingArbor(Shown):
-    """Surviving arbor, whose wheels are fixed to each other.
+    """Surviving arbor with its wheels, which are fixed to each other.
 
     See Also
     --------
@@ -176,7 +176,7 @@ class SurvivingArbor(Shown):
 
 @dataclass(frozen=True)
 class SearchedDial(Shown):
-    """Pointer with the range of its speed and its arbor, if that is known.
+    """Pointer with the required range of its speed, and its arbor if the arbor is known.
 
     See Also
     --------
@@ -190,21 +190,21 @@ class SearchedDial(Shown):
     maximum: Fraction
     """Maximum speed [turns per unit of the input]."""
     signed: bool = True
-    """True if the sense of rotation is known. Otherwise the bounds are bounds of the magnitude."""
+    """True if the sense of rotation is known. Otherwise `minimum` and `maximum` are bounds of the absolute speed."""
     place: str | None = None
-    """Name of the surviving arbor that carries the pointer; "new" if its arbor does not survive; None if it is not
-    known.
+    """Name of the surviving arbor that carries the pointer; "new" if the arbor does not survive; None if the arbor is
+    not known.
     """
 
     @property
     def is_exact(self) -> bool:
-        """True if exactly one speed is accepted."""
+        """True if only one speed is accepted."""
         return self.minimum == self.maximum
 
 
 @dataclass(frozen=True)
 class Additions:
-    """Limits of the number and tooth counts of added wheels, and of the number of added arbors.
+    """Limits on the number and tooth counts of added wheels, and on the number of added arbors.
 
     See Also
     --------
@@ -220,12 +220,14 @@ class Additions:
     arbors: int | None = None
     """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """Arbors for added wheels: "new" for added arbors only, "any" for driving wheels on surviving arbors too."""
+    """Arbors that may carry added wheels: "new" for added arbors only, "any" for driving wheels on surviving arbors
+    too.
+    """
 
 
 @dataclass(frozen=True)
 class PriorFactors:
-    """Factors by which each added or unused part divides the prior weight of a candidate.
+    """Factors by which each added or unused part divides the prior weight of a candidate reconstruction.
 
     See Also
     --------
@@ -242,7 +244,7 @@ class PriorFactors:
 
 @dataclass(frozen=True)
 class ReconstructionProblem(Shown):
-    """Problem of a reconstruction: surviving arbors, dials and rules.
+    """Reconstruction problem: surviving arbors, dials, and rules for added parts.
 
     See Also
     --------
@@ -265,7 +267,7 @@ class ReconstructionProblem(Shown):
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
     """Pairs of names of wheels that do not mesh."""
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of names of arbors on one axis. Wheels of such a pair, including added ones, do not mesh."""
+    """Pairs of names of arbors on one axis. Wheels on such a pair of arbors, including added wheels, do not mesh."""
     use: Literal["wheels", "arbors", "some"] = "wheels"
     """Use of surviving parts: "wheels" if every wheel must mesh, "arbors" if every arbor must be in the train, "some"
     if neither is required.
@@ -273,9 +275,9 @@ class ReconstructionProblem(Shown):
     idlers: bool = False
     """True if a driven wheel may also drive (an idler)."""
     factors: PriorFactors = PriorFactors()
-    """Factors of the prior weight of a candidate."""
+    """Factors of the prior weight of a candidate reconstruction."""
     geometry: SurvivingGeometry = NO_GEOMETRY
-    """Measurements of survivors. Pairs that they exclude are already in `apart` and `coaxial`."""
+    """Measurements of surviving wheels. Pairs that they exclude are already in `apart` and `coaxial`."""
 
     @cached_property
     def rings(self) -> frozenset[str]:
@@ -285,7 +287,7 @@ class ReconstructionProblem(Shown):
 
 @dataclass(frozen=True)
 class PlacedWheel:
-    """Wheel of a candidate.
+    """Wheel of a candidate reconstruction.
 
     See Also
     --------
@@ -300,7 +302,8 @@ class PlacedWheel:
 
 @dataclass(frozen=True)
 class Arbor(Shown):
-    """Arbor of a candidate with the subtree that it drives, in a canonical form: equal trains compare equal.
+    """Arbor of a candidate reconstruction with the subtree that it drives, in canonical form: equal trains compare
+    equal.
 
     See Also
     --------
@@ -313,11 +316,11 @@ class Arbor(Shown):
     driven: PlacedWheel | None
     """Driven wheel of the arbor; None for the input arbor."""
     dials: tuple[str, ...]
-    """Names of the dials that the arbor shows, sorted."""
+    """Sorted names of the dials whose pointers the arbor carries."""
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
-    """Driving wheels, each with the arbors that it drives, sorted."""
+    """Driving wheels, each with the arbors that it drives; sorted."""
     passes: tuple[Arbor, ...] = ()
-    """Arbors that the driven wheel itself drives, as an idler, sorted."""
+    """Arbors that are driven by the driven wheel itself, as an idler; sorted."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
         """Yield every arbor that this arbor drives, with the driving wheel."""
@@ -401,7 +404,7 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     ways = [f"narrow uncertain tooth counts ({uncertainties})"] if uncertainties else []
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
-    ways.append("leave out arbors, or dials with the arbors that lead only to them")
+    ways.append("omit arbors, or dials together with the arbors that drive only these dials")
     return Problem(what, f"the problem has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
@@ -475,7 +478,7 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             place = evidence.place("links", link, "wheels", name, "module")
             what = f"the module of '{name}' is not above 0"
             raise DeclarationError(
-                [Problem(what, "a module is a positive length", "give it such as `module: 0.5 mm`", place)]
+                [Problem(what, "a module is a positive length", "declare for example `module: 0.5 mm`", place)]
             )
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
@@ -496,7 +499,9 @@ def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
         what = f"the position of '{link}' cannot be used in evidence with the ring '{ring}'"
-        why = "`distance` is the spread of sums of radii, but a ring and its mate have the difference as distance"
+        why = (
+            "`distance` applies to sums of pitch radii, but the centre distance of a ring and its mate is a difference"
+        )
         fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 

@@ -86,11 +86,11 @@ def describe_reconstruction(found: ReconstructionAnswer, viewer: str = "", turni
     Parameters
     ----------
     found : ReconstructionAnswer
-        Answer to describe.
+        Result of `reconstruct`.
     viewer : str
         Complete HTML page that shows animated trains.
     turning : int
-        Number of the best trains that are animated.
+        Number of best trains that are animated.
 
     Returns
     -------

@@ -40,7 +40,7 @@ class CommandRun(ReconstructionRun):
         """Print the size of the problem."""
         tell(f"problem: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
-            tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
+            tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} combinations")
 
     def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
         """Print the expected cost of the search."""
@@ -70,7 +70,7 @@ class CommandRun(ReconstructionRun):
             try:
                 yield given
             except KeyboardInterrupt:
-                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} counted; the rest is omitted")
+                tell(f"{len(counted)} of {plural(len(changed), 'assumption')} evaluated; the others are omitted")
             cut = len(counted) < len(changed)
             self._is_needed_to_resume = cut and given.journal is not None and bool(len(given.journal))
             close_journal(given.journal, cut)

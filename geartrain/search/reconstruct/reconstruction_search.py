@@ -53,7 +53,9 @@ class ExplanationCount(Result):
     multisets: int | None
     """Number of equivalence classes up to the order of arbors on paths; None if there are too many trains."""
     classes: int | None
-    """Number of ratio classes: equal driving and driven wheels on each path; None if there are too many trains."""
+    """Number of classes of trains with equal driving and driven wheels on each path, and so equal ratios; None if there
+    are too many trains.
+    """
 
 
 def explanations_text(counts: Sequence[ExplanationCount]) -> str:
@@ -64,7 +66,7 @@ def explanations_text(counts: Sequence[ExplanationCount]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Candidate(Result):
-    """Train that explains the evidence of a problem.
+    """Candidate reconstruction: a train that explains the evidence of a problem.
 
     See Also
     --------
@@ -80,7 +82,7 @@ class Candidate(Result):
     weight: float
     """Posterior probability of the train, 0 to 1."""
     ranks: tuple[int, int]
-    """First and last rank by probability, from 1. They differ if several trains are equally probable."""
+    """First and last rank by probability, from 1, which differ if several trains are equally probable."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,9 +115,11 @@ class Reconstructions(Result):
     candidates: tuple[Candidate, ...]
     """Candidates in descending order of probability."""
     topologies: tuple[CountedTopology, ...] = ()
-    """All topologies with the numbers of their trains; empty if trains are weighted one by one."""
+    """All topologies with the numbers of their trains; empty if trains are weighted individually."""
     weights: tuple[WeightClass, ...] = ()
-    """Number of trains by added wheels and prior weight, descending; empty if trains are weighted one by one."""
+    """Number of trains by added wheels and prior weight, in descending order; empty if trains are weighted
+    individually.
+    """
 
     def _summary(self) -> str:
         listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
@@ -128,18 +132,18 @@ def find_reconstructions(
     listed: int = 1000,
     prior_of: Literal["solution", "class"] = "solution",
 ) -> Reconstructions:
-    """Count all explanations with up to the maximum number of added wheels, and list the most probable.
+    """Count all explanations with up to the maximum number of added wheels, and list the most probable explanations.
 
     Parameters
     ----------
     problem : ReconstructionProblem
         Reconstruction problem.
     execution : Execution, optional
-        Executor of the parts of the search. By default they run one after the other in this process.
+        Executor of the parts of the search. By default the parts run one after the other in this process.
     listed : int
-        Minimum number of candidates to list; fewer if there are not as many.
+        Minimum number of candidates to list, if there are that many.
     prior_of : {"solution", "class"}
-        Unit of the prior: one weight for every train, or one for every ratio class, which its trains share.
+        Unit of the prior: one weight for every train, or one weight for every ratio class, divided among its trains.
 
     Returns
     -------
@@ -148,7 +152,8 @@ def find_reconstructions(
     Raises
     ------
     QuestionError
-        If too many trains would have to be listed, because weights depend on ratio classes or measured sizes.
+        If too many trains would have to be weighted individually, because weights depend on ratio classes or measured
+        sizes.
 
     Examples
     --------
@@ -244,8 +249,8 @@ def _weighed_one_by_one(
     """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
-        what = f"{number} trains would have to be weighted one by one, more than {_LISTED}"
-        why = "weights per class and weights of measured sizes need every train"
+        what = f"{number} trains would have to be weighted individually; the limit is {_LISTED}"
+        why = "weights by class or by measured sizes are computed for each train"
         fix = "add fewer wheels (--max-added), or use `--prior solution` without `geometry`"
         raise QuestionError(Problem(what, why, fix))
     counts, weighed = [], []
@@ -276,7 +281,7 @@ def _weighed_one_by_one(
 def draw_candidates(
     found: Reconstructions, problem: ReconstructionProblem, dials: Sequence[str], number: int, seed: int
 ) -> tuple[Candidate, ...]:
-    """Draw candidates with their posterior probabilities, independently and with replacement.
+    """Draw candidate reconstructions independently and with replacement, according to their posterior probabilities.
 
     Parameters
     ----------
@@ -298,7 +303,7 @@ def draw_candidates(
     Raises
     ------
     QuestionError
-        If trains are weighted one by one, because weights depend on ratio classes or measured sizes.
+        If trains are weighted individually, because weights depend on ratio classes or measured sizes.
 
     Examples
     --------
@@ -310,9 +315,9 @@ def draw_candidates(
     if not found.topologies:
         if not sum(each.solutions for each in found.counts):
             return ()
-        what = "trains cannot be sampled if they are weighted one by one"
+        what = "trains cannot be sampled if they are weighted individually"
         fix = "list them instead (--all), or use `--prior solution` without `geometry`"
-        raise QuestionError(Problem(what, "sampling needs sums over trains of equal weight", fix))
+        raise QuestionError(Problem(what, "sampling needs the numbers of trains with equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
     shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]

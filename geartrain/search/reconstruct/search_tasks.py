@@ -379,8 +379,9 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
     fits = int(added.wheels * _MOST_CHOICES / size)
     raise QuestionError(
         Problem(
-            f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth have 1e{size:.0f} choices",
-            f"a search supports up to 1e{_MOST_CHOICES} choices",
+            f"up to {added.wheels} added wheels of {added.minimum} to {added.maximum} teeth have 1e{size:.0f} "
+            "combinations",
+            f"a search supports up to 1e{_MOST_CHOICES} combinations",
             f"add at most {fits} wheels: `-k {fits}` or `reconstruct: {{add: {{wheels: {fits}}}}}`; or narrow `teeth`",
         )
     )

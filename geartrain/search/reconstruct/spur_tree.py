@@ -239,7 +239,7 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
     if found:
         # the range of the few wheels of a small part would restrict the lost counts too much
         return found[0], *(replace(tree, teeth=(min(every), max(every))) for tree in found[1:])
-    what = f"no pointer of '{train.name}' is reached by spur wheels on the frame or on a carrier"
+    what = f"'{train.name}' has no pointer with a known speed that spur wheels on the frame or on a carrier drive"
     obstacles = _joined(list(_unsupported_features(train)))
     why = parts.loop or (f"it has {obstacles}" if obstacles else "no output except the input has a known speed")
     fix = "give `expect` to an output that spur wheels drive on the frame or on a carrier"

@@ -94,7 +94,7 @@ def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
 
 
 def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
-    """Convert a candidate to a validated declaration.
+    """Convert a candidate reconstruction to a validated declaration.
 
     Parameters
     ----------

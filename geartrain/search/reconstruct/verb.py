@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 Evidence = Annotated[
     str,
     typer.Argument(
-        help="YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`). With "
-        "--lost: a train.",
+        help="YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`); "
+        "with --lost, a train.",
         metavar="FILE",
     ),
 ]
@@ -57,15 +57,15 @@ def run(
         str | None,
         typer.Option(
             "--from",
-            help="With --lost: link at which the part of the train begins. Default: the first part that has the "
-            "arbors.",
+            help="With --lost: link at which the part to reconstruct begins; default: the first part that contains "
+            "these arbors.",
         ),
     ] = None,
     seen: Annotated[
         bool,
         typer.Option(
             "--seen",
-            help="With --lost: the meshes of surviving wheels are known, and no more arbors are added than are lost.",
+            help="With --lost: keep the meshes of surviving wheels, and add at most as many arbors as are lost.",
         ),
     ] = False,
     most: Annotated[
@@ -75,26 +75,32 @@ def run(
             "-k",
             min=0,
             max=1000,
-            help="Maximum number of added wheels. Default: the number in the evidence.",
+            help="Maximum number of added wheels; default: the number in the evidence.",
         ),
     ] = None,
     count: Annotated[bool, typer.Option("--count", help="Count the trains without listing them.")] = False,
     best: Annotated[int, typer.Option("--best", min=0, max=MOST_COUNT, help="Number of trains to list.")] = 20,
-    every: Annotated[bool, typer.Option("--all", help="List all trains.")] = False,
-    idlers: Annotated[bool, typer.Option("--idlers", help="Allow driven wheels to drive.")] = False,
+    every: Annotated[bool, typer.Option("--all", help="List all trains, regardless of --best.")] = False,
+    idlers: Annotated[
+        bool, typer.Option("--idlers", help="Allow idlers: driven wheels that drive other wheels.")
+    ] = False,
     folder: Annotated[
         Path | None,
-        typer.Option("--to", metavar="FOLDER", help="Write each listed train as a declaration into this folder."),
+        typer.Option("--to", metavar="FOLDER", help="Write a declaration of each listed train to this folder."),
     ] = None,
     page: Annotated[
-        Path | None, typer.Option("--page", help="Write an HTML page with the family tree and animated trains.")
+        Path | None,
+        typer.Option("--page", help="Write an HTML page with the family tree and animated trains to this file."),
     ] = None,
     turning: Annotated[
         int, typer.Option("--animated", min=1, max=MOST_TURNING, help="Number of animated trains on the page.")
     ] = 12,
     prior: Annotated[
         Literal["solution", "class"],
-        typer.Option("--prior", help="Prior with equal weights of all solutions, or of all classes of equal ratios."),
+        typer.Option(
+            "--prior",
+            help="Unit of equal prior weight: each train (solution), or each class of equal ratios (class).",
+        ),
     ] = "solution",
     sample: Annotated[
         int,
@@ -102,12 +108,15 @@ def run(
             "--sample",
             min=0,
             max=MOST_DRAWN,
-            help="Draw this number of trains at random, in proportion to their weight.",
+            help="Draw this number of trains at random, with their posterior probabilities.",
         ),
     ] = 0,
     seed: Seed = 1,
     assumptions: Annotated[
-        bool, typer.Option("--assumptions", help="Count again without each hard fact in turn; one search for each.")
+        bool,
+        typer.Option(
+            "--assumptions", help="Count the trains again without each hard fact in turn, with one search per fact."
+        ),
     ] = False,
     rank: Annotated[
         Names,
@@ -121,7 +130,7 @@ def run(
         Names,
         typer.Option(
             "--same",
-            help="Wheel or output of a ranked train, and its name in the evidence: E4=e3.",
+            help="Names of a wheel or output in the ranked train and in the evidence, such as E4=e3; may be repeated.",
             metavar="ITS=OURS",
         ),
     ] = None,
@@ -131,7 +140,7 @@ def run(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none.
+    """Find every train that explains surviving wheels and pointers; exit code 0 if any train does, else 1.
 
     Example: `geartrain reconstruct metonic-l-m --best 5`.
     """
@@ -189,7 +198,7 @@ def _name_pair(text: str) -> tuple[str, str]:
 
 
 def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
-    """Write each listed candidate as a declaration, the family tree, and with `with_evidence` the evidence."""
+    """Write a declaration of each listed candidate, the family tree, and the evidence if `with_evidence` is True."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.search.reconstruct.train_construction import candidate_text
     from geartrain.train.declaration_files import write_declaration
@@ -211,7 +220,7 @@ def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence
 
 
 def _family_text(found: ReconstructionAnswer) -> str:
-    """Return the family tree, the digest of the question and the counts as JSON."""
+    """Return the family tree, a digest of the problem and the counts of trains as JSON."""
     from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
     requested = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}

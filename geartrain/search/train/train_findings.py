@@ -45,7 +45,7 @@ class ReachedSpeed(Result):
 
 @dataclass(frozen=True, slots=True)
 class Assignment(CountSizes, Result):
-    """Tooth counts of the varied wheels, and the resulting speeds of the outputs.
+    """Tooth counts of the varied wheels, with the resulting speeds of the outputs.
 
     See Also
     --------
@@ -59,7 +59,7 @@ class Assignment(CountSizes, Result):
     outputs: Mapping[str, ReachedSpeed]
     """Speed and error of each output. For a train with several states the names are "state: output"."""
     changed: tuple[str, ...] = ()
-    """Wheels whose count differs from the declared value."""
+    """Wheels whose tooth count differs from the declared count."""
 
     @property
     def counts(self) -> Collection[int]:
@@ -68,11 +68,11 @@ class Assignment(CountSizes, Result):
 
     @property
     def error(self) -> Fraction:
-        """Maximum absolute error over the outputs; 0 without outputs."""
+        """Maximum absolute relative error of the outputs; 0 if there are no outputs."""
         return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
-        """Return the sort key, best first: the requested criterion, then error, total and largest count.
+        """Return the sort key of the assignment: the requested criterion, then error, total and largest count.
 
         Parameters
         ----------
@@ -157,7 +157,7 @@ class Standing(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Tabular, Result):
-    """Results of a search for tooth counts in a train.
+    """Results of a search for the tooth counts of a train.
 
     See Also
     --------
@@ -184,13 +184,13 @@ class TrainFindings(Tabular, Result):
     best: int
     """Requested number of solutions."""
     parts: tuple[PartFindings, ...]
-    """Independent parts; their solutions can be combined freely."""
+    """Results of the independent parts, whose solutions can be combined freely."""
     links: Mapping[str, str]
     """Link of each varied wheel."""
     remarks: tuple[str, ...] = ()
     """Remarks, for example on outputs that no varied wheel influences and that violate their requirements."""
     where: tuple[Standing, ...] = ()
-    """Ranks of the assignments that were queried."""
+    """Ranks of the assignments for which a rank was requested."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -210,7 +210,7 @@ class TrainFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """End of the search: "interrupted", or "whole", even if only a sample was searched."""
+        """End of the search: "interrupted", or "whole", which includes the search of a sample only."""
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
@@ -220,7 +220,9 @@ class TrainFindings(Tabular, Result):
 
     @property
     def count(self) -> int:
-        """Number of assignments of all varied wheels that satisfy all requirements, the product over the parts."""
+        """Number of assignments of all varied wheels that satisfy all requirements: the product of the numbers of all
+        parts.
+        """
         return prod(part.count for part in self.parts)  # parts are independent
 
     @property
@@ -230,11 +232,12 @@ class TrainFindings(Tabular, Result):
 
     @property
     def solutions(self) -> tuple[Assignment, ...]:
-        """Best assignments of all varied wheels, combined from the solutions of the parts, in the requested order."""
+        """Best assignments of all varied wheels in the requested order, combined from the solutions of the parts."""
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
-        """Return the rank, errors and violated constraints of an assignment in each part whose wheels it includes.
+        """Return the rank, errors and violated constraints of an assignment in each part for whose wheels it gives
+        counts.
 
         Parameters
         ----------
@@ -246,11 +249,13 @@ class TrainFindings(Tabular, Result):
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
         if not whole or self._stand is None:
             why = f"the parts of the train are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
-            raise QuestionError(Problem("the assignment includes no complete part", why, "give the missing counts"))
+            raise QuestionError(
+                Problem("the assignment gives all tooth counts of no part", why, "give the missing counts")
+            )
         return tuple(self._stand(at, teeth) for at in whole)
 
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:
-        """Return a declaration of a solution as plain data that extends the original train.
+        """Return a declaration of a solution, as plain data that extends the original train.
 
         Parameters
         ----------

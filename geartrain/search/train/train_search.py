@@ -343,41 +343,42 @@ def search_train(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> TrainFindings:
-    """Find, count and rank all tooth counts of the varied wheels of a train that satisfy every requirement.
+    """Find, count and rank all tooth counts of the varied wheels of a train that satisfy all requirements.
 
-    The algorithm is an exact join of lists of products of counts along the factors that the outputs share, so that many
-    more assignments can be counted than listed; all comparisons are in integers. The requirements on an output are its
-    `expect` and `published`, at their digits and in their sense; every target that has a tolerance; and, with
-    `tolerance`, the first target if none has one. The error of an output with targets but without any of these is
-    minimised: the `best` assignments by error are found, and proved by increasing a common tolerance.
+    The algorithm is an exact join of lists of products of counts, along the factors that the outputs share. It can
+    count many more assignments than it can list; all comparisons are in integers. The requirements on an output are its
+    `expect` and `published` values, at their written digits and with their signs, and every target with a tolerance. If
+    no target has a tolerance and `tolerance` is given, the first target is a requirement. The error of an output that
+    has targets but none of these requirements is minimised: the `best` assignments by error are found, and proved to be
+    the best by increasing a common tolerance.
 
     Parameters
     ----------
     train : Train
-        The declaration, such as `geartrain.load(name).declaration`.
+        Declaration of the train, such as `geartrain.load(name).declaration`.
     state : str, optional
         State of a train with states; by default the requirements of all states.
     free : str or sequence of str
-        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those, and all wheels whose count has a `range`
-        or `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without a count are
-        always varied.
+        Wheels to vary. "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": these wheels, and all wheels
+        whose count has a `range` or `choices`. Otherwise names of wheels, each with a `search`, `range` or `choices`.
+        Wheels without a count are always varied.
     rules : ConstraintOptions or sequence of constraints, optional
         Further constraints on the counts; by default `ConstraintOptions()`.
     tolerance : Fraction, optional
-        Relative tolerance for the first target of an output none of whose targets has one.
+        Relative tolerance for the first target of an output if none of its targets has a tolerance.
     best : int
         Maximum number of solutions to list.
     by : {"error", "total", "largest", "distinct", "change"}
-        Primary criterion of their order: maximum error of an output, sum of counts, largest count, number of distinct
-        counts, or number of wheels changed from their declared count. Ties are broken by error, total, largest count,
-        and the counts.
+        Primary criterion of the order: maximum error of an output, sum of counts, largest count, number of distinct
+        counts, or number of wheels whose count differs from the declared count. Ties are broken by error, total,
+        largest count, and the counts.
     limit : int
-        Maximum number of steps (partial assignments examined) of a pass. If it is exceeded, a random sample is
+        Maximum number of steps (examined partial assignments) of one pass. If it is exceeded, only a random sample is
         searched, and `complete` is False.
     executor : concurrent.futures.Executor, optional
         Executor of the tasks; this process by default. It does not change the result.
     journal : Journal, optional
-        Store of finished tasks, so that an interrupted run can be resumed.
+        Journal of finished tasks, with which an interrupted run can be resumed.
     tell : callable, optional
         Progress function, called with (tasks done, total tasks).
 
@@ -389,7 +390,8 @@ def search_train(
     Raises
     ------
     QuestionError
-        If no wheel is varied, nothing is required of the varied wheels, or the order or state does not exist.
+        If no wheel is varied, if there are no requirements on the varied wheels, or if the order or state does not
+        exist.
     RangeError
         If a range of counts is too large to list.
 
@@ -422,8 +424,8 @@ def search_train(
         fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
         raise QuestionError(
             Problem(
-                "nothing is required of the wheels whose counts are varied",
-                "no output with a requirement depends on them",
+                "no requirement restricts the tooth counts that are varied",
+                "no output with a requirement depends on these wheels",
                 fix,
             )
         )

@@ -1,4 +1,4 @@
-"""Command `geartrain teeth train FILE`: search for the tooth counts of the free wheels of a train."""
+"""Command `geartrain teeth train FILE`: search for the tooth counts of the varied wheels of a train."""
 
 from __future__ import annotations
 
@@ -17,38 +17,58 @@ Flag = bool
 def run(
     file: File,
     free: Annotated[
-        str, typer.Option("--free", help="Wheels to vary: search, uncertain, or names separated by commas.")
+        str,
+        typer.Option(
+            "--free",
+            help="Wheels to vary: search (wheels declared with `search`), uncertain (also wheels with a `range` of "
+            "tooth counts), or names separated by commas.",
+        ),
     ] = "search",
     state: StateName = None,
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, change.")
+        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct or change.")
     ] = "error",
     planets: Annotated[
-        str | None, typer.Option("--planets", help="Number of equal planets: 3, or carrier=3,...")
+        str | None,
+        typer.Option(
+            "--planets",
+            help="Number of equal, equally spaced planets, such as 3, or by carrier, such as arm=3,inner=4.",
+        ),
     ] = None,
     clearance: Annotated[
         str | None,
         typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
     ] = None,
     undercut: Annotated[
-        str | None, typer.Option("--undercut", help="Pressure angle at which no wheel may be undercut.")
+        str | None,
+        typer.Option("--undercut", help="Pressure angle, such as 20deg, at which no external wheel may be undercut."),
     ] = None,
     interference: Annotated[
-        str | None, typer.Option("--interference", help="Pressure angle at which tips must not interfere.")
+        str | None,
+        typer.Option("--interference", help="Pressure angle, such as 20deg, at which tooth tips must not interfere."),
     ] = None,
     largest_radius: Annotated[
-        str | None, typer.Option("--max-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
+        str | None,
+        typer.Option("--max-radius", help="Maximum pitch radius of a varied wheel: a length, or a number of modules."),
     ] = None,
-    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels, in modules.")] = None,
-    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings, in modules.")] = None,
+    addendum: Annotated[
+        str | None, typer.Option("--addendum", help="Addendum of external wheels, in modules; default: 1.")
+    ] = None,
+    ring_addendum: Annotated[
+        str | None,
+        typer.Option("--ring-addendum", help="Addendum of ring gears, in modules; default: as for external wheels."),
+    ] = None,
     minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a varied wheel.")] = None,
     maximum_teeth: Annotated[
         int | None, typer.Option("--max-teeth", help="Maximum tooth count of a varied wheel.")
     ] = None,
     shift: Annotated[
-        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
+        int,
+        typer.Option(
+            "--centre-tolerance", min=0, help="Maximum difference between coaxial centre distances, in half modules."
+        ),
     ] = 0,
     coaxial: Annotated[
         bool | None,
@@ -57,11 +77,19 @@ def run(
     hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
     different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
     closure: Annotated[
-        Flag, typer.Option("--closure", help="Require that teeth of loops mesh at the declared positions.")
+        Flag,
+        typer.Option(
+            "--closure",
+            help="Require that wheels touch and the teeth of loops mesh at the declared positions of the axes.",
+        ),
     ] = False,
     where: Annotated[
         Names,
-        typer.Option("--where", metavar="W=32,X=50", help="Report the rank of these tooth counts; may be repeated."),
+        typer.Option(
+            "--where",
+            metavar="WHEEL=N,...",
+            help="Report the rank of these tooth counts, such as W=32,X=50; may be repeated.",
+        ),
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
@@ -70,7 +98,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints.
+    """Find tooth counts of the varied wheels of a train that satisfy all its targets and the given constraints.
 
     Example: `geartrain teeth train pennestri-2002-missing --best 5`.
     """
@@ -128,13 +156,13 @@ def _assignment(text: str) -> dict[str, int]:
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """Raise `QuestionError` if the output file is the train itself, which a solution extends."""
+    """Raise `QuestionError` if the output file is the declaration of the train, which the solution extends."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
-        raise option_error("-o", f"'{out}' is the train itself", "write to another file")
+        raise option_error("-o", f"'{out}' is the input file", "write to another file")
 
 
 def _parent(file: str, out: Path | None) -> str:
-    """Return the train that a solution extends, relative to the file to be written."""
+    """Return the train that a solution extends: a shipped name, or a path relative to the output file."""
     import os
 
     from geartrain.train.declaration_files import shipped

@@ -107,7 +107,8 @@ class CompliantTrain(TrainModel):
         if lacking:
             what = f"the stiffness of {', '.join(lacking)} is not known"
             why = (
-                "an estimate requires involute teeth of known module, thickness and density, of steel, brass or bronze"
+                "it is estimated only for involute wheels of steel, brass or bronze with known module, thickness and "
+                "density"
             )
             fix = "declare the stiffness of pairs or the train, such as `stiffness: 20 N m/rad` (pins: only N m/rad)"
             raise QuestionError(Problem(what, why, fix))

@@ -24,7 +24,7 @@ _MILLIMETRES = 1e-3
 
 @dataclass(frozen=True)
 class LinkInertia(Result):
-    """Moment of inertia of a link, with its source.
+    """Moment of inertia of a link, with the source of its value.
 
     See Also
     --------
@@ -75,7 +75,7 @@ def find_link_inertias(
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     with_inputs : bool
-        Include the inputs, for example if a torque or a weight drives them.
+        True to include the inputs, for example if a torque or a weight drives them.
 
     Returns
     -------

@@ -42,10 +42,10 @@ _MOST_KINKS = 80_000  # maximum product of kinks and pairs by default; takes som
 def find_separation(
     train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
 ) -> SeparationRates:
-    """Return the rates of the input at which flanks first separate, by pair; `motion` is valid below the lowest.
+    """Return the input speeds at which flanks first separate, by pair; `motion` is valid below the lowest of them.
 
-    Inertia, loads, a driving weight or torque, friction of bearings and of teeth with a variable ratio, viscous drag,
-    and impacts at speed jumps are included (docs/dynamics.md, section 3).
+    The computation includes inertia, loads, a driving weight or torque, friction of bearings and of teeth with a
+    variable ratio, viscous drag, and impacts at speed jumps (docs/dynamics.md, section 3).
 
     Parameters
     ----------
@@ -54,15 +54,15 @@ def find_separation(
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     without : sequence of str
-        Names of pairs that are left out, as for `motion`.
+        Names of pairs to ignore, as for `motion`.
     turns : float, optional
-        Searched range of the input [turn]; by default one full period of the train, or less if a period is very
-        long.
+        Searched range of the input [turn]; by default one full period of the train, or a part of it if the period is
+        very long.
 
     Returns
     -------
     SeparationRates
-        Rates by pair, the lowest first.
+        Input speeds by pair, in ascending order.
 
     Raises
     ------
@@ -112,9 +112,9 @@ def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
 
 
 def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mapping[str, ToothImpact]:
-    """Return the power lost in impacts of triangular teeth by pair (docs/motion.md, equation 7).
+    """Return the impacts of triangular teeth by pair, with the power that they dissipate (docs/motion.md, equation 7).
 
-    The result is empty unless inertias and a rate are declared.
+    The result is empty unless inertias and a `rate` are declared.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
 @dataclass(frozen=True)
 class PairSeparation(Result):
-    """Rate of the input above which the flanks of a pair, or a pin and its slot, separate.
+    """Input speed above which the flanks of a pair, or a pin and its slot, separate.
 
     See Also
     --------
@@ -169,16 +169,16 @@ class PairSeparation(Result):
     pair: str
     """Name of the pair or coupling."""
     rate: float | None
-    """Rate of the input [turn/s]; 0 if the flanks separate at any rate, None if they never separate."""
+    """Input speed [turn/s]; 0 if the flanks separate at any speed, None if they never separate."""
     at: float
     """Position of the input at which the flanks first separate [turn]."""
     leap: bool = False
-    """True if a speed jumps at that position and would require a tensile impulse."""
+    """True if a speed jump at that position would require a tensile impulse."""
 
 
 @dataclass(frozen=True)
 class SeparationRates(Result):
-    """Rates of the input at which the flanks of a train first separate; `motion` is valid below the lowest.
+    """Input speeds at which the flanks of a train first separate; `motion` is valid below the lowest of them.
 
     See Also
     --------
@@ -190,19 +190,19 @@ class SeparationRates(Result):
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
-    """Name of the state as requested."""
+    """Name of the requested state."""
     input: str
-    """Link whose rate is given."""
+    """Link whose speed is given: the input."""
     turns: float
     """Searched range of the input [turn]."""
     complete: bool
     """True if the searched range is a full period of the train."""
     pairs: tuple[PairSeparation, ...]
-    """Results by pair, in ascending order of the rate."""
+    """Results by pair, in ascending order of the input speed."""
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia that were used."""
     uncounted: tuple[str, ...] = ()
-    """Pairs and pins whose friction is not included: pairs with a constant ratio, and pins."""
+    """Names of pairs and pins whose friction is not included: pairs with a constant ratio, and pins."""
 
     @property
     def first(self) -> PairSeparation | None:
@@ -211,7 +211,7 @@ class SeparationRates(Result):
 
     @property
     def rate(self) -> float | None:
-        """Rate of the input up to which all flanks touch [turn/s]; None if they never separate."""
+        """Input speed up to which all flanks remain in contact [turn/s]; None if they never separate."""
         return None if self.first is None else self.first.rate
 
     @property

@@ -123,13 +123,17 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
     per_turn = abs(float(passed / problem.ratio(drive.link)))
     speed, most = abs(drive.rate) / tau, float(beats.speed)
     if speed * per_turn > most * (1 + _EQUAL):
-        what = f"'{drive.link}' has a prescribed speed of {speed:.6g} turn/s, which exceeds that of its escapement"
+        what = f"'{drive.link}' has a prescribed speed of {speed:.6g} turn/s, which is more than its escapement permits"
         why = (
-            f"the beat limits '{beats.link}' to {most:.6g} turn/s on average, and it would make {speed * per_turn:.6g}"
+            f"the beat limits '{beats.link}' to {most:.6g} turn/s on average, but it would turn at "
+            f"{speed * per_turn:.6g}"
         )
         driving_link = problem.driving_link
         slow = most / abs(float(passed))
-        fix = f"give at most {slow:.6g} turn/s for '{driving_link}', or no rate but a `drive` with a weight or a spring"
+        fix = (
+            f"give at most {slow:.6g} turn/s for '{driving_link}', or omit the rate and declare a weight or a spring "
+            "as `drive`"
+        )
         raise QuestionError(Problem(what, why, fix))
 
 

@@ -38,7 +38,7 @@ _MODULE = "geartrain_slave"
 
 @dataclass(frozen=True)
 class CoSimulationCase(Shown):
-    """Conditions of a co-simulation unit. For a field that is None, the declared value is used.
+    """Settings of a functional mock-up unit (FMU) for co-simulation. Fields that are None take the declared value.
 
     See Also
     --------
@@ -54,18 +54,19 @@ class CoSimulationCase(Shown):
     restitution: float | None = None
     """Coefficient of restitution of every impact, 0 to 1."""
     without: Sequence[str] = ()
-    """Names of pairs that are left out."""
+    """Names of pairs to ignore."""
 
 
 def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
-    """Return a train as a co-simulation unit (FMI 2.0), for tools whose Python has geartrain installed.
+    """Return a train as a functional mock-up unit for co-simulation (FMI 2.0). The importing tool needs a Python with
+    geartrain.
 
     Parameters
     ----------
     train : GearTrain
         Train to export.
     case : CoSimulationCase
-        State, rate and step of the simulation.
+        State, input speed and time step of the simulation.
 
     Returns
     -------
@@ -77,7 +78,8 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
     MissingExtraError
         If pythonfmu is not installed.
     QuestionError
-        If the train cannot be simulated, because no rate is given, or a link that can move by itself has no inertia.
+        If the train cannot be simulated, for example because no input speed is given, or because a link that can move
+        by itself has no inertia.
 
     Examples
     --------

@@ -186,7 +186,7 @@ def check_convergence(state: ContactState, record: RunRecord, step: float) -> No
     if record.numbers[DIVERGED]:
         why = f"time steps of {step:.3g} s are too long for the stiffness of this train: speeds grow without bound"
         what = f"the simulation diverges after {state.clock[0]:.4g} s"
-        raise QuestionError(Problem(what, why, "give more `--steps` per turn, or a shorter `step`", "--steps"))
+        raise QuestionError(Problem(what, why, "increase --steps, or reduce `step`", "--steps"))
 
 
 def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:

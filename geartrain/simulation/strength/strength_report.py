@@ -75,7 +75,7 @@ _ARBOR = (
 
 @dataclass(frozen=True)
 class StrengthReport(Result):
-    """Strength of a train in all requested states.
+    """Strength of the teeth, pins and arbors of a train in all requested states.
 
     See Also
     --------
@@ -89,16 +89,16 @@ class StrengthReport(Result):
     title: str
     """Title of the train."""
     states: tuple[TrainStrength, ...]
-    """Results in the requested order of states."""
+    """Results of each state, in the requested order."""
 
 
 def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:
-    """Return a report of the strength of a train in some states.
+    """Return the strength report of a train in one or more states.
 
     Parameters
     ----------
     train : GearTrain
-        Train of the results.
+        Train to which the results belong.
     found : sequence of TrainStrength
         Results of `train.strength`, one for each state.
 
@@ -119,7 +119,8 @@ def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) ->
 
 
 def describe_strength(found: StrengthReport) -> Document:
-    """Return a document of the strength by state: weakest part, pressures, stresses, ISO 6336, wear, arbors.
+    """Return a document on the strength in each state: weakest part, contact pressures, root stresses, ISO 6336, wear
+    and arbors.
 
     Parameters
     ----------
@@ -129,7 +130,7 @@ def describe_strength(found: StrengthReport) -> Document:
     Returns
     -------
     Document
-        Document with forces in N, stresses in MPa, lengths in mm; each table follows its assumptions.
+        Document with forces in N, stresses in MPa and lengths in mm. The assumptions precede each table.
 
     Examples
     --------

@@ -27,7 +27,7 @@ NO_WEAR = WearRange(0.0, 0.0)
 
 @dataclass(frozen=True)
 class TrainStrength(FrozenFields, Tabular, TrainResult):
-    """Pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
+    """Contact pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
 
     See Also
     --------
@@ -76,7 +76,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     turns: float | None = None
     """Revolutions of the input over which wear accumulates; None if no service life is given."""
     wear_coefficients: WearRange = NO_WEAR
-    """Minimum and maximum coefficient K of Archard's law."""
+    """Minimum and maximum wear coefficient K of Archard's law."""
     neglected: tuple[NeglectedEffect, ...] = ()
     """Pairs without results, with the reasons."""
     forces: tuple[WheelForce, ...] = ()
@@ -84,12 +84,12 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     points: Mapping[str, PointContact] = field(default_factory=dict)
     """Strength of the loaded gear pairs with point contact, by name."""
     over: float | None = None
-    """Revolutions of the input whose maximum torques are used for stresses; None for mean torques.
+    """Number of revolutions in the run whose maximum torques determine the stresses; None for mean torques.
 
     Wear is always computed from mean torques.
     """
     pins: Mapping[str, PinContact] = field(default_factory=dict)
-    """Strength of lobes on pins and of pins in holes, by name of the pair or coupling."""
+    """Strength of lobes on pins and of pins in holes, by the name of the pair or coupling."""
 
     def _summary(self) -> str:
         weakest = self.weakest
@@ -98,7 +98,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety factors; None if
+        """Table with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety factors; None if
         unknown.
         """
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
@@ -117,7 +117,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def weakest(self) -> WeakestPart | None:
-        """Part with the minimum safety factor; None if no strength is known."""
+        """Part with the minimum safety factor; None if no safety factor is known."""
         # parts without a known strength have no safety factor and are skipped
         found = [
             WeakestPart(wheel.wheel, what, safety)
@@ -182,19 +182,19 @@ class PairStrength(Result):
     module: float
     """Module [mm]."""
     face_width: float
-    """Width of the narrower wheel [mm]."""
+    """Face width of the narrower wheel [mm]."""
     tangential: float
     """Tangential force at the pitch line [N]."""
     elasticity: float
-    """Elasticity factor ZE of both materials [sqrt(MPa)]."""
+    """Elasticity factor ZE of the pair of materials [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
-    """Pressures along the path of contact, the highest last; empty for a form without a path of contact."""
+    """Contact pressures along the path of contact, the highest last; empty for a form without a path of contact."""
     iso: IsoContact | None
-    """Contact stress by ISO 6336-2; None except for external spur and helical involutes."""
+    """Contact stress by ISO 6336-2; None unless the teeth are external spur or helical involutes."""
     wheels: tuple[WheelStrength, ...]
-    """Strength of both wheels in the order of the pair."""
+    """Strength of both wheels, in the order of the pair."""
     notes: tuple[str, ...] = ()
-    """Restrictions that apply, with reasons."""
+    """Restrictions of the results, with reasons."""
 
 
 @dataclass(frozen=True)
@@ -214,9 +214,9 @@ class ArborStrength(Result):
     link: str
     """Name of the link."""
     material: str
-    """Material of its arbor."""
+    """Material of the arbor."""
     force: float
-    """Sum of the transverse forces of all its meshes, as if they acted in one direction [N]."""
+    """Sum of the magnitudes of the transverse forces of all its meshes, as if they acted in one direction [N]."""
     thrust: float
     """Resultant axial force of all its meshes, which a shoulder supports [N]."""
     bending: float
@@ -224,17 +224,17 @@ class ArborStrength(Result):
     torsion: float
     """Maximum torsional stress [MPa]."""
     stress: float
-    """Equivalent stress of bending and torsion by von Mises [MPa]."""
+    """Von Mises equivalent stress of bending and torsion [MPa]."""
     pivot_pressure: float
-    """Pressure of the total force on one pivot, over its diameter times length [MPa]."""
+    """Contact pressure on one pivot: total force divided by pivot diameter times length [MPa]."""
     shoulder_pressure: float | None
-    """Pressure of the thrust on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
+    """Contact pressure of the axial force on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
     strength: float | None
     """Strength of the material [MPa]; None if it is not known."""
 
     @property
     def safety(self) -> float | None:
-        """Safety factor: strength over equivalent stress; None if the strength is unknown or the stress is 0."""
+        """Safety factor: strength divided by equivalent stress; None if the strength is unknown or the stress is 0."""
         return None if self.strength is None or not self.stress else self.strength / self.stress
 
 
@@ -255,38 +255,40 @@ class WheelStrength(Result):
     wheel: str
     """Name of the wheel."""
     material: str
-    """Name of its material."""
+    """Name of the material of the wheel."""
     torque: float
     """Torque on the wheel [N m]."""
     section: float
-    """Distance of the section of maximum bending from the wheel's axis [mm]."""
+    """Distance of the section with the maximum bending stress from the axis of the wheel [mm]."""
     thickness: float
     """Thickness of the tooth at that section [mm]."""
     lewis: float
-    """Lewis form factor Y with the load at the tip."""
+    """Lewis form factor Y for a load at the tip."""
     tip_stress: float
-    """Root stress with the whole load on one tooth pair at the tip [MPa]."""
+    """Root stress if one tooth pair carries the whole load at the tip [MPa]."""
     shared_stress: float | None
-    """Maximum root stress with equal load sharing [MPa]; None without a path of contact."""
+    """Maximum root stress if tooth pairs share the load equally [MPa]; None without a path of contact."""
     pressure: float | None
-    """Maximum contact pressure in single contact [MPa]; None without a path of contact, or if it is unbounded."""
+    """Maximum contact pressure while one tooth pair is in contact [MPa]; None without a path of contact, or if it is
+    unbounded.
+    """
     strength: float | None
     """Strength of the material [MPa]; None if it is not known."""
     spread: float | None
     """Relative uncertainty of the strength; None if it is not known."""
     iso: IsoRoot | None = None
-    """Root stress by ISO 6336-3 for the wheel as cut by a hob."""
+    """Root stress by ISO 6336-3 for a wheel cut by a hob."""
     wear: FlankWear | None = None
-    """Wear of its flanks; None if the service life or the hardness is unknown."""
+    """Wear of the flanks of the wheel; None if the service life or the hardness is unknown."""
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength over `tip_stress`; None if one is unknown."""
+        """Safety factor of the root: strength divided by `tip_stress`; None if one is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield below the surface over `pressure`; None if one is
+        """Safety factor of the flank: pressure at first yield below the surface divided by `pressure`; None if one is
         unknown.
         """
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
@@ -302,13 +304,13 @@ class FlankWear(Result):
     """
 
     passages: float
-    """Number of passages of each tooth."""
+    """Number of meshing cycles of each tooth."""
     volume: WearRange
-    """Volume worn off all teeth [mm3]."""
+    """Volume that is worn from all teeth [mm3]."""
     mean_depth: WearRange
-    """Mean depth of wear over the flanks [mm]."""
+    """Mean wear depth of the flanks [mm]."""
     depth: WearRange | None
-    """Maximum depth of wear [mm]; None without a path of contact."""
+    """Maximum wear depth [mm]; None without a path of contact."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces
@@ -365,21 +367,22 @@ class FlankStrength(Result):
     spread: float | None
     """Relative uncertainty of the strength; None if it is not known."""
     safety: float | None
-    """Safety factor of the flank: pressure at first yield below the surface over the contact pressure; None if
+    """Safety factor of the flank: pressure at first yield below the surface divided by the contact pressure; None if
     unknown.
     """
     tip_stress: float | None = None
-    """Root stress with the whole load on one tooth pair at the tip [MPa]; None if the virtual teeth cannot be cut."""
+    """Root stress if one tooth pair carries the whole load at the tip [MPa]; None if the virtual teeth cannot be cut.
+    """
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength over `tip_stress`; None if one is unknown."""
+        """Safety factor of the root: strength divided by `tip_stress`; None if one is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
 
 @dataclass(frozen=True)
 class PointContact(Result):
-    """Helical wheels on crossed axes, or a worm and its wheel, under load: docs/strength.md (24) and (25).
+    """Strength of helical wheels on crossed axes, or of a worm and its wheel: docs/strength.md (24) and (25).
 
     See Also
     --------
@@ -395,20 +398,20 @@ class PointContact(Result):
     pitch_pressure: float
     """Contact pressure at the pitch point [MPa]."""
     pressure: float
-    """Maximum pressure with the fewest tooth pairs in contact [MPa]."""
+    """Maximum contact pressure while the minimum number of tooth pairs is in contact [MPa]."""
     longer: float
     """Semi-major axis of the contact ellipse [mm]."""
     shorter: float
     """Semi-minor axis of the contact ellipse [mm]."""
     wheels: tuple[FlankStrength, ...]
-    """Strength of both wheels in the order of the pair."""
+    """Strength of both wheels, in the order of the pair."""
     notes: tuple[str, ...] = ()
-    """Restrictions that apply, with reasons."""
+    """Restrictions of the results, with reasons."""
 
 
 @dataclass(frozen=True)
 class PinContact(Result):
-    """Pins on lobes of a disc, or in its holes, under load: docs/strength.md (28) to (30).
+    """Strength of pins on the lobes of a disc, or in its holes: docs/strength.md (28) to (30).
 
     See Also
     --------
@@ -421,7 +424,7 @@ class PinContact(Result):
     )
 
     name: str
-    """Name of the pair or of the coupling."""
+    """Name of the pair or coupling."""
     disc: str
     """Wheel with the lobes or holes."""
     material: str
@@ -431,24 +434,26 @@ class PinContact(Result):
     width: float
     """Width of contact [mm]."""
     force: float
-    """Force on the pin with the maximum pressure, over all phases [N]."""
+    """Force on the pin at the instant of maximum contact pressure [N]."""
     radius: float
-    """Radius of the equivalent cylinder on a plane [mm]."""
+    """Radius of an equivalent cylinder in contact with a plane [mm]."""
     pressure: float
     """Maximum contact pressure [MPa]."""
     strength: float | None
-    """Strength of the weaker of both materials [MPa]; None if it is not known."""
+    """Strength of the weaker of the two materials [MPa]; None if it is not known."""
     pin_stress: float | None = None
-    """Equivalent stress at the root of a cantilever pin [MPa]; None for pins supported by their ring."""
+    """Equivalent stress at the root of a cantilever pin [MPa]; None for pins that are supported by their ring."""
     pin_strength: float | None = None
     """Strength of the material of the pins [MPa]; None if it is not known."""
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield below the surface over `pressure`; None if unknown."""
+        """Safety factor of the contact: pressure at first yield below the surface divided by `pressure`; None if
+        unknown.
+        """
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property
     def pin_safety(self) -> float | None:
-        """Safety factor of the pins: strength over `pin_stress`; None if one is unknown."""
+        """Safety factor of the pins: strength divided by `pin_stress`; None if one is unknown."""
         return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

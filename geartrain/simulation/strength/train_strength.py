@@ -126,7 +126,11 @@ class Service:
         speed, declared = _input_speed(train, state), train.declaration
         if not speed:
             raise QuestionError(
-                Problem(f"'{declared.name}' does not move", "all its inputs have speed 0", "give an input a speed")
+                Problem(
+                    f"'{declared.name}' does not move",
+                    "no input has a speed other than 0",
+                    "declare one under `inputs`",
+                )
             )
         if turns is not None:
             return turns / speed
@@ -443,7 +447,8 @@ class StrengthQuestion:
                 continue
             if unknown := self._without_force(part.wheels, forces):
                 why = (
-                    f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate wheel"
+                    f"the force of pair '{unknown[0]}' is not known: it has no `module`, or one wheel is a contrate "
+                    "wheel"
                 )
                 self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue

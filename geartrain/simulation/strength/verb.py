@@ -1,4 +1,4 @@
-"""The command `geartrain strength`: contact pressure, root stress, safety, arbors and wear."""
+"""Command `geartrain strength`: contact pressure, root stress, safety, stresses of arbors, and wear."""
 
 from __future__ import annotations
 
@@ -19,24 +19,26 @@ def run(
     ] = None,
     years: Annotated[
         float | None,
-        typer.Option("--years", min=0, help="Compute wear over this number of years, by `unit` or `rate`."),
+        typer.Option(
+            "--years", min=0, help="Compute wear over this number of years; the train must declare `unit` or `rate`."
+        ),
     ] = None,
     wear: Annotated[
         tuple[float, float] | None,
-        typer.Option("--wear", help="Minimum and maximum coefficient K of Archard's wear law; default 1e-7 1e-3."),
+        typer.Option("--wear", help="Minimum and maximum coefficient K of Archard's wear law; default: 1e-7 1e-3."),
     ] = None,
     over: Annotated[
         float | None,
         typer.Option(
             "--peak-turns",
             min=0,
-            help="Use the maximum torques over this number of revolutions for stresses; default: mean torques.",
+            help="Compute stresses from the maximum torques over this number of revolutions; default: mean torques.",
         ),
     ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute contact pressure, root stress and safety of every pair under the declared loads, arbors, and wear.
+    """Compute contact pressure, root stress, safety and wear of pairs, and stresses of arbors, under declared loads.
 
     Example: `geartrain strength longcase-clock-loaded --years 10`.
     """

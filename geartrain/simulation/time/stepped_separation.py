@@ -209,7 +209,7 @@ def _lowest(rates: Floats, most: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class SteppedSeparation(Result):
-    """Rate of the input at which teeth first separate, found by time stepping without restitution.
+    """Input speed at which teeth first separate, found by time stepping without restitution.
 
     See Also
     --------
@@ -217,25 +217,27 @@ class SteppedSeparation(Result):
     """
 
     input: str
-    """Link whose rate is given."""
+    """Link whose speed is given: the input."""
     turns: float
     """Simulated range of the input from the start [turn]."""
     predicted: float
-    """Rate by the closed-form condition over the same range [turn/s]."""
+    """Input speed from the closed-form condition for the same range [turn/s]."""
     rate: float | None
-    """Rate found with ever shorter time steps [turn/s]; None if no separation was found near the predicted rate."""
+    """Input speed found with successively shorter time steps [turn/s]; None if no separation was found near the
+    predicted speed.
+    """
     error: float | None
     """Error bound due to the time step [turn/s]."""
     pair: str | None
     """Name of the pair that separates."""
     at: float | None
-    """Position of the input at which it separates [turn]."""
+    """Position of the input at which the pair separates [turn]."""
     holds: float | None
-    """Maximum tested rate at which all flanks touch, with the shortest time step [turn/s]."""
+    """Maximum tested input speed at which all flanks remain in contact, with the shortest time step [turn/s]."""
     parts: float | None
-    """Minimum tested rate at which some flanks separate, with the shortest time step [turn/s]."""
+    """Minimum tested input speed at which flanks separate, with the shortest time step [turn/s]."""
     flight: float
-    """Minimum duration of a separation that is detected with certainty [turn of the input]."""
+    """Minimum duration of a separation that is reliably detected [turn of the input]."""
     complete: bool = True
     """False if the search was stopped."""
 

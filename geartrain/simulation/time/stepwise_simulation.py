@@ -30,10 +30,11 @@ _EARLY = 1e-6  # relative to a step: a time this little before the end of a step
 
 
 class Simulation(Shown):
-    """Simulation of a train for coupling to other programs, with a drive and loads that may change.
+    """Simulation of a train that advances step by step, for coupling to other programs. Its drive and loads may be
+    changed between steps.
 
-    The time step is constant whatever times are requested. Between two steps angles are extrapolated linearly, so that
-    the motion does not depend on when it is observed.
+    The time step is constant and does not depend on the requested times. Between two steps angles are extrapolated
+    linearly, so that the motion does not depend on the times at which it is read.
 
     Attributes
     ----------
@@ -44,16 +45,16 @@ class Simulation(Shown):
     drive_link, drive_kind : str
         Link at which power enters, and kind of the drive: "rate", "torque", "spring" or "hand".
     drive : float
-        Value of the drive: the speed of that link, or of the hand [rad/s]; the torque [N m].
+        Control value of the drive: the speed of that link or of the hand [rad/s], or the torque [N m].
     loads : dict of str to float
-        Torques on links, declared or set [N m].
+        Load torques on links, as declared or set [N m].
     restitution : dict of str to float
         Coefficient of restitution of each pair, pin and escapement.
     torque : float
         Mean torque of the drive over the last advance, positive in the sense of rotation of its link [N m].
     torques, apart, impact_energy : dict of str to float
-        Figures of each pair, pin and escapement over the last advance: mean torque on the driven side [N m], fraction
-        of the time in which no flank touches, energy lost in impacts [J].
+        Results of each pair, pin and escapement over the last advance: mean torque on the driven side [N m], fraction
+        of the time without contact, and energy lost in impacts [J].
     unsolved : int
         Number of steps without a consistent set of contacts.
 
@@ -123,17 +124,17 @@ class Simulation(Shown):
         drive: float | None = None,
         loads: Mapping[str, float] | None = None,
     ) -> Simulation:
-        """Return a simulation of the same train that starts at time 0.
+        """Return a new simulation of the same train that starts at time 0.
 
         Parameters
         ----------
         step, restitution, drive, loads
-            New values of the attributes; by default the present ones. A driving speed applies from the start.
+            New values of the attributes; by default the present values. A driving speed applies from the start.
 
         Returns
         -------
         Simulation
-            Another simulation that shares the tables of teeth.
+            New simulation, which shares the tables of transmission functions.
 
         Raises
         ------
@@ -142,11 +143,15 @@ class Simulation(Shown):
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
-        if not 0 < step < inf or not all(0 <= each <= 1 for each in bounces.values()):
-            values = ", ".join(f"{each:g}" for each in set(bounces.values()))
-            what = f"a time step of {step:g} s or a restitution of {values} is out of range"
-            why = "the time step must be positive and finite, and restitution 0 to 1"
-            raise QuestionError(Problem(what, why, "pass for example step=1e-4 and a restitution of 0.3"))
+        if not 0 < step < inf:
+            what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
+            raise QuestionError(Problem(what, why, "pass for example step=1e-4"))
+        if outside := [each for each in bounces.values() if not 0 <= each <= 1]:
+            what, why = (
+                f"a restitution of {outside[0]:g} is out of range",
+                "a coefficient of restitution is from 0 to 1",
+            )
+            raise QuestionError(Problem(what, why, "pass for example 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
         return Simulation(self._of, self._outputs, step, self._fast, bounces, drive, given)
@@ -195,12 +200,12 @@ class Simulation(Shown):
         }
 
     def set_drive(self, value: float) -> None:
-        """Set the control value of the drive from the present time on.
+        """Set the control value of the drive from the present time.
 
         Parameters
         ----------
         value : float
-            The speed of the link where power enters, or of the hand [rad/s]; or the torque there [N m].
+            Speed of the link at which power enters, or of the hand [rad/s]; or torque on that link [N m].
 
         Raises
         ------
@@ -222,7 +227,7 @@ class Simulation(Shown):
             self._set_torques()
 
     def set_load(self, link: str, torque: float) -> None:
-        """Set the load of a link from the present time on.
+        """Set the load torque on a link from the present time.
 
         Parameters
         ----------
@@ -252,12 +257,12 @@ class Simulation(Shown):
         self._system.torque[:] = self._torque
 
     def advance(self, seconds: float) -> None:
-        """Advance the simulation by a duration.
+        """Advance the simulation by a given duration.
 
         Parameters
         ----------
         seconds : float
-            Duration, 0 or more [s]; the steps that end within it are done.
+            Duration, 0 or more [s]. All time steps that end within it are computed.
 
         Raises
         ------
@@ -268,7 +273,7 @@ class Simulation(Shown):
             raise QuestionError(
                 Problem(
                     f"a duration of {seconds:g} s is out of range",
-                    "time cannot decrease",
+                    "a duration must be finite and not negative",
                     "give a duration of 0 or more",
                 )
             )

@@ -27,7 +27,7 @@ _CLOSE = 0.01  # target of the relative discretisation error
 
 @dataclass(frozen=True)
 class TimeReport(Result):
-    """Motion of a train in time, with the predicted separation rates of its teeth.
+    """Results of a simulation in time, with the predicted input speeds at which teeth separate.
 
     See Also
     --------
@@ -41,19 +41,21 @@ class TimeReport(Result):
     title: str
     """Title of the train in one line."""
     separation: SeparationRates | None
-    """Rates at which teeth first separate, by the closed-form condition; None without inertias or units of torques."""
+    """Input speeds at which teeth first separate, from the closed-form condition; None without inertias or units of
+    torques.
+    """
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the moving links."""
     run: TimeRun
     """Result of the simulation in time."""
     stepped: SteppedSeparation | None = None
-    """Separation rate found by time stepping; None if not requested."""
+    """Input speed at which teeth first separate, found by time stepping; None if not requested."""
 
 
 def collect_time_report(
     train: GearTrain, run: TimeRun, without: tuple[str, ...] = (), stepped: SteppedSeparation | None = None
 ) -> TimeReport:
-    """Return a report of a run with the rates at which teeth first separate.
+    """Return the report on a run, with the input speeds at which teeth first separate.
 
     Parameters
     ----------
@@ -62,7 +64,7 @@ def collect_time_report(
     run : TimeRun
         Result of `GearTrain.dynamics`.
     without : tuple of str
-        Names of pairs that were left out.
+        Names of pairs that were ignored.
     stepped : SteppedSeparation, optional
         Result of `step_to_separation`.
 
@@ -89,7 +91,7 @@ def collect_time_report(
 
 
 def describe_time_run(found: TimeReport) -> Document:
-    """Return a document of a run: separation rate, contacts, drive, outputs, energy, spectra, convergence and inertias.
+    """Return a document on a run: separation rate, contacts, drive, outputs, energy, spectra, convergence and inertias.
 
     Parameters
     ----------
@@ -99,7 +101,7 @@ def describe_time_run(found: TimeReport) -> Document:
     Returns
     -------
     Document
-        Report with angles in degrees and torques in N mm. Figures that differ between time steps are marked.
+        Document with angles in degrees and torques in N mm. Results that differ between the two time steps are marked.
 
     Examples
     --------

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeRun(Tabular, Pictured, TrainResult):
-    """Motion of a train in time with a constant time step; all data are from the run with the shorter step.
+    """Motion of a train in time, simulated with a constant time step; all data are from the run with the shorter step.
 
     See Also
     --------
@@ -79,19 +79,19 @@ class TimeRun(Tabular, Pictured, TrainResult):
     state: str | None
     """Name of the declared state; None for a train without states."""
     driving_link: str
-    """Link whose mean speed sets the time scale."""
+    """Link to whose mean speed the time scale refers."""
     rate: float
-    """Mean speed of the driving link in the counted part of the run [rad/s], negative if it turns backwards."""
+    """Mean speed of the driving link in the evaluated part of the run [rad/s]; negative if it turns backwards."""
     link: str
     """Link at which power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
-    """Kind of the drive: prescribed speed, torque (also of a weight), spring, or compliant hand."""
+    """Kind of drive: prescribed speed, torque (including the torque of a weight), spring, or compliant hand."""
     step: float
     """Time step [s]."""
     skip: float
-    """Duration before the counted part [s]."""
+    """Duration of the run before the evaluated part [s]."""
     duration: float
-    """Duration of the counted part [s]."""
+    """Duration of the evaluated part of the run [s]."""
     time: Floats
     """Times of the samples [s]. Shape (n,)."""
     turns: Floats
@@ -101,47 +101,47 @@ class TimeRun(Tabular, Pictured, TrainResult):
     speeds: LabelledArray
     """Speeds of all links [rad/s]. Shape (link, time)."""
     torques: LabelledArray
-    """Torques on the driven sides, means between samples [N m]. Shape (contact, time)."""
+    """Torques on the driven sides, averaged between samples [N m]. Shape (contact, time)."""
     gaps: LabelledArray
-    """Gap between the driven side and its drive flank [rad], shape (pair, time).
+    """Gap between the driven side and its drive flank [rad]. Shape (pair, time).
 
-    Drive flanks push while the driving link turns as declared.
+    Drive flanks transmit the torque while the driving link turns in its declared sense.
     """
     coast_gaps: LabelledArray
     """Gap between the driven side and its coast flank [rad]. Shape (pair, time)."""
     outputs: LabelledArray
     """Angles through which outputs have turned [rad]. Shape (output, time)."""
     ahead: LabelledArray
-    """Angles by which outputs are ahead of the motion with all drive flanks in contact [rad], shape (output, time)."""
+    """Angles by which outputs are ahead of the motion with all drive flanks in contact [rad]. Shape (output, time)."""
     drive: Floats
-    """Torque at the power input, mean between samples [N m], positive in the sense of rotation, shape (n,)."""
+    """Torque at the power input, averaged between samples [N m], positive in the sense of rotation. Shape (n,)."""
     torque: float
-    """Mean torque at the power input in the counted part [N m]: its work over its angle."""
+    """Mean torque at the power input in the evaluated part [N m]: work divided by angle."""
     contacts: tuple[ContactInTime, ...]
     """Results by pair, pin and escapement."""
     impacts: ImpactList
-    """Impacts of the counted part."""
+    """Impacts in the evaluated part of the run."""
     energy: EnergyAccount
-    """Energy balance of the counted part."""
+    """Energy balance of the evaluated part of the run."""
     deviations: tuple[OutputDeviation, ...]
     """Deviations of outputs from the motion with all drive flanks in contact."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
-    """Spectral lines by output, strongest first."""
+    """Spectral lines by output, in descending order of amplitude."""
     figures: tuple[ConvergedFigure, ...]
-    """Results with time steps h and h/2."""
+    """Main results with time steps h and h/2."""
     unsolved: int
-    """Number of steps without a consistent set of contacts; the last guess was used."""
+    """Number of steps without a consistent set of contacts, in which the last iterate was used."""
     notes: tuple[str, ...]
-    """Texts on effects that are not included."""
+    """Descriptions of the effects that are not included."""
     complete: bool = True
     """False if the run was stopped.
 
-    All data are then from the completed part of the run with the longer step, without a comparison.
+    If it is False, all data are from the completed part of the run with the longer step, without a comparison.
     """
     model: Literal["rigid", "compliant"] = "rigid"
     """Model of the teeth, rigid or compliant."""
     assumed: tuple[str, ...] = ()
-    """Texts on the estimates that replace missing declarations."""
+    """Descriptions of the estimates that replace missing declarations."""
     restitution: float = 0.0
     """Maximum coefficient of restitution of the contacts."""
     _without: tuple[str, ...] = field(default=(), kw_only=True, repr=False, compare=False)
@@ -164,8 +164,8 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """All samples by column: time, turns, angles and speeds of links, torques of contacts and drive, gaps,
-        deviations.
+        """Table with a row for each sample: time, turns, angles and speeds of links, torques of contacts and drive,
+        gaps and deviations.
         """
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
@@ -182,7 +182,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         return {name: column.tolist() for name, column in made.items()}
 
     def to_csv(self) -> str:
-        """Return all samples as a table, with the columns of `columns`.
+        """Return all samples as CSV text, with the columns of `columns`.
 
         Returns
         -------
@@ -208,9 +208,9 @@ class ContactInTime(Result):
     name: str
     """Name of the pair or coupling; for an escapement, name of its link."""
     apart: float
-    """Fraction of the time in which no flank touches."""
+    """Fraction of the time in which no flank is in contact."""
     coast: float
-    """Fraction of the time on the coast flank, or nearer to it than to the drive flank."""
+    """Fraction of the time in which the coast flank is in contact, or is nearer than the drive flank."""
     impact_rate: float
     """Number of impacts per second [1/s]."""
     power: float
@@ -218,22 +218,22 @@ class ContactInTime(Result):
     hardest: float
     """Maximum closing speed of an impact [rad/s of the driven side]."""
     torque: float
-    """Mean torque on the driven side, positive forwards [N m]."""
+    """Mean torque on the driven side [N m], positive in its direction of motion."""
     rubbed: float
-    """Power lost by friction [W]."""
+    """Power lost to friction [W]."""
     gap: float
     """Maximum gap to the nearer flank [rad of the driven side]."""
     changes: float
-    """Number of changes from one flank to the other without separation per second [1/s]."""
+    """Number of changes per second from one flank to the other without separation [1/s]."""
     peak: float | None = None
-    """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts are impulses."""
+    """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts have impulses."""
     dynamic_factor: float | None = None
-    """Ratio of `peak` to the maximum quasi-static torque; None if no speed is prescribed."""
+    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None if no speed is prescribed."""
 
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """List of impacts in order of time, up to a storage limit.
+    """Impacts in the order of time, up to a storage limit.
 
     See Also
     --------
@@ -249,11 +249,11 @@ class ImpactList(Result):
     time: Floats
     """Time of each impact [s]. Shape (stored,)."""
     speed: Floats
-    """Closing speed of each impact [rad/s], shape (stored,)."""
+    """Closing speed of each impact [rad/s]. Shape (stored,)."""
     energy: Floats
-    """Energy dissipated in each impact [J], shape (stored,)."""
+    """Energy dissipated in each impact [J]. Shape (stored,)."""
     impulse: Floats
-    """Impulse on the driven side in each impact [N m s], shape (stored,)."""
+    """Impulse on the driven side in each impact [N m s]. Shape (stored,)."""
 
 
 @dataclass(frozen=True)
@@ -283,17 +283,17 @@ class EnergyAccount(Result):
     drive: float
     """Work of the drive at a prescribed speed [J]."""
     loads: float
-    """Work of constant torques [J]."""
+    """Work of constant load torques [J]."""
     springs: float
     """Work of springs [J]."""
     bearings: float
-    """Energy lost by dry friction in bearings [J]."""
+    """Energy lost to dry friction in bearings [J]."""
     drag: float
-    """Energy lost by viscous drag [J]."""
+    """Energy lost to viscous drag [J]."""
     friction: float
-    """Energy lost by friction of teeth and pins [J]."""
+    """Energy lost to friction of teeth and pins [J]."""
     impact_loss: float
-    """Energy lost in impacts [J]; for compliant teeth, lost by their damping."""
+    """Energy lost in impacts, or in the damping of compliant teeth [J]."""
     steps: float
     """Numerical dissipation in lasting contacts [J], of either sign; it decreases with the time step."""
     kinetic: float
@@ -305,12 +305,12 @@ class EnergyAccount(Result):
 
     @property
     def put_in(self) -> float:
-        """Input work of drive, loads and springs [J]."""
+        """Work input of drive, loads and springs [J]."""
         return self.drive + self.loads + self.springs
 
     @property
     def closure(self) -> float:
-        """Relative error of the balance: error over the sum of all its terms and the stored energy."""
+        """Relative error of the balance: error divided by the sum of all its terms and the stored energy."""
         # the balance is closed by the numerical dissipation `steps`
         taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
@@ -331,16 +331,16 @@ class OutputDeviation(Result):
     output: str
     """Name of the output."""
     ahead: float
-    """Maximum angle ahead of that motion [rad], 0 or more."""
+    """Maximum angle by which the output is ahead of that motion [rad], 0 or more."""
     behind: float
-    """Maximum angle behind that motion [rad], 0 or more."""
+    """Maximum angle by which the output is behind that motion [rad], 0 or more."""
     rms: float
     """Root mean square of the deviation [rad]."""
 
 
 @dataclass(frozen=True)
 class ConvergedFigure(Result):
-    """Result with time steps h and h/2, and its confidence interval.
+    """Result with time steps h and h/2, for a convergence check, and its confidence interval.
 
     See Also
     --------
@@ -358,22 +358,23 @@ class ConvergedFigure(Result):
     kind: Literal["mean", "extreme"]
     """Kind of result, "mean" or "extreme".
 
-    A mean over the run converges with the time step; an extreme depends on single flights, which are chaotic.
+    A mean over the run converges with the time step. An extreme depends on single separations, which are chaotic.
     """
     converged: bool
-    """True if both values agree within the tolerance, and the confidence interval of a mean is as narrow.
+    """True if both values agree within the tolerance, and the confidence interval of a mean is not wider than the
+    tolerance.
 
     The tolerance is 5 % of a mean, 1 % of an extreme, 0.005 for a fraction of time, and at least 1e-6 rad for an angle.
     """
     interval: float | None = None
-    """Half the 95 % confidence interval of a mean, from batches of whole turns; None for an extreme or below 5
-    turns.
+    """Half-width of the 95 % confidence interval of a mean, from batches of whole turns; None for an extreme, or for
+    fewer than 5 turns.
     """
 
 
 @dataclass(frozen=True)
 class SpectrumPeak(Result):
-    """Line in the spectrum of an output's angle about its mean motion.
+    """Line in the spectrum of an output's angle relative to its mean motion.
 
     See Also
     --------
@@ -387,4 +388,4 @@ class SpectrumPeak(Result):
     amplitude: float
     """Amplitude of the angle [rad]."""
     source: str
-    """Pair (or beat) and harmonic at this frequency, such as `c2~d1 x1`; empty if none matches."""
+    """Pair (or beat frequency) and harmonic at this frequency, such as `c2~d1 x1`; empty if none matches."""

@@ -50,7 +50,7 @@ _name = partial(name_axes, size=SMALL, parse_math=False)
 
 
 def time_run_figure(run: TimeRun, title: str = "") -> Figure:
-    """Plot gaps by pair with impacts in an interval of the run, and deviations and spectrum of the outputs.
+    """Plot the gaps and impacts of each pair in an interval of the run, and the deviations and spectrum of the outputs.
 
     Parameters
     ----------
@@ -62,8 +62,8 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Gap of each pair with backlash from the drive flank to the coast flank [deg], about the maximum gap; for an
-        escapement the speed of its link [rad/s]; angles by which outputs are ahead [deg]; amplitudes of their
+        Gap of each pair with backlash, from the drive flank to the coast flank [deg], near the time of the maximum gap;
+        speed of the link of an escapement [rad/s]; angles by which outputs are ahead [deg]; amplitudes of their
         vibration about the mean motion [deg].
 
     Raises

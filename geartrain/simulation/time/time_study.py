@@ -55,7 +55,7 @@ class TimeStudy:
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
-            what = f"{self.turns:g} turns after {self.skip:g} skipped turns are out of range"
+            what = f"turns = {self.turns:g}, skip = {self.skip:g}"
             raise QuestionError(
                 Problem(what, "turns must be above 0, and skip 0 or more", "pass for example turns=10, skip=1")
             )

@@ -117,7 +117,7 @@ def model_in_time(
 def find_vibration_modes(
     train: TrainMechanics, state: str | None = None, *, without: Sequence[str] = ()
 ) -> VibrationModes:
-    """Return natural frequencies and modes of a train with compliant teeth in contact (docs/dynamics.md).
+    """Return natural frequencies and vibration modes of a train with compliant teeth in contact (docs/dynamics.md).
 
     Parameters
     ----------
@@ -126,12 +126,12 @@ def find_vibration_modes(
     state : str, optional
         Name of a declared state; None only for a train that has no states.
     without : sequence of str
-        Names of pairs that are left out.
+        Names of pairs to ignore.
 
     Returns
     -------
     VibrationModes
-        Frequencies, damping and shapes.
+        Natural frequencies, damping ratios and mode shapes.
 
     Raises
     ------
@@ -166,8 +166,7 @@ def step_to_separation(
     fast: bool | None = None,
     on_done: Callable[[float], object] = lambda _: None,
 ) -> SteppedSeparation:
-    """Return the rate of the input at which teeth first separate, found by time stepping as a check of
-    `find_separation`.
+    """Return the input speed at which teeth first separate, found by time stepping, as a check of `find_separation`.
 
     Parameters
     ----------
@@ -178,23 +177,24 @@ def step_to_separation(
     turns : float
         Simulated range of the input from the start [turn].
     steps : int, optional
-        Steps per turn; by default 200 in the shortest tooth-passing period.
+        Number of time steps per turn; by default 200 in the shortest tooth-passing period.
     without : sequence of str
-        Names of pairs that are left out.
+        Names of pairs to ignore.
     fast : bool, optional
-        Compile the kernels; by default if the run is long and numba is installed.
+        True to compile kernels. By default they are compiled if the run is long and numba is installed.
     on_done : callable
-        Function called with the fraction of the work that is done; the search stops if it returns True.
+        Progress function, called with the fraction of the work that is done. The search stops if it returns True.
 
     Returns
     -------
     SteppedSeparation
-        The rate with its error, by ever shorter time steps at the positions where pairs carry the minimum torque.
+        Input speed with its error, from successively shorter time steps at the positions where pairs carry the minimum
+        torque.
 
     Raises
     ------
     QuestionError
-        If the predicted separation is at any rate or at none, or the train cannot be simulated.
+        If the flanks are predicted to separate at any speed or at no speed, or if the train cannot be simulated.
 
     Examples
     --------
@@ -281,13 +281,13 @@ class VibrationModes(Tabular, Result):
     damping: Floats
     """Damping ratio of each mode; 0 for modes of 0 Hz. Shape (mode,)."""
     shapes: LabelledArray
-    """Angles of links, normalised to a maximum of 1 in each mode. Shape (link, mode)."""
+    """Mode shapes: angles of links, normalised to a maximum of 1 in each mode. Shape (link, mode)."""
     stiffness: dict[str, float]
-    """Stiffness of each pair about its driven side [N m/rad]."""
+    """Stiffness of each pair, as torsional stiffness about its driven side [N m/rad]."""
     notes: tuple[str, ...]
-    """Texts on effects that are not included."""
+    """Descriptions of the effects that are not included."""
     assumed: tuple[str, ...]
-    """Texts on the estimates that replace missing declarations."""
+    """Descriptions of the estimates that replace missing declarations."""
 
     def _summary(self) -> str:
         shown = ", ".join(f"{each:.4g}" for each in self.frequencies[:4])
@@ -295,7 +295,7 @@ class VibrationModes(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns with a row for each mode: number, frequency, damping, and the angles of links."""
+        """Table with a row for each mode: number, frequency, damping, and angles of links."""
         angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
         return {
             "mode": [*range(1, len(self.frequencies) + 1)],

@@ -1,4 +1,4 @@
-"""The command `geartrain dynamics`: motion in time with inertia, backlash, impacts, drag and friction."""
+"""Command `geartrain dynamics`: motion in time with inertia, backlash, impacts, drag and friction."""
 
 from __future__ import annotations
 
@@ -55,7 +55,8 @@ def run(
     restitution: Restitution = None,
     model: ToothModel = None,
     find_rate: Annotated[
-        bool, typer.Option("--find-rate", help="Also find the rate at which teeth first separate by time stepping.")
+        bool,
+        typer.Option("--find-rate", help="Also find, by time stepping, the input speed at which teeth first separate."),
     ] = False,
     output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     state: FirstState = None,
@@ -63,13 +64,14 @@ def run(
     fast: Fast = None,
     json: Json = False,
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Plot gaps, deviations of outputs, and spectrum to this file.")
+        Path | None,
+        typer.Option("--plot", help="Plot tooth gaps, deviations of the outputs and their spectrum to this file."),
     ] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Simulate motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples.
+    """Simulate the motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples.
 
     Example: `geartrain dynamics moon-triangular-inertia --rate 1 --turns 1`.
     """
@@ -102,7 +104,7 @@ def run(
             picture,
         )
     if not found.complete:
-        tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are for these turns")
+        tell(f"stopped after {found.turns[-1]:.4g} turns; the results are for these turns")
         raise typer.Exit(INTERRUPTED)
     if stepped is not None and not stepped.complete:
         tell("stopped before the search for the separation rate converged")
@@ -112,7 +114,7 @@ def run(
 
 
 def _stepped(train: GearTrain, found: TimeRun, requested: dict[str, Any]) -> SteppedSeparation:
-    """Find the separation rate by time stepping over the turns of the run; Ctrl-C ends it with a partial result."""
+    """Find the separation rate by time stepping in the revolutions of the run; Ctrl-C ends it with a partial result."""
     from geartrain.simulation.time.train_in_time import step_to_separation
 
     more = {name: requested[name] for name in ("steps", "without", "fast")}

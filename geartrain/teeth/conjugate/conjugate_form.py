@@ -33,7 +33,7 @@ _DESIGN = 1e-9  # relative difference of centre distances that counts as roundin
 
 
 class ConjugateToothForm(ToothForm):
-    """Base class of tooth forms that define a path of contact and a tooth thickness for any two wheels.
+    """Base class of tooth forms that define a path of contact and a tooth thickness for any pair of wheels.
 
     See Also
     --------
@@ -42,7 +42,7 @@ class ConjugateToothForm(ToothForm):
 
     conjugate: ClassVar[bool] = True
     matched: ClassVar[str] = ""
-    """Quantities, besides the arcs of contact, that are made equal when forms are compared, in words."""
+    """Description of the quantities that are made equal in comparisons of forms, in addition to the arcs of contact."""
 
     backlash: Length = Field(
         "0",
@@ -60,20 +60,20 @@ class ConjugateToothForm(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of figures that includes the path of contact."""
+        """Return the class of results that includes the path of contact."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateFigures
 
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with the first wheel driving.
+        """Return the mesh of a pair, with the first wheel driving.
 
-        A ring gear is gear 2 of the form in either order of the pair.
+        A ring gear is always gear 2 of the form, in either order of the pair.
 
         Returns
         -------
         GearMesh
-            Mesh as used in the analysis of a train.
+            Mesh for the analysis of a train.
         """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
@@ -120,7 +120,7 @@ class ConjugateToothForm(ToothForm):
         return self.model_copy(update={"backlash": backlash})
 
     def slant_pressure(self, wheels: WheelPair) -> float:
-        """Return the ratio of the normal force on helical teeth to its component in the transverse plane, 1 or more.
+        """Return the ratio of the normal force on helical teeth to its transverse component, 1 or more.
 
         Parameters
         ----------
@@ -130,25 +130,25 @@ class ConjugateToothForm(ToothForm):
         Returns
         -------
         float
-            1 for straight teeth.
+            Ratio; 1 for straight teeth.
         """
         del wheels
         return 1.0
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the mate's tip.
+        """Return the bottom clearance between the root of one gear and the tip of its mate.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers, position of the axes, and module if a length gives it.
+            Tooth numbers, arrangement of the axes, and module if it is known.
         gear : {1, 2}
-            Gear whose root is meant.
+            Number of the gear with the root.
 
         Returns
         -------
         float or None
-            Modules; None if the form does not define it.
+            Bottom clearance [module]; None if the form does not define it.
         """
         del wheels, gear
         return None
@@ -159,43 +159,43 @@ class ConjugateToothForm(ToothForm):
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers, position of the axes, and module if a length gives it.
+            Tooth numbers, arrangement of the axes, and module if it is known.
         gap : float
-            Excess of the centre distance [module]; below 0 the axes are too near.
+            Centre distance minus design distance [module]; negative if the axes are too close.
 
         Returns
         -------
         float or None
-            Backlash on the pitch circle [module], below 0 if the teeth jam. None for forms that run as designed at
-            their own distance only.
+            Backlash on the pitch circle [module], negative if the teeth jam. None for forms that run as designed only
+            at their design distance.
         """
         del wheels, gap
         return None
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
-        """Return the round pins that form the teeth of one wheel.
+        """Return the round pins of a lantern in the pair.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers, position of the axes, and module if a length gives it.
+            Tooth numbers, arrangement of the axes, and module if it is known.
 
         Returns
         -------
         LanternPins or None
-            None if both wheels have teeth.
+            Pins; None if both wheels have teeth.
         """
         del wheels
         return None
 
     @abstractmethod
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of wheels as designed, regardless of the declared centre distance.
+        """Return the pair at its design distance, regardless of the declared centre distance.
 
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers, position of the axes, and module if a length gives it.
+            Tooth numbers, arrangement of the axes, and module if it is known.
 
         Returns
         -------
@@ -210,16 +210,16 @@ class ConjugateToothForm(ToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair with given arcs of contact. Raises `GearTrainError` if no such pair exists.
+        """Return the pair with the given arcs of contact. Raises `GearTrainError` if no such pair exists.
 
         Parameters
         ----------
         wheels : WheelPair
             The two wheels.
         arcs : tuple of float
-            Arcs of approach and recess, gear 1 driving [pitch].
+            Arcs of approach and recess with gear 1 driving [pitch].
         given : mapping
-            Other declared parameters of the form; the rest have their defaults.
+            Other declared parameters of the form; missing parameters have their defaults.
 
         Returns
         -------
@@ -243,26 +243,26 @@ class ConjugateToothForm(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of gear 1 and gear 2, 3 or more.
+            Tooth numbers of gear 1 and gear 2, 3 or more.
         internal : bool
             True if gear 2 is a ring gear.
         shaft_angle : float, optional
-            Shaft angle [rad] of bevels; None for parallel axes.
+            Shaft angle of bevel gears [rad]; None for parallel axes.
         pitch_distance : float, optional
-            Half the sum of module times teeth of both wheels, also for a ring gear [m]. Only lengths with a unit need
-            it.
+            Half the module times the sum of the tooth numbers, also for a ring gear [m]. Required only if a length has
+            a unit.
         helix : float
             Helix angle of helical wheels [rad], 0 or more; their lengths are in transverse modules.
 
         Returns
         -------
         PathOfContact
-            Lengths in modules; for bevels rad on the unit sphere.
+            Path of contact with lengths in modules; for bevel gears in rad on the unit sphere.
 
         Raises
         ------
         GearTrainError
-            If the form gives no such pair.
+            If no such pair exists.
         """
         return conjugate_pair_of(self, WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)).path
 
@@ -283,26 +283,26 @@ class ConjugateToothForm(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of gear 1 and gear 2, 3 or more.
+            Tooth numbers of gear 1 and gear 2, 3 or more.
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            The gear that drives.
+            Number of the driving gear.
         direction : {1, -1}
-            Direction of rotation; with -1 the opposite flanks drive.
+            Direction of rotation; with -1 the coast flanks drive.
         pitch_distance, internal, shaft_angle, helix
             As in `path`.
 
         Returns
         -------
         ConjugateTransmission or OffDesignTransmission
-            The second if the axes are at a distance other than the design distance. The `verdict` of either reports
-            whether the pair can run.
+            Transmission function; `OffDesignTransmission` if the centre distance differs from the design distance. Its
+            `verdict` reports whether the pair can run.
 
         Raises
         ------
         GearTrainError
-            If the form gives no such pair.
+            If no such pair exists.
         """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
@@ -321,22 +321,22 @@ class ConjugateToothForm(ToothForm):
         Parameters
         ----------
         wheels : WheelPair
-            Tooth numbers, position of the axes, and module if a length gives it.
+            Tooth numbers, arrangement of the axes, and module if it is known.
 
         Returns
         -------
         float or None
-            Modules; None at the design distance.
+            Centre distance [module]; None at the design distance.
 
         Raises
         ------
         GearTrainError
-            If the wheels are bevels, which have no centre distance.
+            If the wheels are bevel gears, which have no centre distance.
         """
         if self.centre_distance is None:
             return None
         if wheels.bevel:
-            raise refused("bevel wheels have no centre distance", "their axes meet", "omit centre_distance")
+            raise refused("bevel wheels have no centre distance", "their axes intersect", "omit `centre_distance`")
         given, design = wheels.modules(self.centre_distance, "centre_distance"), wheels.distance
         return given if abs(given - design) > _DESIGN * design else None
 
@@ -414,7 +414,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 def _refusal(kinds: tuple[str, str]) -> str:
     if "worm" in kinds:
-        return "a worm's thread slides along the wheel and has no rolling pitch surface"
+        return "the thread of a worm slides along the teeth of its wheel, so there are no rolling pitch surfaces"
     if set(kinds) >= {"bevel", "contrate"}:
         return "a bevel and a contrate wheel have no pair of pitch cones"
     return ""

@@ -44,11 +44,11 @@ class ConjugatePair(Shown):
     halves: Halves
     """Half the tooth thickness of gear 1 and gear 2 as an arc X on the pitch surface [module; rad for bevels]."""
     given: tuple[ToothFault, ...] | None = None
-    """Complete list of faults if the form determines it; None if the faults follow from path and thickness."""
+    """Complete list of faults, for forms that determine it; None if the faults follow from path and thickness."""
     extra: tuple[ToothFault, ...] = ()
     """Faults in addition to those that follow from path and thickness."""
     solid: tuple[bool, bool] = (True, True)
-    """Flags of gear 1 and gear 2: True for teeth, False for round pins."""
+    """True for each of gear 1 and gear 2 that has teeth, False if it has round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:
@@ -60,12 +60,12 @@ class ConjugatePair(Shown):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess with gear 1 driving [module; rad for bevels]; one may be negative."""
+        """Arcs X of approach and recess with gear 1 driving [module; rad for bevels]. One of them may be negative."""
         return self.path.arcs
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface [module; rad for bevels]; values within rounding are 0."""
+        """Circumferential backlash on the pitch surface [module; rad for bevels]; 0 if it is within rounding errors."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -74,20 +74,20 @@ class ConjugatePair(Shown):
 class ConjugateTransmission(ExactRatio):
     """Transmission function of a conjugate gear pair at its design distance.
 
-    The ratio is exact at every instant. Tooth pairs in contact at the same time take equal shares of the driver's
-    torque, so the efficiency is the mean of their efficiencies, each exact in friction. If the pair cannot run, the
-    function describes the flanks without regard to interference; it is NaN where no flanks touch.
+    The speed ratio is constant. Tooth pairs in contact at the same time share the driver's torque equally, so that the
+    efficiency is the mean of their efficiencies, which are exact functions of friction. If the pair cannot run, the
+    function describes the flanks ignoring interference; it is NaN where no flanks touch.
 
     Parameters
     ----------
     pair : ConjugatePair
-        The two wheels.
+        Pair at its design distance.
     friction : float
         Coefficient of friction, 0 or more.
     driver : {1, 2}
-        The gear that drives.
+        Number of the driving gear.
     direction : {1, -1}
-        Direction of rotation. With -1 the opposite flanks drive, and the driven wheel is ahead by the backlash.
+        Direction of rotation. With -1 the coast flanks drive, and the driven wheel is ahead by the backlash.
 
     See Also
     --------
@@ -107,7 +107,7 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict: the pair runs, or the fault that prevents it."""
+        """Verdict: the pair runs, or the fault that prevents it from running."""
         return verdict_of_faults(self.pair.faults, self._backlash)
 
     @property
@@ -121,7 +121,7 @@ class ConjugateTransmission(ExactRatio):
         return ConjugateTransmission(self.pair, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> ConjugateTransmission:
-        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
 
         Angles keep their sign convention, so they decrease.
         """
@@ -130,11 +130,11 @@ class ConjugateTransmission(ExactRatio):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error at driver angles S [rad]: 0, or the backlash if the opposite flanks drive."""
+        """Return the transmission error at driver angles S [rad]: 0, or the backlash if the coast flanks drive."""
         return self._constant(S, self._advance)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which are equal."""
+        """Return the minimum and maximum transmission error [rad], which are equal."""
         return self._advance, self._advance
 
     def error_moments(self) -> tuple[float, float]:
@@ -148,7 +148,7 @@ class ConjugateTransmission(ExactRatio):
         return (approach, recess) if self.driver == 1 else (recess, approach)
 
     def contacts(self, S: ArrayLike) -> Floats:
-        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels], negative in
+        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels]; negative in
         approach.
 
         Parameters
@@ -159,8 +159,8 @@ class ConjugateTransmission(ExactRatio):
         Returns
         -------
         ndarray
-            One row for each tooth pair that can be in contact at the same time, followed by the shape of `S`; NaN for
-            rows without contact.
+            Arcs, with an axis for the tooth pairs that can be in contact at the same time, followed by the axes of `S`;
+            NaN for pairs without contact.
         """
         p, (approach, recess) = self.path.pitch.p, self._arcs
         ahead = self._half_tooth + approach + self.direction * self._reach * np.asarray(S, dtype=float)
@@ -189,7 +189,7 @@ class ConjugateTransmission(ExactRatio):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN where no teeth touch or friction locks them."""
+        """Return the efficiency at driver angles S [rad]; NaN if no teeth touch or friction locks them."""
         X = self.contacts(S)
         touching = ~np.isnan(X)
         each = np.zeros(X.shape)
@@ -203,7 +203,7 @@ class ConjugateTransmission(ExactRatio):
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return the sliding speeds and friction terms of all tooth pairs in contact at driver angles S [rad].
 
-        The pairs take equal shares of the driver's torque.
+        The tooth pairs share the driver's torque equally.
         """
         pitch, X = self.path.pitch, self.contacts(S)
         touching = ~np.isnan(X)
@@ -245,8 +245,8 @@ class ConjugateTransmission(ExactRatio):
         return self.friction >= self.locking_friction
 
     def efficiency_mean(self) -> float:
-        """Return the mean of the efficiency over the driver angles with contact, at constant driver torque; NaN if
-        friction locks.
+        """Return the mean efficiency over the driver angles with contact, at constant driver torque; NaN if friction
+        locks the teeth.
         """
         if self._locks:
             return nan
@@ -254,14 +254,16 @@ class ConjugateTransmission(ExactRatio):
         return float(weights @ found)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
+        teeth.
+        """
         if self._locks:
             return nan
         found, weights = self._sampled
         return 1 / float(weights @ (1 / found))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, from 201 samples of each smooth interval; NaN if friction locks."""
+        """Return the minimum efficiency, from 201 samples of each smooth interval; NaN if friction locks the teeth."""
         if self._locks:
             return nan
         # the ends belong also to the next tooth pair or to the other side of the pitch point

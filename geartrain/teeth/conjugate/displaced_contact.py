@@ -307,7 +307,7 @@ class OffDesignTransmission(OutlineTransmission):
     Parameters
     ----------
     pair : ConjugatePair
-        The pair as designed.
+        Pair at its design distance.
     distance : float
         Centre distance [module].
     friction, driver, direction
@@ -330,7 +330,7 @@ class OffDesignTransmission(OutlineTransmission):
         return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> OffDesignTransmission:
-        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
 
         Angles keep their sign convention, so they decrease.
         """
@@ -350,16 +350,16 @@ def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
     Parameters
     ----------
     pair : ConjugatePair
-        The pair as designed.
+        Pair at its design distance.
 
     Returns
     -------
     tuple of GearOutline
-        Outlines of gear 1 and gear 2, lengths in modules. The roots are straight beneath the last designed contact.
+        Outlines of gear 1 and gear 2, lengths in modules. Below the active flanks the roots are straight.
 
     Examples
     --------
-    Two involute wheels touch without transmission error at a distance larger than the design's 30 modules.
+    Two involute wheels run without transmission error at a distance larger than the design distance of 30 modules.
 
     >>> import numpy as np
     >>> from geartrain.teeth import Involute

@@ -309,8 +309,9 @@ def least_friction(
 def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
     return RangeError(
         Problem(
-            f"an arc of {X / pitch.p:.6g} pitches is too long for a margin of {u:g} at {degrees(psi):.6g} deg",
-            "before its end, even the minimum contact speed needs more than the maximum pressure angle",
+            f"an arc of {X / pitch.p:.6g} pitches is too long for a contact speed margin of {u:g} and a pressure "
+            f"angle of {degrees(psi):.6g} deg",
+            "even at the minimum contact speed, the pressure angle would exceed its maximum before the end of the arc",
             "use a shorter arc, more teeth, a smaller margin or a larger pressure angle",
         )
     )
@@ -452,7 +453,7 @@ def unreachable_end(end: float) -> RangeError:
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} from the pitch point",
-            "its pressure angle would reach a right angle before that distance",
+            "its pressure angle would reach 90 deg before that distance",
             "use shorter arcs, more teeth, or a smaller pressure angle",
         )
     )

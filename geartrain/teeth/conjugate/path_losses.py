@@ -52,9 +52,9 @@ _STEP, _STEPS = 1.25, 40  # growth factor of the bracket, and maximum number of 
 
 @dataclass(frozen=True, slots=True)
 class PathLosses(Result):
-    """Loss, stress, heat and flash temperature of a path of contact under one assumption on load sharing.
+    """Loss, stress, heat and flash temperature of a path of contact, for one assumption on load sharing.
 
-    All are normalised by friction and load. Lengths are in modules, or in radians for bevels.
+    All quantities are normalised by friction and load. Lengths are in modules, or in radians for bevel gears.
 
     See Also
     --------
@@ -64,36 +64,40 @@ class PathLosses(Result):
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
 
     assumption: str
-    """Assumption on how tooth pairs share the load, in words."""
+    """Assumption on the load sharing of tooth pairs, in words."""
     loss: float
-    """Mean loss over the friction coefficient, to first order.
+    """Mean loss divided by the friction coefficient, to first order.
 
     One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path (Buckingham). Shared load: the mean over a
     pitch (Ohlendorf).
     """
     stress: float
-    """Maximum Hertzian pressure over the square root of the tangential force: sqrt(max H); infinite where psi is 0."""
+    """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite where psi is
+    0.
+    """
     off_pitch: float
-    """Maximum of the same pressure at contacts more than a tenth of a pitch away from the pitch point."""
+    """Maximum of the same quantity at contacts more than a tenth of a pitch away from the pitch point."""
     heat: float
-    """Maximum frictional heat per area of either profile, over friction coefficient times tangential force: max Q."""
+    """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
+    Q.
+    """
     flash: float
     """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature is proportional."""
 
     def over(self, other: PathLosses) -> dict[str, float]:
-        """Return the ratio of each quantity to the same quantity of another path.
+        """Return the ratio of each quantity to the same quantity of another path of contact.
 
         Parameters
         ----------
         other : PathLosses
-            Losses under the same assumption.
+            Losses of the other path, for the same assumption.
         """
         return {name: getattr(self, name) / getattr(other, name) for name in LOADED}
 
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures(Result):
-    """Losses, loads and geometry of one path of contact. Lengths in modules, or in radians for bevels.
+    """Losses, loads and geometry of one path of contact. Lengths in modules, or in radians for bevel gears.
 
     See Also
     --------
@@ -109,12 +113,12 @@ class PathMeasures(Result):
     depth: float
     """Working depth |eta_a| + eta_r [module; rad for bevels]."""
     slowest: float
-    """Minimum contact speed along a dedendum over the pitch-line speed."""
+    """Minimum contact speed along a dedendum divided by the pitch-line speed."""
     contact_ratio: float
-    """Contact ratio: arc of contact over the pitch."""
+    """Contact ratio: arc of contact divided by pitch."""
 
     def over(self, other: PathMeasures) -> PathRatios:
-        """Return the ratio of each quantity to the same quantity of another path.
+        """Return the ratio of each quantity to the same quantity of another path of contact.
 
         Parameters
         ----------
@@ -150,7 +154,7 @@ def measure(path: PathOfContact) -> PathMeasures:
     Returns
     -------
     PathMeasures
-        Results under both assumptions on load sharing.
+        Results for both assumptions on load sharing.
 
     Examples
     --------
@@ -331,23 +335,23 @@ def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: 
 
 
 def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> Floats:
-    """Return the efficiency of one contact of conjugate teeth, exact in the friction coefficient.
+    """Return the efficiency at contacts of conjugate teeth, an exact function of the friction coefficient.
 
     Parameters
     ----------
     pitch : PitchSurfaces
         Pitch surfaces of the path.
     contact : PathContact
-        One or more contacts.
+        Contacts on the path.
     friction : float
         Coefficient of friction, 0 or more.
     driver : {1, 2}
-        The gear that drives.
+        Number of the driving gear.
 
     Returns
     -------
     ndarray
-        Power out over power in, of the contact's shape; NaN where the contact locks.
+        Output power divided by input power, of the shape of `contact`; NaN where friction locks the contact.
 
     Examples
     --------
@@ -407,15 +411,17 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
             high, at_high, low = low, at_low, low / _STEP
             at_low = off(low)
     if not (at_low <= 0 <= at_high):
-        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
+        what = f"no value of `heat` gives these teeth a working depth of {wanted:.6g}"
         if at_low > 0:
             raise GearTrainError(
-                Problem(what, "even the hottest teeth are deeper", "use more depth or shorter arcs, or give `heat`")
+                Problem(
+                    what, "even the maximum `heat` gives deeper teeth", "use more depth or shorter arcs, or give `heat`"
+                )
             )
         raise GearTrainError(
             Problem(
                 what,
-                "their pressure angle would reach a right angle, or their contact speed 0, before that depth",
+                "before that depth, the pressure angle would reach 90 deg or the contact speed would be 0",
                 "use another depth, shorter arcs or more teeth, or give `heat`",
             )
         )

@@ -242,7 +242,8 @@ def none(psi: float) -> PathSide:
 
 @dataclass(frozen=True)
 class PathContact(Shown):
-    """Contact quantities at pitch-line displacements X, as arrays of one shape: approach at X < 0, recess at X > 0.
+    """Contact quantities at pitch-line displacements X, as arrays of the same shape: approach at X < 0, recess at X >
+    0.
 
     See Also
     --------
@@ -260,27 +261,27 @@ class PathContact(Shown):
     q: Floats
     """Derivative d(psi)/dX of the pressure angle [rad per module]."""
     w: Floats
-    """Derivative d(S sin psi)/dd; S is d, or sin d for bevels."""
+    """Derivative d(S sin psi)/dd, where S is d, or sin d for bevel gears."""
     U1: Floats
-    """Speed of the contact along the profile of gear 1, over the pitch-line speed."""
+    """Speed of the contact along the profile of gear 1, divided by the pitch-line speed."""
     U2: Floats
-    """Speed of the contact along the profile of gear 2, over the pitch-line speed."""
+    """Speed of the contact along the profile of gear 2, divided by the pitch-line speed."""
     k1: Floats
-    """(Geodesic) curvature of the profile of gear 1 [1/module], positive where it is convex."""
+    """Curvature of the profile of gear 1, geodesic for bevel gears [1/module]; positive where the profile is convex."""
     k2: Floats
-    """(Geodesic) curvature of the profile of gear 2 [1/module], negative where it is convex."""
+    """Curvature of the profile of gear 2, geodesic for bevel gears [1/module]; negative where the profile is convex."""
     kr: Floats
     """Relative curvature k1 - k2 [1/module]."""
     H: Floats
-    """Ratio kr / cos psi; the Hertzian pressure is proportional to its square root."""
+    """Ratio kr / cos psi. The Hertzian pressure is proportional to its square root."""
     Q1: Floats
-    """Frictional heat per area of the profile of gear 1, over friction times tangential force."""
+    """Frictional heat per area of the profile of gear 1, divided by friction coefficient times tangential force."""
     Q2: Floats
-    """Frictional heat per area of the profile of gear 2, over friction times tangential force."""
+    """Frictional heat per area of the profile of gear 2, divided by friction coefficient times tangential force."""
     flash: Floats
-    """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|; Blok's flash temperature of like materials is proportional to it."""
+    """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|. Blok's flash temperature of equal materials is proportional to it."""
     rub: Floats
-    """|S| / cos psi; the friction loss is proportional to its integral over X."""
+    """Quantity |S| / cos psi. The friction loss is proportional to its integral over X."""
 
     @property
     def psi(self) -> Floats:
@@ -291,7 +292,7 @@ class PathContact(Shown):
 
 @dataclass(frozen=True)
 class PathOfContact(Shown):
-    """Path of contact of a pair: an approach side and a recess side. Lengths in modules; rad for bevels.
+    """Path of contact of a pair: an approach side and a recess side. Lengths in modules, or in rad for bevel gears.
 
     See Also
     --------
@@ -309,22 +310,22 @@ class PathOfContact(Shown):
     pitch: PitchSurfaces
     """Pitch cylinders or cones of both gears."""
     approach: PathSide
-    """Side of the path before the pitch point."""
+    """Approach side: the part of the path before the pitch point."""
     recess: PathSide
-    """Side of the path after the pitch point."""
+    """Recess side: the part of the path after the pitch point."""
     real: tuple[float, float] | None = None
-    """Arcs X of approach and recess in which the teeth touch, if shorter than the sides [module].
+    """Arcs X of approach and recess in which the teeth touch, if they are shorter than the sides [module].
 
     One is negative if contact begins or ends beyond the pitch point. None if the teeth touch along both whole sides.
     """
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess in which the teeth touch [module]; one may be negative."""
+        """Arcs X of approach and recess in which the teeth touch [module]. One of them may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
-        """Return the range of distances d in which the teeth touch on one side, or None if they do not touch there.
+        """Return the range of distances d in which the teeth touch on one side; None if they do not touch there.
 
         Parameters
         ----------
@@ -345,14 +346,14 @@ class PathOfContact(Shown):
 
     @property
     def contact_ratio(self) -> float:
-        """Contact ratio: arc of contact over the pitch.
+        """Contact ratio: arc of contact divided by pitch.
 
         It is negative if the teeth do not reach each other.
         """
         return sum(self.arcs) / self.pitch.p
 
     def ends(self, gear: int) -> tuple[float, float]:
-        """Return the arcs X at which the root end and the tip of a gear's flank touch [module].
+        """Return the arcs X at which the root end and the tip of a gear's flank are in contact [module].
 
         Parameters
         ----------
@@ -438,41 +439,41 @@ class PathOfContact(Shown):
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
     def flank1(self, X: ArrayLike) -> Floats:
-        """Return the points of gear 1's profile that touch at the arcs X, in the gear's position at X = 0.
+        """Return the points of gear 1's profile that are in contact at the arcs X, in the gear's position at X = 0.
 
         Parameters
         ----------
         X : array_like
-            Displacements at which the points touch.
+            Pitch-line displacements at which the points are in contact.
 
         Returns
         -------
         ndarray
-            (..., 2) from the pitch point, or (..., 3) on the unit sphere for bevels.
+            Points (..., 2) relative to the pitch point, or (..., 3) on the unit sphere for bevel gears.
         """
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear1(self._points(X), X)
 
     def flank2(self, X: ArrayLike) -> Floats:
-        """Return the points of gear 2's profile that touch at the arcs X, in the gear's position at X = 0.
+        """Return the points of gear 2's profile that are in contact at the arcs X, in the gear's position at X = 0.
 
         Parameters
         ----------
         X : array_like
-            Displacements at which the points touch.
+            Pitch-line displacements at which the points are in contact.
         """
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear2(self._points(X), X)
 
     def flank(self, gear: int, X: ArrayLike) -> Floats:
-        """Return the points of one gear's profile that touch at the arcs X, in the gear's position at X = 0.
+        """Return the points of one gear's profile that are in contact at the arcs X, in the gear's position at X = 0.
 
         Parameters
         ----------
         gear : {1, 2}
             Number of the gear.
         X : array_like
-            Displacements at which the points touch.
+            Pitch-line displacements at which the points are in contact.
         """
         return self.flank1(X) if gear == 1 else self.flank2(X)
 

@@ -19,7 +19,7 @@ _MINIMUM_ANGLE = 1e-6  # rad: axes at a smaller angle are practically parallel, 
 
 @dataclass(frozen=True, slots=True)
 class WheelPair(Shown):
-    """Wheels of a pair with conjugate teeth.
+    """Tooth numbers, axes and module of a pair of wheels with conjugate teeth.
 
     See Also
     --------
@@ -34,13 +34,13 @@ class WheelPair(Shown):
     """
 
     z1: float
-    """Tooth number of the first wheel; not an integer for the virtual spur wheel of a bevel."""
+    """Tooth number of the first wheel. It is not an integer for the virtual spur wheel of a bevel wheel."""
     z2: float
-    """Tooth number of the second wheel; not an integer for the virtual spur wheel of a bevel."""
+    """Tooth number of the second wheel. It is not an integer for the virtual spur wheel of a bevel wheel."""
     internal: bool = False
     """True if the second wheel is a ring gear."""
     shaft_angle: float | None = None
-    """Shaft angle of bevels [rad]; None for parallel axes."""
+    """Shaft angle of bevel gears [rad]; None for parallel axes."""
     module: float | None = None
     """Transverse module [m], in which all lengths of the pair are expressed; None if it is unknown."""
     helix: float = 0.0
@@ -56,7 +56,7 @@ class WheelPair(Shown):
         pitch_distance: float | None,
         helix: float = 0.0,
     ) -> WheelPair:
-        """Return the pair with the module that follows from its pitch distance.
+        """Return the pair with the module that follows from the pitch distance.
 
         Parameters
         ----------
@@ -67,7 +67,7 @@ class WheelPair(Shown):
         shaft_angle : float or None
             Shaft angle [rad]; None for parallel axes.
         pitch_distance : float or None
-            Half the sum of module times teeth of both wheels, also for a ring gear [m]; None if unknown.
+            Half the module times the sum of the tooth numbers, also for a ring gear [m]; None if unknown.
         helix : float
             Helix angle [rad].
         """
@@ -76,12 +76,12 @@ class WheelPair(Shown):
 
     @property
     def bevel(self) -> bool:
-        """True if the axes meet."""
+        """True if the axes intersect."""
         return self.shaft_angle is not None
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """Pitch surfaces at the design distance. Raises `GearTrainError` if the wheels cannot be a pair."""
+        """Pitch surfaces at the design distance. Raises `GearTrainError` if the wheels cannot form a pair."""
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
         self.check()
@@ -95,39 +95,41 @@ class WheelPair(Shown):
         return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
 
     def check(self) -> None:
-        """Raise `GearTrainError` if the wheels cannot be a pair."""
+        """Raise `GearTrainError` if the wheels cannot form a pair."""
         for z in (self.z1, self.z2):
             if z < FEWEST:
                 raise refused(
                     f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
-                    "so small a number leaves no arc on which the next tooth pair can take over",
+                    "with so few teeth, a tooth pair leaves contact before the next one can engage",
                     f"give at least {FEWEST} teeth, or another tooth_form",
                 )
         if self.internal and self.z2 <= self.z1:
             raise refused(
                 f"a ring of {self.z2} teeth cannot contain a wheel of {self.z1} teeth",
-                "its pitch circle is not the larger one",
-                "give the ring more teeth",
+                "the pitch circle of the ring must be larger than the pitch circle of the wheel",
+                f"give the ring more than {self.z1} teeth",
             )
         if self.internal and self.bevel:
             raise refused(
-                "a ring cannot have a shaft angle", "its axis is parallel to its pinion's", "omit the shaft angle"
+                "a ring cannot have a shaft angle",
+                "its axis is parallel to the axis of its pinion",
+                "omit the shaft angle",
             )
         if max(self.z1, self.z2) > MOST_TEETH:
             raise refused(
-                f"a wheel of {max(self.z1, self.z2)} teeth has too many teeth",
+                f"a wheel cannot have {max(self.z1, self.z2)} conjugate teeth",
                 "a tooth would be smaller than the rounding error of the radius",
                 f"give at most {MOST_TEETH:g} teeth",
             )
         if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
             raise refused(
                 f"a shaft angle of {self.shaft_angle:.6g} rad is out of range",
-                f"bevel axes meet at an angle between 0 and 180 deg, at least {_MINIMUM_ANGLE:g} rad from either",
-                "use parallel axes for a spur pair",
+                f"it must be from {_MINIMUM_ANGLE:g} rad to 180 deg minus {_MINIMUM_ANGLE:g} rad",
+                "give an angle in this range, or declare a spur pair on parallel axes",
             )
 
     def modules(self, length: Quantity, name: str) -> float:
-        """Convert a declared length to transverse modules; a plain number is in normal modules.
+        """Convert a declared length to transverse modules. A plain number is a length in normal modules.
 
         Parameters
         ----------
@@ -139,7 +141,7 @@ class WheelPair(Shown):
         Raises
         ------
         GearTrainError
-            If no module is known.
+            If the length has a unit and no module is known.
         """
         if length.unit is None:
             return float(length.value) * cos(self.helix)

@@ -30,7 +30,7 @@ _STILL = 1e-3  # of its second derivative: a smaller slope does not determine th
 
 @dataclass(frozen=True)
 class OutlineCurve(Shown):
-    """Smooth curve of a tooth, from parameter `start` to `end`.
+    """Smooth curve of a tooth outline, from parameter `start` to `end`.
 
     See Also
     --------
@@ -40,7 +40,8 @@ class OutlineCurve(Shown):
     points: Callable[[Floats], Floats]
     """Function from parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevels.
 
-    x is forward, y is outward along the middle of the tooth, and the axle is at 0. For bevels the axis is along z.
+    The x axis points forward, the y axis outward along the middle of the tooth, and the axle is at the origin. For
+    bevel wheels the axis is along z.
     """
     start: float = 0.0
     """Parameter at the beginning of the curve."""
@@ -48,7 +49,7 @@ class OutlineCurve(Shown):
     """Parameter at the end of the curve."""
 
     def at(self, t: ArrayLike) -> Floats:
-        """Return points of the curve.
+        """Return points of the curve at given parameters.
 
         Parameters
         ----------
@@ -58,7 +59,7 @@ class OutlineCurve(Shown):
         Returns
         -------
         ndarray
-            (n, 2), or (n, 3) on the sphere.
+            Points, shape (n, 2), or (n, 3) on the sphere.
         """
         return np.asarray(self.points(np.asarray(t, dtype=float)), dtype=float)
 
@@ -73,7 +74,7 @@ class OutlineCurve(Shown):
         Returns
         -------
         ndarray
-            (2, n): radius (bevel: polar angle [rad]) and azimuth [rad, forward from y].
+            Radius (for bevel wheels the polar angle [rad]) and azimuth [rad, forward from y], shape (2, n).
         """
         points = self.at(t)
         x, y = points[:, 0], points[:, 1]
@@ -97,17 +98,17 @@ class OutlineCurve(Shown):
 
 
 def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
-    """Return straight curves through points; on the sphere arcs of great circles.
+    """Return the straight segments through the given points; on the sphere, arcs of great circles.
 
     Parameters
     ----------
     points : array_like
-        (n, 2) or (n, 3), n at least 2.
+        Points, shape (n, 2) or (n, 3), with n at least 2.
 
     Returns
     -------
     tuple of OutlineCurve
-        n - 1 curves.
+        Segments, n - 1 curves.
 
     Examples
     --------
@@ -140,9 +141,9 @@ def _rotation(angle: float) -> Callable[[Floats], Floats]:
 
 @dataclass(frozen=True)
 class ToothFlanks(Shown):
-    """Sides of a tooth, each a chain of curves from root to tip or from tip to root.
+    """Flanks of a tooth, each a chain of curves from root to tip or from tip to root.
 
-    Tip lands and bottoms need not be given, because an arc about the axle never touches before its ends do.
+    Tip lands and bottoms can be omitted, because an arc about the axle never comes into contact before its ends.
 
     See Also
     --------
@@ -150,25 +151,25 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Flank that leads when the wheel turns forward; it has the larger azimuths."""
+    """Leading flank when the wheel turns forward, which has the larger azimuths."""
     behind: tuple[OutlineCurve, ...]
-    """Flank that trails when the wheel turns forward."""
+    """Trailing flank when the wheel turns forward."""
 
     @classmethod
     def symmetric(cls, ahead: Sequence[OutlineCurve], middle: float = 0.0) -> ToothFlanks:
-        """Return a tooth whose flank `behind` is the mirror image of `ahead`.
+        """Return a tooth whose trailing flank is the mirror image of its leading flank.
 
         Parameters
         ----------
         ahead : sequence of OutlineCurve
-            Leading side.
+            Leading flank.
         middle : float
             Azimuth of the mirror axis [rad].
 
         Returns
         -------
         ToothFlanks
-            Tooth with both sides.
+            Tooth with both flanks.
         """
         turned = _rotation(2 * middle)
         behind = tuple(curve.mapped(lambda p: turned(p * np.array([-1.0, 1.0, 1.0])[: p.shape[1]])) for curve in ahead)
@@ -207,12 +208,12 @@ class ToothFlanks(Shown):
 
 @dataclass(frozen=True)
 class GearOutline(Shown):
-    """Wheel of z teeth about its axle, tooth k rotated forward by k pitches.
+    """Wheel with z teeth about its axle. Tooth k is rotated forward by k pitches.
 
     Raises
     ------
     QuestionError
-        If counts do not fit or curves do not meet.
+        If the number of teeth or pitch deviations is not z, or if the curves of a flank are not connected.
 
     See Also
     --------
@@ -220,11 +221,11 @@ class GearOutline(Shown):
     """
 
     teeth: tuple[ToothFlanks, ...]
-    """Shapes of the teeth: one for all, or one for each of z teeth."""
+    """Shapes of the teeth: one shape for all teeth, or one for each of the z teeth."""
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """Pitch deviations: angle by which tooth k is ahead of its nominal position [rad], z values; empty for equal
+    """Pitch deviations: angle by which each tooth is ahead of its nominal position [rad], z values; empty for equal
     pitches.
     """
     ring: bool = False
@@ -235,9 +236,9 @@ class GearOutline(Shown):
             if self.z < 1 or number not in few:
                 raise QuestionError(
                     Problem(
-                        f"a wheel of {self.z} teeth cannot have {number} {name}",
-                        f"a wheel of z teeth takes {few[0]} or z of them, z at least 1",
-                        f"give {few[0]} or {self.z} {name}",
+                        f"`{name}` has {number} entries for a wheel with z = {self.z}",
+                        f"z must be at least 1, and `{name}` needs {few[0]} or z entries",
+                        f"give {few[0]} or {max(self.z, 1)} entries",
                     )
                 )
         for tooth in self.teeth:
@@ -271,17 +272,17 @@ class GearOutline(Shown):
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
-        """Return the same wheel on an eccentric axle, each tooth with its own shape.
+        """Return the same wheel on an eccentric axle, with a separate shape for each tooth.
 
         Parameters
         ----------
         x, y : float
-            Displacement of its points, in the outline's unit.
+            Displacement of the points of the wheel, in the unit of the outline.
 
         Returns
         -------
         GearOutline
-            Wheel with a separate shape for each of z teeth.
+            Wheel with a separate shape for each of the z teeth.
 
         Raises
         ------

@@ -199,7 +199,8 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
 
 @dataclass(frozen=True, slots=True)
 class FlankContact(Shown):
-    """Position of the driven wheel against one flank of the driver's teeth; arrays have the shape of the driver angles.
+    """Position of the driven wheel in contact with one flank of the driver's teeth. Arrays have the shape of the driver
+    angles.
 
     See Also
     --------
@@ -207,21 +208,23 @@ class FlankContact(Shown):
     """
 
     angle: Floats
-    """Driven angle [rad], NaN where no tooth is within range."""
+    """Driven angle [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle by the driver angle."""
+    """Speed ratio: derivative of the driven angle with respect to the driver angle."""
     pair: Indices
-    """Number of the driver's tooth in contact, counted forward from tooth 0 without wrapping."""
+    """Number of the driver's tooth in contact, counted forward from tooth 0 without wrapping around."""
     kind: Indices
     """Kind of contact, an index into `KINDS`: flanks or corners."""
     radius1: Floats
-    """Radius of the contact about the driver's axle, in the outlines' unit; bevel: polar angle [rad]."""
+    """Radius of the contact about the driver's axle, in the unit of the outlines; polar angle [rad] for bevel wheels.
+    """
     radius2: Floats
-    """Radius of the contact about the driven axle, in the outlines' unit; bevel: polar angle [rad]."""
+    """Radius of the contact about the driven axle, in the unit of the outlines; polar angle [rad] for bevel wheels."""
     sharing: Indices
     """Number of tooth pairs within the tolerance of contact."""
     curves: Indices
-    """Numbers of the curves in contact on both outlines, (2, ...), counted through all teeth; -1 without contact."""
+    """Numbers of the curves in contact on both outlines, counted through all teeth; -1 without contact. Shape (2, ...).
+    """
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
@@ -232,7 +235,7 @@ class FlankContact(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TwoFlankContact(Shown):
-    """Contact of both flanks: `front` pushes the driven wheel forward, `back` prevents it from running ahead.
+    """Contact of both flanks: `front` pushes the driven wheel forward, and `back` prevents it from running ahead.
 
     See Also
     --------
@@ -246,7 +249,7 @@ class TwoFlankContact(Shown):
 
     @property
     def backlash(self) -> Floats:
-        """Backlash of the driven wheel [rad]; if negative, the teeth interfere by this angle."""
+        """Backlash of the driven wheel [rad]. If it is negative, the teeth interfere by this angle."""
         found: Floats = self.back.angle - self.front.angle
         return found
 
@@ -260,26 +263,27 @@ def solve(
 ) -> TwoFlankContact:
     """Return the position of the second wheel for given angles of the first wheel, which drives.
 
-    The driven angle is the maximum that any point of the driver's outline requires; neither normals nor a path of
-    contact are used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
-    polynomials to rounding (`GearOutline.ahead.error`). Far from 0 the rounding of phi1 itself dominates. Both angles
-    are 0 where tooth 0 is on the line of centres, and increase forward; tooth 0 pushes tooth 0.
+    The driven angle is the maximum of the angles that the points of the driver's outline require. Normals and a path of
+    contact are not used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
+    polynomials to within rounding errors (`GearOutline.ahead.error`). At angles far from 0 the rounding of phi1 itself
+    dominates. Both angles are 0 where tooth 0 is on the line of centres, and increase forward; tooth 0 of the driver
+    pushes tooth 0 of the driven wheel.
 
     Parameters
     ----------
     first, second : GearOutline
         Driver and driven wheel.
     distance : float
-        Centre distance, in the outlines' unit; bevel: the shaft angle [rad].
+        Centre distance, in the unit of the outlines; for bevel wheels the shaft angle [rad].
     phi1 : array_like
-        Driver's angles [rad], any shape.
+        Driver angles [rad], any shape.
     within : float
         Tolerance [rad]: a tooth pair counts as sharing if its gap is less than this rotation of the driven wheel.
 
     Returns
     -------
     TwoFlankContact
-        Driven angles on both sides, and the backlash between them.
+        Driven angles for both flanks, and the backlash between them.
 
     Raises
     ------
@@ -317,19 +321,19 @@ def contact(
     side: Literal["front", "back"] = "front",
     within: float = 1e-9,
 ) -> FlankContact:
-    """Return the contact on one flank of `solve`, in half the computing time.
+    """Return the contact on one flank, in half the computing time of `solve`.
 
     Parameters
     ----------
     first, second, distance, phi1, within
         As in `solve`.
     side : {"front", "back"}
-        The side that pushes the driven wheel, or the one that prevents it from running ahead.
+        Flank that pushes the driven wheel, or flank that prevents it from running ahead.
 
     Returns
     -------
     FlankContact
-        Driven angles on that side.
+        Driven angles for that flank.
 
     Raises
     ------

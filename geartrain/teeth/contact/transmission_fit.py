@@ -175,22 +175,23 @@ def tabulate(
     first, second : GearOutline
         Driver and driven wheel.
     distance : float
-        Centre distance, in the outlines' unit; bevel: the shaft angle [rad].
+        Centre distance, in the unit of the outlines; for bevel wheels the shaft angle [rad].
     tolerance : float
-        Maximum error of the fit [rad of the driven wheel]. If rounding prevents it, the reported uncertainty is larger.
+        Maximum error of the fit [rad of the driven wheel]. If rounding errors prevent this accuracy, the reported
+        uncertainty is larger.
     side : {"front", "back"}
-        The side that pushes the driven wheel, or the one that prevents it from running ahead.
+        Flank that pushes the driven wheel, or flank that prevents it from running ahead.
 
     Returns
     -------
     PiecewiseTransmission
-        Its period is a pitch of the driver if all teeth are equal; otherwise all its pitches until the same teeth meet
-        again.
+        Transmission function. Its period is one pitch of the driver if all teeth are equal; otherwise the number of
+        pitches after which the same teeth meet again.
 
     Raises
     ------
     QuestionError, RangeError
-        As in `solve`; `RangeError` also if no tooth is ever within range.
+        As in `solve`; `RangeError` also if no tooth is ever within reach.
 
     See Also
     --------
@@ -357,6 +358,6 @@ def _too_many_stretches(tolerance: float) -> RangeError:
         Problem(
             f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
             "it has too many kinks",
-            "pass a larger tolerance, or give measured teeth by fewer points",
+            "pass a larger tolerance, or describe measured teeth with fewer points",
         )
     )

@@ -23,7 +23,7 @@ _MINIMUM_STEP = 2 * pi / 65536  # minimum angle of a chord (rad), which bounds t
 
 @dataclass(frozen=True, slots=True)
 class Contour(Shown):
-    """Closed curve of straight edges and circular arcs, stored as in DXF.
+    """Closed curve of straight edges and circular arcs, stored with bulges as in DXF.
 
     Examples
     --------
@@ -34,13 +34,13 @@ class Contour(Shown):
     points: Floats
     """Vertices (n, 2) [mm]; the last one is joined to the first."""
     bulges: Floats
-    """Bulge of the edge that leaves each vertex, shape (n,): tan(sweep / 4), 0 if straight, positive if it turns
+    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4), 0 if straight, positive if it turns
     left.
     """
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """Return a contour through vertices with bulges; edges of zero length are omitted.
+        """Return a contour through vertices with bulges. Edges of zero length are omitted.
 
         Parameters
         ----------
@@ -81,10 +81,10 @@ class Contour(Shown):
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
     def moments(self) -> tuple[float, float]:
-        """Return area [mm2] and polar second moment about the origin [mm4], exact by Green's theorem.
+        """Return area [mm2] and polar second moment about the origin [mm4], computed exactly by Green's theorem.
 
-        The result is the sum over the polygon of the vertices and the circular segment of each arc. It is below 0 if
-        the contour runs clockwise.
+        The result is the sum of the polygon of the vertices and the circular segments of all arcs. It is negative if
+        the contour is clockwise.
         """
         (x, y), (u, v) = self.points.T, np.roll(self.points, -1, axis=0).T
         cross = x * v - y * u
@@ -97,9 +97,9 @@ class Contour(Shown):
         return area, polar
 
     def flattened(self, tolerance: float) -> Floats:
-        """Return points whose chords deviate from the arcs by at most `tolerance`.
+        """Return points of a polygon that deviates from the contour by at most `tolerance`.
 
-        A circle has at most 65 536 points; above radii of some kilometres the deviation is larger.
+        A circle has at most 65 536 points; for radii above some kilometres the deviation is larger.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class Contour(Shown):
         Returns
         -------
         ndarray
-            (m, 2), the first point not repeated.
+            Points, shape (m, 2); the first point is not repeated.
         """
         parts = []
         for start, end, bulge in zip(self.points, np.roll(self.points, -1, axis=0), self.bulges, strict=True):

@@ -167,7 +167,7 @@ class ToothOutline:
 
 
 def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
-    """Yield the vertices of z teeth around the axle, which are rotated copies of one tooth.
+    """Yield the vertices of z teeth around the axle, as rotated copies of one tooth.
 
     Parameters
     ----------

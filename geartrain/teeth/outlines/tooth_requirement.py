@@ -299,7 +299,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
         Problem(
             f"gear {demand.gear} cannot have a root circle",
             f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
-            "give less clearance, or thinner teeth by more backlash",
+            "give less clearance, or more backlash, which makes the teeth thinner",
             "--blank clearance",
         )
     )

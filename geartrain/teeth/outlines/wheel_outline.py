@@ -24,7 +24,7 @@ _THIN = 0.1  # modules: minimum wall between bore and root circle
 
 @dataclass(frozen=True, slots=True)
 class BlankSizes:
-    """Manufacturing data of a wheel besides its teeth. Lengths in mm.
+    """Manufacturing data of a wheel other than its teeth. Lengths in mm.
 
     Raises
     ------
@@ -42,15 +42,17 @@ class BlankSizes:
     """
 
     module: float = 1.0
-    """Module: pitch diameter over tooth number [mm], above 0."""
+    """Module: pitch diameter divided by tooth number [mm], above 0."""
     clearance: float | None = None
-    """Bottom clearance between a root and the mate's tip [mm], 0 or more; default a quarter of a module."""
+    """Bottom clearance between a root and the mate's tip [mm], 0 or more; by default a quarter of a module."""
     fillet: float | None = None
-    """Radius of the root fillet [mm], 0 or more; default 0.38 modules, or the largest that fits."""
+    """Radius of the root fillet [mm], 0 or more; by default 0.38 modules, or the largest possible radius."""
     bore: float | None = None
-    """Diameter of the central hole [mm]; default no hole."""
+    """Diameter of the central hole [mm]; by default there is no hole."""
     rim: float | None = None
-    """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; default two modules, or a pin."""
+    """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; by default two modules, or the
+    diameter of a pin.
+    """
     tolerance: float = 0.001
     """Maximum deviation of a chord from a flank [mm]."""
 
@@ -78,7 +80,7 @@ def _diameter(radius: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class WheelOutline(Result):
-    """Outline and sizes of a wheel, to scale. Lengths in mm.
+    """Outline and sizes of a wheel at scale 1:1. Lengths in mm.
 
     See Also
     --------
@@ -112,7 +114,7 @@ class WheelOutline(Result):
     fillet: float
     """Radius of the root fillet [mm]; 0 without a fillet."""
     relief: float
-    """Angle by which the root flank deviates from the flank's tangent to clear the mate's tip [rad]."""
+    """Angle by which the root flank deviates from the tangent of the flank, for clearance to the mate's tip [rad]."""
     clearance: float
     """Bottom clearance of the pair [mm]."""
     backlash: float
@@ -139,7 +141,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     Parameters
     ----------
     pair : ConjugatePair
-        Spur pair as designed.
+        Spur pair at its design distance.
     gear : {1, 2}
         Number of the gear.
     cut : BlankSizes
@@ -150,7 +152,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     Returns
     -------
     WheelOutline
-        Outline to scale.
+        Outline at scale 1:1.
 
     Raises
     ------

@@ -114,5 +114,5 @@ def _conflict(first: PairRequirement, other: PairRequirement) -> Problem:
     return Problem(
         f"its pairs '{first.pair}' and '{other.pair}' require different teeth",
         f"they require {how}, but a wheel has one kind of teeth",
-        "declare teeth that run with both mates, or give each of them a wheel of its own",
+        "declare teeth that run with both mates, or declare a separate wheel for each mate",
     )

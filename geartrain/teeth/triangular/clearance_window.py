@@ -148,7 +148,8 @@ class TriangularContact:
             )
         if self.dragged.arrested:
             return "dwell", (
-                "the driven wheel stops for good: no tooth is within range for a while, and the next one passes it"
+                "the driven wheel stops permanently: for a while no tooth is within range, and the next tooth does "
+                "not drive it"
             )
         if self.idle > 0:
             return "dwell", (
@@ -186,8 +187,9 @@ class TriangularContact:
             if lean or back is not None:
                 x = interval.start if interval.phase == APPROACH else interval.end
                 return (
-                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), and "
-                    "cannot push there"
+                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), "
+                    "where "
+                    "it cannot drive"
                 )
         return ""
 
@@ -223,10 +225,11 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow(Shown):
-    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, each as excess.
+    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, both as
+    `TriangularSizes.excess`.
 
-    It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this
-    is the first.
+    It is false if `run` is below `jam`, so that the pair turns at no clearance. If a pair turns in several ranges of
+    clearance, this is the first range.
 
     See Also
     --------
@@ -238,13 +241,13 @@ class ClearanceWindow(Shown):
     run: float
     """Excess up to which the pair runs."""
     run_kind: Literal["clash", "dwell"]
-    """Kind of the verdict beyond `run`."""
+    """Kind of the verdict at clearances above `run`."""
     reach: float
-    """Excess beyond which the tips do not touch."""
+    """Excess above which the tips do not touch."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """Kind of the verdict below `jam`."""
+    """Kind of the verdict at clearances below `jam`."""
     side: int = 1
-    """Sign: 1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
+    """Sign: 1 for an external pair, -1 for an internal pair, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
         """Return the clearance factor for a given excess.
@@ -291,14 +294,14 @@ class ClearanceWindow(Shown):
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Return the clearance window of a pair, independent of its own clearance.
+    """Return the clearance window of a pair, which does not depend on the pair's own clearance.
 
     The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
 
     Parameters
     ----------
     sizes : TriangularSizes
-        The pair, whose teeth must have valleys (`sizes.has_valleys`).
+        Pair, whose teeth must have valleys (`sizes.has_valleys`).
 
     Returns
     -------
@@ -418,7 +421,7 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
     if not minimum <= backlash <= most:
         raise refused(
             f"no clearance gives a backlash of {text}",
-            f"these teeth have from {max(minimum, 0):.6g} to {most:.6g} (in m, or the plain unit)",
+            f"the possible backlash of these teeth is {max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)",
             "give a backlash in this range",
         )
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

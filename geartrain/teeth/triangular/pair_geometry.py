@@ -55,12 +55,11 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes(Shown):
-    """Geometry of a pair of wheels with triangular teeth, the first driving. All lengths are in the same arbitrary
-    unit.
+    """Geometry of a pair of wheels with triangular teeth, with the first wheel driving. All lengths are in the same
+    arbitrary unit.
 
-    At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance
-    R1 + R2 - (the smaller depth) of an external pair, and the maximum R_ring - R_pinion + (the smaller depth) of an
-    internal one.
+    At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance R1 + R2 - (the smaller
+    depth) of an external pair, and the maximum distance R_ring - R_pinion + (the smaller depth) of an internal pair.
 
     Raises
     ------
@@ -73,7 +72,7 @@ class TriangularSizes(Shown):
 
     Examples
     --------
-    Equally deep teeth, at a centre distance 1 per cent larger than where tips touch bottoms:
+    Equally deep teeth, at a centre distance 1 per cent larger than the distance at which tips touch bottoms:
 
     >>> from math import pi
     >>> sizes = TriangularSizes(48, 96, *equal_depth(48, 96, pi / 6, pi / 6), pi / 6, pi / 6, 0.01)
@@ -112,19 +111,20 @@ class TriangularSizes(Shown):
                 Problem(
                     f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
                     f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} do not describe triangular teeth",
-                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures below a right angle",
+                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures between 0 and pi/2, and "
+                    "the centre distance must be positive",
                     "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
                 )
             )
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Signs of tooth number and radius of both wheels in the equations of external pairs: -1 for a ring gear."""
+        """Signs of tooth number and radius of both wheels in the equations of external pairs; -1 for a ring gear."""
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
     def side(self) -> int:
-        """Sign of the centre distance and of alpha_2: 1 for an external pair, -1 for an internal one."""
+        """Sign of the centre distance and of alpha_2: 1 for an external pair, -1 for an internal pair."""
         return -1 if self.ring else 1
 
     @property
@@ -166,7 +166,7 @@ class TriangularSizes(Shown):
 
     @property
     def pitch_sum(self) -> int:
-        """Sum z1 + z2, or the difference in an internal pair; D over it is half the module at the pitch point."""
+        """Sum z1 + z2, or the difference for an internal pair. D divided by it is half the working module."""
         return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
 
     @property
@@ -178,8 +178,8 @@ class TriangularSizes(Shown):
 
     @property
     def clearance_factor(self) -> float:
-        """Clearance factor: centre distance over `deepest_distance`, above 1 for external pairs, below 1 for internal
-        pairs.
+        """Clearance factor: centre distance divided by `deepest_distance`, above 1 for external pairs, below 1 for
+        internal pairs.
         """
         return self.factor(self.excess)
 
@@ -211,7 +211,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def ratio(self) -> float:
-        """Mean speed ratio, driven over driver, without sign."""
+        """Mean speed ratio, driven speed divided by driver speed, without sign."""
         return self.z1 / self.z2
 
     @cached_property
@@ -226,7 +226,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def matching(self) -> float:
-        """Matching position alpha_1m of Eq. (10) [rad], at which flank lies on flank; also for unequal aperture angles.
+        """Matching position alpha_1m of Eq. (10) [rad], at which the flanks coincide; also for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The sine of alpha_1m
         is written without the difference of nearly equal angles. Infinite if no such position exists.
@@ -243,10 +243,10 @@ class TriangularSizes(Shown):
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Overhang of the flanks of both wheels: True if they lean beyond the perpendicular where tips meet.
+        """Overhang of the flanks of both wheels: True if they extend beyond the perpendicular where tips meet.
 
-        This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn the
-        same way.
+        This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn in
+        the same sense.
         """
         if self.ring:
             return False, False
@@ -257,7 +257,7 @@ class TriangularSizes(Shown):
     def entry(self) -> float:
         """Angle alpha_1 at which a tooth pair comes into contact [rad].
 
-        It is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before.
+        It is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that position.
         """
         if not self.lean[0]:
             return self.reach1
@@ -267,7 +267,7 @@ class TriangularSizes(Shown):
     def exit(self) -> float:
         """Angle alpha_1 at which a tooth pair ceases to drive [rad].
 
-        It is -alpha_1max, or larger if the apex slips off an overhanging flank before.
+        It is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
         """
         if not self.lean[1]:
             return -self.reach1
@@ -292,7 +292,7 @@ class TriangularSizes(Shown):
         return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess, ring)
 
     def at(self, excess: float) -> TriangularSizes:
-        """Return the same wheels at another clearance.
+        """Return the same wheels at another centre distance.
 
         Parameters
         ----------
@@ -317,7 +317,7 @@ def equal_depth(z1: int, z2: int, beta1: float, beta2: float, ring: int = 0) -> 
     Returns
     -------
     tuple of float
-        R1 and R2.
+        Radii R1 and R2.
 
     Examples
     --------
@@ -329,7 +329,7 @@ def equal_depth(z1: int, z2: int, beta1: float, beta2: float, ring: int = 0) -> 
 
 
 def pitch_true(z1: int, z2: int) -> tuple[float, float]:
-    """Return tip radii in the ratio of tooth numbers, with R1 = 1.
+    """Return tip radii in the ratio of the tooth numbers, with R1 = 1.
 
     Parameters
     ----------
@@ -339,7 +339,7 @@ def pitch_true(z1: int, z2: int) -> tuple[float, float]:
     Returns
     -------
     tuple of float
-        R1 and R2.
+        Radii R1 and R2.
 
     Examples
     --------

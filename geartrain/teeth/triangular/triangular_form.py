@@ -37,8 +37,8 @@ TRIANGULAR_SCOPE = (
 class Triangular(ToothForm):
     """Triangular teeth, as in ancient gearing: straight flanks that meet in an apex.
 
-    The speed ratio varies within each pitch, and teeth collide at the changeover between tooth pairs (docs/teeth.md;
-    F. Sorge, "A note on the mechanics of ancient gear systems"). The centre distance is given by exactly one of five
+    The speed ratio varies within each pitch, and impacts occur at the changeover between tooth pairs (docs/teeth.md; F.
+    Sorge, "A note on the mechanics of ancient gear systems"). The centre distance is given by exactly one of five
     parameters: `clearance_factor`, `excess`, `backlash`, `centre_distance` or `window`.
 
     See Also
@@ -154,7 +154,7 @@ class Triangular(ToothForm):
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the parameters with defaults for missing ones: equilateral teeth in the middle of the clearance
+        """Return the form with defaults for missing parameters: equilateral teeth in the middle of the clearance
         window.
         """
         placed = {} if any(name in parameters for name in CLEARANCES) else {"window": "0.5"}
@@ -190,13 +190,13 @@ class Triangular(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of figures that includes clearance, path of contact and collisions."""
+        """Return the class of results that includes clearance, path of contact and impacts."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with its first wheel driving.
+        """Return the mesh of a pair, with its first wheel driving.
 
         A contrate wheel is treated as a spur wheel. Raises `GearTrainError` for bevel wheels.
         """
@@ -216,7 +216,7 @@ class Triangular(ToothForm):
         Returns
         -------
         Problem
-            Their backlash follows from their clearance factor.
+            Reason: the backlash follows from the clearance factor.
         """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
@@ -232,9 +232,9 @@ class Triangular(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the driver and of the driven wheel, 3 or more.
+            Tooth numbers of the driver and of the driven wheel, 3 or more.
         pitch_distance : float, optional
-            Half the sum of module times teeth of both wheels, or half the difference for a ring gear [m]. It becomes
+            Half the module times the sum of the tooth numbers, or times the difference for a ring gear [m]. It becomes
             the centre distance at which a tip touches the bottom of a space.
         ring : {0, 1, 2}
             Number of the wheel that is a ring gear; 0 for an external pair.
@@ -242,12 +242,13 @@ class Triangular(ToothForm):
         Returns
         -------
         TriangularSizes
-            Lengths in m; otherwise in the unit of plain radii, or with a tip radius of 1 if no length is given.
+            Sizes with lengths in m; in the unit of plain radii, or with a tip radius of 1, if no length with a unit is
+            given.
 
         Raises
         ------
         GearTrainError
-            If the declaration gives no pair that can be built.
+            If the declaration does not define a pair that can be built.
         """
         for z in (z1, z2):
             if z < FEWEST:
@@ -260,7 +261,8 @@ class Triangular(ToothForm):
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",
-                f"the tip circle of the ring lies within that of its wheel at the centre distance {sizes.D:.6g}",
+                "the tip circle of the ring is inside the tip circle of its wheel at the centre distance "
+                f"{sizes.D:.6g}",
                 "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
             )
         return sizes
@@ -338,13 +340,13 @@ class Triangular(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the first and of the second wheel, 3 or more.
+            Tooth numbers of the first and of the second wheel, 3 or more.
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            The wheel that drives.
+            Number of the driving wheel.
         direction : {1, -1}
-            Direction of rotation; with -1 the opposite flanks drive.
+            Direction of rotation; with -1 the coast flanks drive.
         pitch_distance : float, optional
             As in `sizes` [m].
         ring : {0, 1, 2}
@@ -353,12 +355,12 @@ class Triangular(ToothForm):
         Returns
         -------
         TriangularTransmission
-            Its `verdict` reports whether the pair can turn.
+            Transmission function. Its `verdict` reports whether the pair can turn.
 
         Raises
         ------
         GearTrainError
-            If the declaration gives no pair that can be built.
+            If the declaration does not define a pair that can be built.
         """
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

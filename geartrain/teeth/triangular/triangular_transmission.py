@@ -45,12 +45,12 @@ class TriangularTransmission(TransmissionFunction):
     """Transmission function of a pair of wheels with triangular teeth.
 
     If the driven wheel dwells in each pitch, the function includes these dwells. If the pair jams or clashes, the
-    function describes the drive flanks without regard to the other flanks.
+    function describes only the drive flanks.
 
     Parameters
     ----------
     sizes : TriangularSizes
-        The pair, the first wheel driving.
+        Pair with the first wheel driving.
     friction : float
         Coefficient of friction, 0 or more.
     direction : {1, -1}
@@ -106,14 +106,14 @@ class TriangularTransmission(TransmissionFunction):
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Return the sliding speed over the pitch-line speed.
+        """Return the sliding speed divided by the pitch-line speed.
 
         Parameters
         ----------
         phase : {"approach", "recess"}
             Phase of the tooth pair in contact.
         x : ndarray
-            Its alpha_1 [rad].
+            Angles alpha_1 of the tooth pair [rad].
         """
         sizes = self.sizes
         found: Floats = self.contact.path.tooth_pair.sliding(phase, x, np) * sizes.pitch_sum / (sizes.D * sizes.z1)
@@ -127,7 +127,7 @@ class TriangularTransmission(TransmissionFunction):
         phase, x
             As in `sliding`.
         by : PairFriction or None
-            Friction as a function of sliding velocity; None for the constant coefficient of this function.
+            Friction as a function of sliding speed; None for the constant coefficient of this function.
         """
         return self.friction if by is None else by(self.sliding(phase, x))
 
@@ -139,12 +139,14 @@ class TriangularTransmission(TransmissionFunction):
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission error [rad of the driven wheel] and tau; each angle is located in the path only once."""
+        """Return transmission error [rad of the driven wheel] and speed ratio tau. Each angle is located in the path
+        only once.
+        """
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
     def reversed_motion(self) -> TriangularTransmission:
-        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
 
         Angles keep their sign convention, so they decrease.
         """
@@ -243,8 +245,8 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals (interval, alpha_1 at start, alpha_1 at end): divided at kinks, extrema of tau and line of
-        centres.
+        """Smooth intervals (interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of tau and the line
+        of centres.
         """
         return [
             (interval, high, low)
@@ -306,12 +308,12 @@ class TriangularTransmission(TransmissionFunction):
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum of tau, which is monotonic in each smooth interval."""
+        """Return the minimum and maximum of tau, which is monotonic in each smooth interval."""
         ends = self._end_values(self._tau)
         return min(ends), max(ends)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
+        """Return the minimum and maximum transmission error [rad of the driven wheel]."""
         lags = self._end_values(self._lag)
         for interval, high, low in self.stretches:
             if interval.held is None:
@@ -331,14 +333,16 @@ class TriangularTransmission(TransmissionFunction):
     def efficiency_mean(self) -> float:
         """Return the mean efficiency over the driver angles with contact at constant driver torque, Eq. (34).
 
-        It is NaN if friction locks.
+        It is NaN if friction locks the teeth.
         """
         if self.friction >= self.locking_friction:
             return nan
         return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
+        teeth.
+        """
         if self.friction >= self.locking_friction:
             return nan
         work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
@@ -367,7 +371,7 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient that locks a point of the real path; infinite if no coefficient does.
+        """Minimum friction coefficient that locks a point of the real path; infinite if no coefficient locks one.
 
         Friction locks where f tan = 1 before the line of centres.
         """
@@ -382,7 +386,7 @@ class TriangularTransmission(TransmissionFunction):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Return the maximum of d tau / d alpha_1 [1/rad]; tau decreases in time there, as alpha_1 decreases."""
+        """Return the maximum of d tau / d alpha_1 [1/rad]. As alpha_1 decreases with time, tau then decreases."""
         tooth_pair = self.contact.path.tooth_pair
         steepest = 0.0
         for interval, high, low in self.stretches:
@@ -392,7 +396,7 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def jumps(self) -> list[SpeedJump]:
-        """Impacts of one pitch, in order of time."""
+        """Impacts within one pitch, in order of time."""
         found = []
         for last, new in zip(
             self._drive_intervals, (*self._drive_intervals[1:], self._drive_intervals[0]), strict=True
@@ -406,7 +410,7 @@ class TriangularTransmission(TransmissionFunction):
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the speed ratios before and after each impact of one pitch."""
+        """Return the speed ratios before and after each impact within one pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 

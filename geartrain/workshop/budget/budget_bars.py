@@ -39,22 +39,23 @@ _SIZED, _NAMED = 0.055, 0.2  # minimum shares of a bar for the size, and for siz
 
 
 def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
-    """Draw a bar for each pointer with the shares of its causes, the pointer with the largest error at the top.
+    """Draw a stacked bar for each pointer with the share of each cause of its error, the pointer with the largest error
+    at the top.
 
-    For a single pointer there is a bar for each cause, the largest at the top, in degrees.
+    For a single pointer, draw a bar in degrees for each cause, the largest at the top.
 
     Parameters
     ----------
     found : TrainBudget
         Result of `find_budget`.
     most : int
-        Maximum number of pointers drawn; the axis label gives the number of the others.
+        Maximum number of pointers to draw. The axis label gives the number of omitted pointers.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with shares of the sum, sizes [deg] in the bars, and the sum [deg] and missing causes next to them. For
-        one pointer, sizes [deg] with their 95 % intervals.
+        Figure with shares of the sum, sizes [deg] in the bars, and the sum [deg] and missing causes next to the bars.
+        For one pointer, sizes [deg] with their 95 % confidence intervals.
 
     Raises
     ------

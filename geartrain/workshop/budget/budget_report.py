@@ -27,7 +27,7 @@ def describe_budget(found: TrainBudget) -> Document:
     Returns
     -------
     Document
-        Report with sizes in degrees at the pointer, and in days of its mean motion.
+        Document with sizes in degrees at the pointer, and in days of its mean motion.
 
     Examples
     --------

@@ -67,7 +67,7 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
 
 @dataclass(frozen=True, slots=True)
 class WeightDrive(Result):
-    """Torque of a weight at its drum, and the torque that reaches the escape wheel over a run.
+    """Torque of a driving weight at its drum, and the resulting torque at the escape wheel over a run.
 
     See Also
     --------
@@ -81,7 +81,7 @@ class WeightDrive(Result):
     torque: float
     """Torque of the weight [N m]: mass times gravity times the radius at which the line acts."""
     needed: float | None = None
-    """Torque that starts the train at its worst position under its declared loads [N m].
+    """Torque that starts the train from its worst position under its declared loads [N m].
 
     None without declared loads, or if friction locks the train.
     """
@@ -92,11 +92,11 @@ class WeightDrive(Result):
     minimum: float | None = None
     """Minimum torque at the escape wheel over the run, driven by the weight only [N m]."""
     efficiency: float | None = None
-    """Energy that reaches the escape wheel over the energy of the weight."""
+    """Energy that reaches the escape wheel divided by the energy of the weight."""
 
     @property
     def suffices(self) -> bool | None:
-        """True if the weight starts the train at its worst position; None if this is unknown."""
+        """True if the weight starts the train from its worst position; None if this is unknown."""
         return None if self.needed is None else self.torque >= self.needed
 
 
@@ -138,7 +138,7 @@ def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> G
 
 @dataclass(frozen=True, slots=True)
 class CrankLoad(Result):
-    """Torque and efficiency at the link that drives a train.
+    """Torque and efficiency at the driving link of a train.
 
     See Also
     --------
@@ -150,21 +150,21 @@ class CrankLoad(Result):
     torque: float | None
     """Torque under the declared loads [N m, or the unit of the loads]; None without loads.
 
-    It refers to the link's own sense of rotation and is positive if it puts power in, as in `over_turn`.
+    It is positive if it acts in the sense of rotation of the link and so supplies power, as in `over_turn`.
     """
     efficiency: float | None
-    """Output power over input power; None if neither friction nor an efficiency is declared, or if it is
+    """Output power divided by input power; None if neither friction nor an efficiency is declared, or if it is
     undetermined.
     """
     note: str
-    """Text on the loads that apply, or on missing data."""
+    """Note on the loads that apply, or on missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)
-    """Efficiency of the train if it drives one pointer only, by pointer.
+    """Pointer -> efficiency of the train if it drives only this pointer.
 
-    Pointers that cannot be driven are omitted; it is empty without friction.
+    Pointers that cannot be driven are omitted. The mapping is empty without friction.
     """
     over_turn: TorqueCycle | None = None
-    """Torque at each position over the natural run; None without loads."""
+    """Torque at each position of the natural run; None without loads."""
     weight: WeightDrive | None = None
     """Weight that drives the train; None if it is driven otherwise."""
 

@@ -28,7 +28,7 @@ MEASURES: Mapping[CauseName, str] = {
 
 @dataclass(frozen=True, slots=True)
 class BudgetCause(Result):
-    """One cause of a pointer's error.
+    """Contribution of one cause to a pointer's error.
 
     See Also
     --------
@@ -44,20 +44,22 @@ class BudgetCause(Result):
     degrees: float | None = None
     """Size of the error as defined by `measure` [deg]; None if no data are declared."""
     rms: float | None = None
-    """Root mean square [deg]: deviation from the mean for a drift and for cutting, the value itself for lost motion."""
+    """Root mean square [deg]: of the deviation from the mean for a drift and for cutting, of the value itself for lost
+    motion.
+    """
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 
-    None if the pointer does not turn, or the unit of time is not declared.
+    It is None if the pointer does not turn, or if no unit of time is declared.
     """
     interval: tuple[float, float] | None = None
     """95 % confidence interval of `degrees` [deg]; None if the value is not a statistical estimate."""
     note: str = ""
-    """Text on the origin of the error, or on missing data."""
+    """Note on the origin of the error, or on missing data."""
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause for which no data are declared.
+        """Return a cause of unknown size, for which no data are declared.
 
         Parameters
         ----------
@@ -74,7 +76,7 @@ class BudgetCause(Result):
         Parameters
         ----------
         degrees_per_day : float or None
-            Mean speed of the pointer; None if it does not turn or no time is declared.
+            Mean speed of the pointer [deg/d]; None if it does not turn, or if no unit of time is declared.
         """
         if self.degrees is None or not degrees_per_day:
             return self
@@ -82,15 +84,13 @@ class BudgetCause(Result):
 
     @property
     def measure(self) -> str:
-        """Quantity that `degrees` represents: drift over the span, peak-to-peak value, maximum, or central 95 %
-        range.
-        """
+        """Quantity given by `degrees`: drift over the span, peak-to-peak value, maximum, or central 95 % range."""
         return MEASURES[self.name]
 
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer against one of its targets, due to the error of its mean speed; positive if the pointer is
+    """Drift of a pointer relative to one of its targets, due to the error of its mean speed; positive if the pointer is
     fast.
 
     See Also
@@ -137,7 +137,7 @@ class PointerBudget(Result):
     of: str
     """Name of the link that turns with the pointer."""
     relative_to: str
-    """Name of the link relative to which it is read."""
+    """Name of the link relative to which the pointer is read."""
     speed: SpeedValue | None
     """Mean speed relative to that link [the train's unit]."""
     degrees_per_day: float | None
@@ -145,9 +145,9 @@ class PointerBudget(Result):
     causes: tuple[BudgetCause, ...]
     """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift against every target. The first target is used for the cause "ratio"."""
+    """Drift relative to each target. The first target is used for the cause "ratio"."""
     pairs: Mapping[str, float] | None = None
-    """Peak-to-peak error due to the teeth of each single pair [deg], in descending order; None if unknown."""
+    """Pair -> peak-to-peak error due to its teeth only [deg], in descending order; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
@@ -170,12 +170,14 @@ class PointerBudget(Result):
 
     @property
     def total(self) -> float:
-        """Sum of the sizes of all known causes, an upper bound of the error [deg]."""
+        """Sum of the sizes of all known causes, an upper bound on the error [deg]."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Julian years after which the drift equals the largest other cause; None without a drift or another cause."""
+        """Time after which the drift is equal to the largest other cause [Julian years]; None without a drift or
+        another cause.
+        """
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
@@ -222,9 +224,9 @@ class TrainBudget(Tabular, Pictured, Result):
     state: str | None
     """Name of the state; None for a train without states."""
     span_days: float
-    """Time over which drifts are evaluated [d]."""
+    """Time span over which drifts are evaluated [d]."""
     turns: float
-    """Turns of the input over which teeth and lost motion are evaluated."""
+    """Number of turns of the input over which teeth and lost motion are evaluated."""
     samples: int
     """Number of positions of the input at which teeth are evaluated."""
     driving_link: str
@@ -234,11 +236,11 @@ class TrainBudget(Tabular, Pictured, Result):
     crank: CrankLoad
     """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, by clearance; empty if no cutting errors are declared."""
+    """Probability that wheels with cutting errors jam, for each clearance; empty if no cutting errors are declared."""
     jams_note: str = ""
-    """Reason why `jams` is empty."""
+    """Reason why `jams` is empty; "" if it is not."""
     reversing_drivers: tuple[str, ...] = ()
-    """Pairs whose driver reverses at times, which is not included in their lost motion."""
+    """Pairs whose driver temporarily reverses, which is not included in their lost motion."""
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)

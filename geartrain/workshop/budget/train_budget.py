@@ -61,7 +61,7 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
 @dataclass(frozen=True)
 class BudgetQuestion:
-    """Options of an error budget.
+    """Options of an error budget: outputs, span, run and trials.
 
     Examples
     --------
@@ -72,27 +72,29 @@ class BudgetQuestion:
     outputs: tuple[str, ...] = ()
     """Names of outputs; by default all outputs with a target or a dial, or all outputs if none has one."""
     without: tuple[str, ...] = ()
-    """Names of pairs to leave out, so that real teeth do not overconstrain a loop."""
+    """Names of pairs to ignore, so that real teeth do not overconstrain a loop."""
     span_days: float = SAROS
-    """Time over which drifts are evaluated [d], above 0 and below 1e9; default one Saros."""
+    """Time span over which drifts are evaluated [d], above 0 and below 1e9; by default one Saros."""
     turns: float = 20.0
-    """Turns of the input over which teeth are evaluated, above 0 and up to 1e6."""
+    """Number of turns of the input over which teeth are evaluated, above 0 and up to 1e6."""
     samples: int = 20_000
-    """Number of positions within these turns, 2 or more."""
+    """Number of positions of the input in these turns, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Cutting errors that replace the declared ones, such as "pitch_deviation=1 %"; default the declared ones."""
+    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default the declared errors
+    are used.
+    """
     trials: int = 256
     """Number of trials with cutting errors."""
     seed: int = 1
     """Random seed of the trials."""
     jam_trials: int = 64
-    """Number of trials at each clearance, to estimate the probability of jams."""
+    """Number of trials at each clearance, from which the probability of jams is estimated."""
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
-    """Clearances at which jams are counted: fractions of each pair's clearance window, or factors of the centre
-    distance.
-    """
+    """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Body whose true motion an output represents, by output, if its name does not indicate it; None for no body."""
+    """Output -> celestial body whose true motion it represents, if its name does not indicate the body; None for no
+    body.
+    """
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
@@ -117,25 +119,25 @@ def find_budget(
     means: Execution | None = None,
     on_stage: Callable[[], None] = lambda: None,
 ) -> TrainBudget:
-    """Return the error budget of each pointer of a train: its causes in degrees and in days.
+    """Return the error budget of each pointer of a train, with its causes in degrees and in days.
 
     Parameters
     ----------
     train : GearTrain
-        The train. Causes for which it declares no data are reported as such, and never counted as 0.
+        Train to analyse. Causes for which it declares no data are reported as not declared, and not counted as 0.
     requested : BudgetQuestion, optional
-        Pointers, span, positions, cutting errors.
+        Pointers, span, positions and cutting errors.
     state : str, optional
         Name of a declared state. Required if the train declares states.
     means : Execution, optional
         Executor of the trials with cutting errors; by default this process.
     on_stage : callable
-        Callback after each of `STAGES` stages.
+        Progress function, called after each of `STAGES` stages.
 
     Returns
     -------
     TrainBudget
-        Ranked causes of each pointer, torque of the crank, and probability of jams over clearance.
+        Ranked causes of each pointer, torque at the crank, and probability of jams for each clearance.
 
     Raises
     ------

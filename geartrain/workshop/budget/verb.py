@@ -38,17 +38,26 @@ def run(
     state: FirstState = None,
     without: Without = None,
     span: Annotated[
-        str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name from `geartrain periods`.")
+        str,
+        typer.Option(
+            "--span", help="Time over which ratio errors accumulate: '6940 d', or a name from `geartrain periods`."
+        ),
     ] = "saros_223_synodic_modern",
     turns: Annotated[
-        str, typer.Option("--turns", help="Revolutions of the driving link over which teeth are followed.")
+        str, typer.Option("--turns", help="Revolutions of the driving link over which tooth errors are evaluated.")
     ] = "20",
     samples: Annotated[
-        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of positions of the input.")
+        int,
+        typer.Option(
+            "--samples", min=2, max=MOST_COUNT, help="Number of input positions over the revolutions of --turns."
+        ),
     ] = 20_000,
     cutting: Annotated[
         Names,
-        typer.Option("--cutting", help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'."),
+        typer.Option(
+            "--cutting",
+            help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
+        ),
     ] = None,
     trials: Annotated[
         int, typer.Option("--trials", min=1, max=MOST_COUNT, help="Number of Monte Carlo trials of cutting errors.")
@@ -58,7 +67,8 @@ def run(
     body: Annotated[
         Names,
         typer.Option(
-            "--body", help="Body whose true motion an output shows, if its name does not indicate it: OUTPUT=moon."
+            "--body",
+            help="Body whose true motion an output shows, if its name does not indicate it: OUTPUT=moon, sun or none.",
         ),
     ] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Write a plot of the ranked causes to this file.")] = None,
@@ -67,7 +77,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """List the causes of each pointer's error, in degrees and days: ratio, theory, teeth, lost motion, cutting.
+    """List the causes of each pointer's error, in degrees and days: ratio, theory, teeth, lost motion, cutting errors.
 
     Example: `geartrain budget freeth-2021 --of moon`.
     """

@@ -96,7 +96,7 @@ class WheelErrors:
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """Return errors of cutting and mounting that replace the declared errors of a train, parsed from texts.
+    """Parse cutting and mounting errors that replace the declared errors of a train from texts.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
     Raises
     ------
     QuestionError
-        If a text does not give a kind of error and its size.
+        If a text does not contain a kind of error and its size.
 
     Examples
     --------
@@ -159,7 +159,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
         if each.of and each.of not in known:
             part = "wheel" if each.kind in OF_WHEELS else "pair"
             what = f"{part} '{each.of}' of the error '{each.kind}' is not in the trials"
-            why = f"'{each.kind}' is set for a {part} with triangular or conjugate teeth"
+            why = f"'{each.kind}' can be set only for a {part} with triangular or conjugate teeth"
             raise QuestionError(Problem(what, why, suggest(each.of, known)))
 
 

@@ -199,7 +199,7 @@ def _turn(backlash: float | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class AssemblyStep(Shown):
-    """One step of the assembly of a train.
+    """Step in the assembly of a train.
 
     See Also
     --------
@@ -207,15 +207,15 @@ class AssemblyStep(Shown):
     """
 
     text: str
-    """Instruction in words."""
+    """Instruction of the step."""
     parts: tuple[str, ...]
-    """Names of the parts that are added."""
+    """Names of the parts that are added in this step."""
     shown: bool = True
-    """True if the parts are shown in a picture; hanging parts are too tall for it."""
+    """True if the parts are shown in a picture. Hanging parts are too tall to be shown."""
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
-    """Return the steps of the assembly of a train, in order of height.
+    """Return the assembly steps of a train, in order of height.
 
     The order is: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors, the front
     plate, dials.
@@ -223,7 +223,7 @@ def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
     Parameters
     ----------
     work : SolidModel
-        The train with its manufacturing sizes.
+        Solid model of the train, with its manufacturing sizes.
 
     Returns
     -------

@@ -73,7 +73,7 @@ class ExportFile(Shown):
     title: str
     """Description of the content of the file."""
     make: Callable[[], bytes]
-    """Function that returns the content as bytes, or raises `GearTrainError` if it cannot be made."""
+    """Function that returns the content as bytes, or raises `GearTrainError` if the content cannot be computed."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
@@ -104,9 +104,9 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
     Parameters
     ----------
     work : SolidModel
-        The train and its sizes.
+        Solid model of the train.
     kind : {"stl", "glb", "step", "graphml", "dot", "rexs"}
-        Kind of the file.
+        Kind of file.
     turns : Fraction, optional
         Revolutions of the driving link in the animation of a GLB; by default one period, or ten if the period is long.
 
@@ -149,12 +149,12 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
 
 
 def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
-    """Return the content of a file with one wheel to cut or to print.
+    """Return the content of a file with one wheel, for cutting or printing.
 
     Parameters
     ----------
     work : SolidModel
-        The train and its sizes.
+        Solid model of the train.
     wheel : str
         Name of the wheel.
     suffix : {".svg", ".dxf", ".stl"}
@@ -184,8 +184,8 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     if wheel not in known:
         raise QuestionError(
             Problem(
-                f"'{wheel}' is not a wheel of the train",
-                "only a wheel with its own drawing can be exported",
+                f"the train has no wheel '{wheel}'",
+                "only declared wheels can be exported",
                 suggest(wheel, known),
             )
         )
@@ -203,19 +203,19 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """Return all files of some kinds, small ones first, and last a README that lists them.
+    """Return all files of the requested kinds, the smaller ones first, followed by a README that lists them.
 
     Parameters
     ----------
     work : SolidModel
-        The train and its sizes.
+        Solid model of the train.
     kinds : sequence of str
         Kinds of files: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
     turns : Fraction, optional
         Revolutions of the driving link in the animation of a GLB; by default one period, or ten if the period is long.
     proof : TrainProof, optional
-        Proof of the train, for the README. By default the train is proved when the README is made, if the extra `proof`
-        is installed.
+        Proof of the train for the README. By default it is computed when the README is made, if the extra `proof` is
+        installed.
 
     Returns
     -------
@@ -307,12 +307,13 @@ def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems of parts that files of these kinds cannot show, without repetition.
+    """Return the problems that affect an export of these kinds of files, such as parts that cannot be made as laid out
+    or that are omitted, without duplicates.
 
     Parameters
     ----------
     work : SolidModel
-        The train and its sizes.
+        Solid model of the train.
     kinds : sequence of str
         Kinds of files: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
 

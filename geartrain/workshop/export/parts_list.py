@@ -24,7 +24,7 @@ _SAME = 4  # decimals of a mm to which sizes are rounded and compared
 
 @dataclass(frozen=True, slots=True)
 class ListedPart(Shown):
-    """Row of a parts list: all parts of one shape.
+    """Row of a parts list, for all parts of the same shape.
 
     See Also
     --------
@@ -34,8 +34,8 @@ class ListedPart(Shown):
     names: tuple[str, ...]
     """Names of the parts of this shape."""
     kind: str
-    """Kind of part: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock,
-    pin, rod, bob or weight.
+    """Kind of the parts: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post,
+    cock, pin, rod, bob or weight.
     """
     material: str
     """Name of the material from which the mass is computed."""
@@ -48,17 +48,17 @@ class ListedPart(Shown):
 
     @property
     def count(self) -> int:
-        """Number of parts needed."""
+        """Number of parts of this shape."""
         return len(self.names)
 
 
 def parts_list(work: SolidModel) -> list[ListedPart]:
-    """Return the list of all parts of a train, with parts of one shape in one row.
+    """Return the list of all parts of a train, with one row for all parts of the same shape.
 
     Parameters
     ----------
     work : SolidModel
-        The train with its manufacturing sizes.
+        Solid model of the train, with its manufacturing sizes.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Command `geartrain export`: files for makers and for other tools."""
+"""Command `geartrain export`: files for manufacturing and for other tools."""
 
 from __future__ import annotations
 
@@ -58,14 +58,22 @@ def run(
     ] = None,
     state: FirstState = None,
     module: Annotated[
-        Size, typer.Option("--module", help="Module: pitch diameter divided by teeth, such as 1mm.")
+        Size,
+        typer.Option(
+            "--module",
+            help="Module (pitch diameter divided by tooth count) of a train without declared sizes, such as 1mm.",
+        ),
     ] = None,
     thickness: Annotated[Size, typer.Option("--thickness", help="Thickness of wheels and plates, such as 2mm.")] = None,
     bore: Annotated[
-        Size, typer.Option("--bore", help="Diameter of all arbors; 0mm writes only wheels, without bores.")
+        Size, typer.Option("--bore", help="Diameter of all arbors, such as 3mm; 0mm omits arbors, plates and bores.")
     ] = None,
     backlash: Annotated[
-        Size, typer.Option("--backlash", help="Backlash of every pair along its pitch circles, such as 0.05mm.")
+        Size,
+        typer.Option(
+            "--backlash",
+            help="Backlash at the pitch circles of every pair without a declared backlash, such as 0.05mm.",
+        ),
     ] = None,
     process: Annotated[
         str | None,
@@ -86,24 +94,28 @@ def run(
     rate: Annotated[
         str | None,
         typer.Option(
-            "--rate", help="Speed of the input of an .fmu, in turns per second or such as '30 rpm'; default: the drive."
+            "--rate",
+            help="Input speed of the FMU, in turns per second or with a unit such as '30 rpm'; "
+            "default: the declared drive.",
         ),
     ] = None,
     restitution: Annotated[
         str | None,
         typer.Option(
             "--restitution",
-            help="Coefficient of restitution of every impact in an .fmu, 0 to 1; default: as declared, or 0.",
+            help="Coefficient of restitution of every impact in the FMU, 0 to 1; default: as declared, or 0.",
         ),
     ] = None,
     step: Annotated[
         Size,
-        typer.Option("--time-step", help="Time step of an .fmu, such as 0.0001s; default: from the tooth frequency."),
+        typer.Option(
+            "--time-step", help="Time step of the FMU, such as 0.0001s; the default depends on the tooth frequency."
+        ),
     ] = None,
     without: Without = None,
     force: Force = False,
 ) -> None:
-    """Write a train as files: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables.
+    """Export a train: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables.
 
     Example: `geartrain export planetary --to parts --module 2mm`.
     """
@@ -144,7 +156,7 @@ def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
 
 
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
-    """Write a co-simulation unit (FMU) and exit."""
+    """Write a functional mock-up unit (FMU) for co-simulation, and exit."""
     from geartrain.analysis.gear_train import load
 
     simulation = wing("simulation")
@@ -227,7 +239,7 @@ def _write_folder(
 
 
 def _proof(work: SolidModel) -> TrainProof | None:
-    """Prove the train, with a progress bar if it takes long; None if the libraries are not installed."""
+    """Run the proof of the train, with a progress bar if it takes long; None if its libraries are not installed."""
     from geartrain.workshop.export.proof import proof_is_installed, proof_steps, prove_train
 
     if not proof_is_installed():
@@ -240,11 +252,11 @@ def _print_notices(problems: Sequence[Problem]) -> None:
     for problem in problems[:_SHOWN]:
         tell(f"note: {problem}")
     if len(problems) > _SHOWN:
-        tell(f"note: {len(problems) - _SHOWN} more in README.md")
+        tell(f"note: {len(problems) - _SHOWN} more notes are in README.md")
 
 
 def _with_progress(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:
-    """Yield the same files, with a progress bar if it takes long."""
+    """Yield the same files, with a progress bar if writing them takes long."""
     with progress("export", count, _PATIENCE) as bar:
         for each in files:
             yield each

@@ -26,7 +26,7 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probability of each event in the train at one clearance and one scale of the errors.
+    """Probability of each event in a train at one clearance and one scale of the manufacturing errors.
 
     See Also
     --------
@@ -46,7 +46,7 @@ class ClearanceCase(Result):
 
     @property
     def rates(self) -> EventRates:
-        """Probability of each event in any pair, as a typed dictionary."""
+        """Probability of each event in any pair, by name of the event."""
         return cast("EventRates", self.events)
 
 
@@ -84,23 +84,24 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of events with the same wheels at every clearance and every scale of their errors.
+    """Return the probability of each event at every clearance and every scale of the errors, with the same wheels.
 
     Parameters
     ----------
     plan : TrialPlan
         Train with its cutting and fitting errors.
     clearances : sequence of float or None
-        From 1 upwards factors of the minimum centre distance, at which teeth bottom; from 0 to 1 fractions of the
-        clearance window of each pair; None for the declared clearance. It is the outer loop.
+        Values of 1 or more are factors of the minimum centre distance, at which teeth touch the bottom; values below 1
+        are fractions of the clearance window of each pair; None is the declared clearance. The clearance varies in the
+        outer loop.
     scales : sequence of float
-        Scale factors of all errors, 0 or more.
+        Factors by which all errors are multiplied, 0 or more.
     trials : int
         Number of trials of each case, 1 to 10^9.
     seed : int
         Random seed. The same seed gives the same wheels.
     means : Execution, optional
-        Executor, journal of finished work and progress report; by default this process without journal and report.
+        Executor, journal and progress function; by default this process without journal and progress function.
 
     Returns
     -------

@@ -51,7 +51,7 @@ _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of i
 
 
 class FrictionSpread(NamedTuple):
-    """Normal distribution of a coefficient of friction.
+    """Normal distribution of a friction coefficient.
 
     See Also
     --------
@@ -78,9 +78,9 @@ class FrictionPlan(Shown):
     state: str | None
     """Name of the state; None for a train without states."""
     turns: float
-    """Number of turns of the input in the run."""
+    """Number of turns of the input in a run."""
     samples: int
-    """Number of positions in the run."""
+    """Number of positions in a run."""
     of: str | None = None
     """Name of the link whose torque is computed; None for the crank."""
 
@@ -89,7 +89,7 @@ class FrictionPlan(Shown):
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the coefficients, by the train, pair or coupling that declares them."""
+        """Distributions of the friction coefficients, by the train, pair or coupling that declares them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     @cached_property
@@ -100,18 +100,20 @@ class FrictionPlan(Shown):
 
     @cached_property
     def study(self) -> FrictionStudy | None:
-        """Computation common to all trials in which the same sides drive; None if the trials have nothing in common."""
+        """Computation that is common to all trials in which the same sides drive; None if there is no common
+        computation.
+        """
         from geartrain.dynamics.turn.train_turn import study_friction
 
         return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)
 
     def follow(self, drawn: Train) -> CycleFigures:
-        """Return the torques and the efficiency of the run in one trial.
+        """Return the torques and the efficiency of the run with the coefficients of one trial.
 
         Parameters
         ----------
         drawn : Train
-            The train with the coefficients of the trial.
+            Train with the coefficients of the trial.
 
         Returns
         -------
@@ -137,7 +139,7 @@ class FrictionPlan(Shown):
         found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
         if found.turns is None:
             what = "the torque cannot be determined"
-            fix = "declare `loads: {LINK: -1 N m}` or the missing bearings"
+            fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
             raise QuestionError(Problem(what, found.verdict.text, fix))
         return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
 
@@ -146,12 +148,12 @@ class FrictionPlan(Shown):
         return {name: value for name, value in self.__dict__.items() if name not in ("study", "_nominal")}
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
-        """Return the key by which a journal identifies a run: all data on which its results depend.
+        """Return the data by which a journal identifies a run: all data on which its results depend.
 
         Parameters
         ----------
         trials, seed : int
-            Number of trials, and seed of the random numbers.
+            Number of trials, and random seed.
         """
         made = {"geartrain": version("geartrain"), "numpy": version("numpy")}
         requested = {"state": self.state, "turns": self.turns, "samples": self.samples, "of": self.of}
@@ -162,7 +164,7 @@ class FrictionPlan(Shown):
 def find_friction_plan(
     train: GearTrain, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
 ) -> FrictionPlan:
-    """Return the plan of trials for a train whose friction has declared standard deviations.
+    """Return the plan of trials for a train whose friction coefficients have declared standard deviations.
 
     Parameters
     ----------
@@ -171,7 +173,7 @@ def find_friction_plan(
     turns : float
         Number of turns of the input, above 0.
     samples : int
-        Number of positions of a run, 2 or more.
+        Number of positions in a run, 2 or more.
     state : str, optional
         Name of a declared state. Required if the train declares states.
     of : str, optional
@@ -185,7 +187,7 @@ def find_friction_plan(
     Raises
     ------
     QuestionError
-        If no friction coefficient has a spread.
+        If no friction coefficient has a standard deviation.
 
     Examples
     --------
@@ -200,9 +202,9 @@ def find_friction_plan(
     """
     plan = FrictionPlan(train.declaration, state, turns, samples, of)
     if not plan.spreads:
-        why = "trials draw coefficients of friction from their declared standard deviation"
+        why = "each trial draws friction coefficients from distributions with declared standard deviations"
         fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
-        raise QuestionError(Problem(f"'{train.name}' declares no spread of friction", why, fix))
+        raise QuestionError(Problem(f"'{train.name}' declares no random friction", why, fix))
     return plan
 
 
@@ -260,13 +262,13 @@ class TrialFigure(Result):
 
     See Also
     --------
-    FrictionTrials : All figures of the trials.
+    FrictionTrials : All results of the trials.
     """
 
     KEYS = ("mean", "deviation", "percentiles")
 
     values: Floats
-    """Values of the result in the trials in which it exists, in the order of the trials."""
+    """Values of the result in the trials that have a value, in the order of the trials."""
 
     @property
     def mean(self) -> IntervalEstimate:
@@ -280,15 +282,15 @@ class TrialFigure(Result):
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles by percentage, each with its 95 % confidence interval; 95 % of the trials are between the outer
-        two.
+        """Percentage -> percentile with its 95 % confidence interval. 95 % of the trials are between the outer two
+        percentiles.
         """
         return percentiles_of(self.values)
 
 
 @dataclass(frozen=True)
 class FrictionTrials(Result):
-    """Torque over a run in trials with random friction.
+    """Torque over a run in trials with random friction coefficients.
 
     See Also
     --------
@@ -302,13 +304,13 @@ class FrictionTrials(Result):
     link: str
     """Name of the link to which the torque refers."""
     wanted: int
-    """Number of trials requested."""
+    """Number of requested trials."""
     done: int
-    """Number of trials computed."""
+    """Number of completed trials."""
     seed: int
     """Random seed of the trials."""
     spreads: Mapping[str, FrictionSpread]
-    """Distributions of the coefficients, by `train`, pair or coupling."""
+    """Distributions of the friction coefficients, by `train`, pair or coupling."""
     mean: TrialFigure
     """Mean torque over the run, in trials that do not lock [N m, or the unit of the loads]."""
     maximum: TrialFigure
@@ -316,7 +318,7 @@ class FrictionTrials(Result):
     starting: TrialFigure
     """Starting torque, in trials that do not lock [N m, or the unit of the loads]."""
     efficiency: TrialFigure
-    """Efficiency over the run: output energy over input energy."""
+    """Efficiency over the run: output energy divided by input energy."""
     locks: ProbabilityEstimate
     """Probability that friction locks the train at some position of the run."""
 
@@ -331,7 +333,7 @@ class FrictionTrials(Result):
 
 
 def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None) -> FrictionTrials:
-    """Return the torque over a run in many trials, each with new random friction coefficients.
+    """Compute the torque over a run in trials with random friction coefficients.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the completed trials are returned.
@@ -339,18 +341,18 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     Parameters
     ----------
     plan : FrictionPlan
-        The train and the run.
+        Train and run of the trials.
     trials : int
         Number of trials, 1 to 10^9.
     seed : int
         Random seed.
     means : Execution, optional
-        Executor, journal of finished trials and progress report; by default this process without journal and report.
+        Executor, journal and progress function; by default this process without journal and progress function.
 
     Returns
     -------
     FrictionTrials
-        Mean, maximum and starting torque and efficiency with their intervals.
+        Mean, maximum and starting torque and efficiency, with their confidence intervals.
 
     Raises
     ------

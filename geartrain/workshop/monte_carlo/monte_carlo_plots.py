@@ -72,27 +72,28 @@ _TICKS = 8  # approximate number of tick labels: more would overlap
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
-    """Draw one picture of Monte Carlo trials of a train with cutting errors.
+    """Draw one figure of the Monte Carlo trials of a train with cutting errors.
 
     Parameters
     ----------
     findings : MonteCarloResult
-        Trials, with the study that the picture shows.
+        Trials, with the study that the figure shows.
     picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
-        "errors": histogram of each pointer's error at random positions of the input. "course": bands of pointer errors
-        along one turn, of each output that was followed. "convergence": probability of a jam over the number of trials.
-        "sobol": Sobol indices of the first output by wheel, or by kind if only these were computed. "pairs": variance
-        shares by pair, from superposition. "map": probability of a jam over clearance and scale of the errors.
+        "errors": histogram of each pointer's error at random positions of the input. "course": bands of the pointer
+        errors along one revolution, for each output that was computed. "convergence": probability of a jam against the
+        number of trials. "sobol": Sobol indices of the first output by wheel, or by kind of error if only these were
+        computed. "pairs": variance shares by pair, from superposition. "map": probability of a jam against clearance
+        and scale of the errors.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with errors in degrees and probabilities with their 95 % intervals.
+        Figure with errors in degrees, and probabilities with their 95 % confidence intervals.
 
     Raises
     ------
     QuestionError
-        If the study that the picture shows was not requested.
+        If the study that the figure shows was not computed.
 
     Examples
     --------
@@ -106,9 +107,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     """
     if picture not in PICTURES:
         raise QuestionError(
-            Problem(
-                f"'{picture}' is not the name of a figure", "each figure has a fixed name", f"use {', '.join(PICTURES)}"
-            )
+            Problem(f"'{picture}' is not a kind of picture", "the kinds are predefined", f"use {', '.join(PICTURES)}")
         )
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
@@ -145,7 +144,7 @@ def errors_figure(trials: TrialResults) -> Figure:
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> Figure:
     """Draw bands of pointer errors along one turn of each evaluated pointer."""
-    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --of NAME")
+    _require(courses, "the errors along a turn were computed for no pointer", "name the outputs to follow: --of NAME")
     return pointer_error_figure(
         {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, driving_link
     )
@@ -340,7 +339,7 @@ def _bands_key() -> list[Patch]:
 
 
 def _no_errors(why: str) -> QuestionError:
-    return QuestionError(Problem("there is nothing to draw", why, "give trials that turn, and at least one pointer"))
+    return QuestionError(Problem("the errors cannot be drawn", why, "give trials that turn, and at least one pointer"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities
@@ -446,9 +445,11 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
     Only the `most` largest causes are drawn, and the axis label gives the number of the others. Raises `QuestionError`
     without a cause.
     """
-    if not shares or most < 1:
+    if not shares:
         what, why = "the list of causes is empty", "a tornado chart needs at least one cause"
-        raise QuestionError(Problem(what, why, "give the share of at least one cause, and most >= 1"))
+        raise QuestionError(Problem(what, why, "give the share of at least one cause"))
+    if most < 1:
+        raise QuestionError(Problem(f"most is {most}", "a tornado chart shows at least one cause", "give most >= 1"))
     ranked = sorted(shares.items(), key=lambda each: -each[1].rank)
     shown, rest = ranked[:most], ranked[most:]
     figure, axes = bar_panel([name for name, _ in shown], 1.6 + 0.34 * len(shown))
@@ -498,8 +499,8 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
         raise QuestionError(
             Problem(
                 "the convergence cannot be drawn",
-                "each estimate needs at least one number of trials above 0",
-                "give estimates after 1 trial or more",
+                "there are no estimates, or an estimate has no trial numbers or one that is not positive",
+                "give at least one estimate, with trial numbers of 1 or more",
             )
         )
     figure, (above, below) = curve_panels((3.6, 2.4))

@@ -27,17 +27,18 @@ _EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
-    """Return the report on trials: events of pairs, pointer errors and all further studies.
+    """Return the report on Monte Carlo trials: events of pairs, pointer errors, and all further studies.
 
     Parameters
     ----------
     found : MonteCarloResult
-        Trials, with courses, Sobol indices and clearances where these were requested.
+        Trials, with errors along a revolution, Sobol indices and results at other clearances if requested.
 
     Returns
     -------
     Document
-        Report that begins with the assumptions; probabilities with Wilson's 95 % intervals, pointer errors in degrees.
+        Document that begins with the assumptions. Probabilities have Wilson's 95 % confidence intervals; pointer errors
+        are in degrees.
 
     Examples
     --------

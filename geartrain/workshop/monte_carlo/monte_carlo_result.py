@@ -36,7 +36,8 @@ class PartialTrials(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
-    """Trials of one train with all further studies, for reports and plots.
+    """Monte Carlo trials of one train, with optional results at other clearances, errors along a revolution and Sobol
+    indices, for reports and plots.
 
     See Also
     --------
@@ -72,7 +73,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
     cleared: Sequence[ClearanceCase] = ()
     """Results at other clearances, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Errors along a turn, from `run_course`."""
+    """Pointer errors along a revolution, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
     """Sobol indices, from `find_sobol_indices`."""
 
@@ -89,7 +90,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """Assumptions of the trials, in sentences."""
+        """Assumptions of the trials, one sentence each."""
         return tuple(self._assumptions())
 
     def _assumptions(self) -> Iterator[str]:
@@ -131,7 +132,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def block(self) -> int:
-        """Number of trials that are drawn from one stream of random numbers."""
+        """Number of trials that share one stream of random numbers."""
         return BLOCK
 
     @property
@@ -141,7 +142,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of the errors by wheel, kind and distribution, as fractions of pitch, half angle and depth."""
+        """Sizes of the errors by wheel, kind and distribution, as fractions of pitch, half angle or depth."""
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
@@ -151,12 +152,12 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def partial(self) -> PartialTrials | None:
-        """Numbers of completed and requested trials if the run was interrupted; otherwise None."""
+        """Numbers of completed and requested trials if the run was interrupted; None for a complete run."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
     def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
-        """Return rows of number of trials, standard deviation of an output's error, and its lower and upper limit
-        [deg].
+        """Return rows with the number of trials, and the standard deviation of an output's error with its lower and
+        upper limit [deg].
 
         Parameters
         ----------

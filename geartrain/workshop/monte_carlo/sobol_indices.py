@@ -62,14 +62,13 @@ class SobolIndices(Result):
     output: str
     """Name of the output."""
     by: By
-    """Grouping of errors into input variables: "wheel" for all errors of one wheel, "kind" for one kind of all
+    """Grouping of errors into input variables: "wheel" for all errors of one wheel, "kind" for one kind of error of all
     wheels.
     """
     trials: int
     """Number of base samples with finite errors."""
     indices: tuple[SobolIndex, ...]
-    """Indices of each input variable in descending order of the total index; "position" is the position of the
-    input.
+    """Indices of each input variable, in descending order of the total index. "position" is the position of the input.
     """
 
 
@@ -81,9 +80,9 @@ def find_sobol_indices(
     seed: int = 1,
     means: Execution | None = None,
 ) -> SobolIndices:
-    """Return estimates of the Sobol indices of an output's error at random positions, by Saltelli's scheme.
+    """Estimate the Sobol indices of an output's error at random positions of the input, by Saltelli's scheme.
 
-    In a pair that jams, the pushing flanks determine the position of the output.
+    If a pair jams, the position of the output is determined by the drive flanks.
 
     Parameters
     ----------
@@ -94,11 +93,11 @@ def find_sobol_indices(
     by : {"wheel", "kind"}
         Grouping of errors into input variables: all errors of one wheel, or one kind of error of all wheels.
     trials : int
-        Number of base samples, 1 to 10^9. Each costs two trials plus one for each input variable.
+        Number of base samples, 1 to 10^9. Each base sample requires two trials, and one for each input variable.
     seed : int
         Random seed.
     means : Execution, optional
-        Executor and progress report; by default this process without a report. The journal is not used.
+        Executor and progress function; by default this process without a progress function. The journal is not used.
 
     Returns
     -------
@@ -108,7 +107,7 @@ def find_sobol_indices(
     Raises
     ------
     QuestionError
-        If no wheel with errors moves the output.
+        If the output does not depend on a wheel with errors.
 
     References
     ----------

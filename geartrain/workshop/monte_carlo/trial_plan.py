@@ -299,7 +299,7 @@ def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
 
 @dataclass(frozen=True)
 class TrialPlan(Shown):
-    """Input data of the trials of a train in one state.
+    """Input data of Monte Carlo trials of a train in one state.
 
     See Also
     --------
@@ -311,15 +311,15 @@ class TrialPlan(Shown):
     wheels: tuple[WheelErrors, ...]
     """Wheels with cutting errors."""
     pairs: tuple[TrialPair, ...]
-    """Gear pairs of these wheels, with their sizes and the errors of their axes."""
+    """Gear pairs of these wheels, with their sizes and mounting errors."""
     composition: ErrorComposition
-    """Composed motion with perfect teeth, whose transmission functions are replaced in the trials."""
+    """Composed motion with perfect teeth, in which the trials replace the transmission functions."""
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
     """Speeds of the outputs relative to the input."""
     reach: tuple[tuple[int, ...], ...]
-    """Indices of the pairs that can move each output."""
+    """Indices of the pairs on which each output depends."""
     span: float
     """Range of the random positions of the input [turn]."""
     driving_link: str
@@ -330,9 +330,9 @@ class TrialPlan(Shown):
 
     @property
     def position(self) -> int:
-        """Number of the random stream that draws the positions of the input.
+        """Number of the random stream for the positions of the input.
 
-        Wheels have the first streams, pairs the next ones, and the positions the last one.
+        The first streams are for the wheels, the next for the pairs, and the last for the positions.
         """
         return len(self.wheels) + len(self.pairs)
 
@@ -342,7 +342,7 @@ class TrialPlan(Shown):
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """Return the plan with all cutting and fitting errors multiplied by a factor.
+        """Return a copy of the plan with all cutting and mounting errors multiplied by a factor.
 
         Parameters
         ----------
@@ -358,7 +358,7 @@ class TrialPlan(Shown):
         return replace(self, wheels=wheels, pairs=pairs)
 
     def cleared(self, clearance: float) -> TrialPlan:
-        """Return the plan with every pair at another centre distance.
+        """Return a copy of the plan with every pair at another centre distance.
 
         Parameters
         ----------
@@ -369,7 +369,7 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
-        """Return all data on which the results depend, as plain data; a journal identifies its run by them."""
+        """Return all data on which the results depend, as plain data by which a journal identifies its run."""
         return {
             "train": self.name,
             "wheels": [
@@ -401,15 +401,16 @@ def find_trial_plan(
     Parameters
     ----------
     train : GearTrain
-        Train with triangular or conjugate teeth, and `cutting` or `fitting` errors unless `settings` gives them.
+        Train with triangular or conjugate teeth. It must declare `cutting` or `fitting` errors unless `settings`
+        contains errors.
     settings : sequence of ErrorOverride
-        Errors that replace the declared ones; `read_error_overrides` reads them from text.
+        Errors that replace the declared errors; `read_error_overrides` parses them from text.
     outputs : sequence of str
         Names of outputs or links, by default all outputs.
     state : str, optional
         Name of a declared state. Required if the train declares states.
     without : sequence of str
-        Names of pairs to leave out, so that teeth do not overconstrain a loop.
+        Names of pairs to ignore, so that real teeth do not overconstrain a loop.
 
     Returns
     -------
@@ -419,9 +420,9 @@ def find_trial_plan(
     Raises
     ------
     QuestionError
-        If the train has no such teeth or no errors.
+        If the train has no such teeth, or if no errors are given.
     RangeError
-        If errors are larger than the tooth.
+        If errors are larger than a tooth.
     GearTrainError
         If pairs with tooth forms close a loop.
 
@@ -447,8 +448,8 @@ def find_trial_plan(
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
     composition = motion._with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
-        what = f"'{train.name}' declares no errors"
-        why = "perfect wheels are the same in every trial"
+        what = f"'{train.name}' declares no manufacturing errors"
+        why = "without them all trials are identical"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting pitch_deviation='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())

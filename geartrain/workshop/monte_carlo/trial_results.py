@@ -38,7 +38,7 @@ EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengage
 
 @dataclass(frozen=True)
 class TrialResults(Tabular):
-    """Results of all completed trials, in their order.
+    """Results of all completed Monte Carlo trials, in the order of the trials.
 
     See Also
     --------
@@ -58,7 +58,7 @@ class TrialResults(Tabular):
     seed: int
     """Random seed of the trials."""
     wanted: int
-    """Number of trials requested; larger than `done` if the run was interrupted."""
+    """Number of requested trials, which is larger than `done` if the run was interrupted."""
     marks: Marks
     """Event flags of each pair, shape (trials, pairs): a bit mask of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not
     cuttable.
@@ -68,17 +68,17 @@ class TrialResults(Tabular):
     errors: Floats
     """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     first: Sequence[tuple[float, float, int]]
-    """Sums by output: squared error of first-order superposition [rad^2], squared pointer error [rad^2], number of
-    trials.
+    """Sums for each output: squared error of first-order superposition [rad^2], squared pointer error [rad^2], number
+    of trials.
     """
     sums: Sequence[Mapping[str, tuple[float, ...]]]
-    """Sums over the trials by output and pair: count, part, total, product; the variance shares are computed from
-    them.
+    """Sums over the trials for each output and pair, from which variance shares are computed: count, part, total,
+    product.
     """
     bounds: Mapping[str, float] = field(default_factory=dict)
-    """Upper bound of the jam probability, 0 to 1, of each pair for which one is known."""
+    """Upper bound on the jam probability, 0 to 1, of each pair for which a bound is known."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Pointer errors along one turn, for the outputs for which they were requested."""
+    """Pointer errors along one revolution, for the outputs for which they were requested."""
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed to fit."""
 
@@ -106,7 +106,7 @@ class TrialResults(Tabular):
 
     @property
     def done(self) -> int:
-        """Number of completed trials; smaller than `wanted` if the run was interrupted."""
+        """Number of completed trials, which is smaller than `wanted` if the run was interrupted."""
         return len(self.turns)
 
     @property
@@ -124,7 +124,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def train(self) -> PairEventRates:
-        """Event probabilities of the train: an event occurs in a trial if it occurs in at least one pair."""
+        """Event probabilities of the train. An event occurs in a trial if it occurs in at least one pair."""
         # the probability of any jam is at most the sum of the probabilities (Boole's inequality)
         bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
         return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
@@ -259,7 +259,7 @@ class EventRates(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class PairEventRates(Result):
-    """Event probabilities during a full meshing cycle, of one pair or of the whole train.
+    """Event probabilities of one pair, or of the whole train, during a full meshing cycle.
 
     See Also
     --------
@@ -271,15 +271,14 @@ class PairEventRates(Result):
     name: str
     """Name of the pair, or "the train"."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, over the trials with wheels that can be
-    cut.
+    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, in the trials with wheels that can be cut.
     """
     uncut: int
-    """Number of trials with a wheel that cannot be cut."""
+    """Number of trials with at least one wheel that cannot be cut."""
     backlash: float = nan
     """Nominal backlash of wheels without errors [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
-    """Upper bound of the jam probability due to pitch deviations, 0 to 1; NaN if there are other errors."""
+    """Upper bound on the jam probability due to pitch deviations, 0 to 1; NaN if there are other errors."""
 
     @property
     def rates(self) -> EventRates:
@@ -364,17 +363,19 @@ class PointerErrorStatistics(Result):
     name: str
     """Name of the output."""
     errors: Floats
-    """Pointer errors of the trials in which no pair that moves the output jams or disengages, in the order of trials
-    [rad].
+    """Pointer errors [rad] of the trials in which no pair on which the output depends jams or disengages, in the order
+    of the trials.
     """
     all: Floats
-    """Pointer errors of all trials in which teeth touch [rad]; if a pair jams, of the flanks that push."""
+    """Pointer errors of all trials in which teeth touch [rad]; if a pair jams, the errors with its drive flanks in
+    contact.
+    """
     stopped: int
     """Number of trials excluded from `errors`."""
     first: FirstOrderError
-    """Root mean squares of the error of first-order superposition and of the pointer error [rad]."""
+    """Root mean square of the error from first-order superposition, and of the pointer error [rad]."""
     shares: Mapping[str, float]
-    """Share of the variance due to each pair, from first-order superposition. The shares add up to 1."""
+    """Share of the variance due to each pair, from first-order superposition; the sum of the shares is 1."""
 
     @property
     def runs(self) -> int:
@@ -408,7 +409,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentiles of the pointer error [rad], by percentage."""
+        """Percentage -> percentile of the pointer error [rad]."""
         return percentiles_of(self.kept)
 
     @property
@@ -429,7 +430,7 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer errors of one output along one turn of it, for each trial.
+    """Pointer error of one output over one revolution of the output, for each trial.
 
     See Also
     --------
@@ -447,24 +448,24 @@ class PointerErrorCourse(Result):
     name: str
     """Name of the output."""
     turns: Floats
-    """Positions of the input, shape (n,) [turn]."""
+    """Positions of the input [turn], shape (n,)."""
     errors: Floats
-    """Pointer errors by trial and position, shape (trials, n) [rad]."""
+    """Pointer errors by trial and position [rad], shape (trials, n)."""
 
     @property
     def maximum(self) -> Floats:
-        """Maximum absolute pointer error of each trial along the turn [rad]."""
+        """Maximum absolute pointer error of each trial over the revolution [rad]."""
         found: Floats = np.abs(self.errors).max(axis=1)
         return found
 
     @property
     def count(self) -> int:
-        """Number of trials with errors along the turn."""
+        """Number of trials in the course."""
         return len(self.errors)
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentiles over the trials of the maximum absolute pointer error [rad], by percentage."""
+        """Percentage -> percentile, over the trials, of the maximum absolute pointer error [rad]."""
         return percentiles_of(self.maximum)
 
     @property
@@ -476,7 +477,7 @@ class PointerErrorCourse(Result):
         return found
 
     def bands(self) -> Floats:
-        """Return quantiles of the pointer errors over the trials at each position of the input.
+        """Return the quantiles of the pointer errors over the trials, at each position of the input.
 
         Returns
         -------

@@ -111,11 +111,8 @@ def run_trials(
     """Run Monte Carlo trials of a train: in each trial, all wheels are cut anew and each pair turns through a full
     cycle.
 
-    The result does not depend on the number of workers, nor on whether the run was interrupted and resumed. If the
-    run is interrupted (Ctrl-C), the results of the completed trials are returned.
-
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
-    (Ctrl-C), the completed trials are returned.
+    (Ctrl-C), the results of the completed trials are returned.
 
     Parameters
     ----------
@@ -126,9 +123,9 @@ def run_trials(
     seed : int
         Random seed. The same seed gives the same wheels in every computation.
     means : Execution, optional
-        Executor, journal of finished blocks and progress report; by default this process without journal and report.
+        Executor, journal and progress function; by default this process without journal and progress function.
     take : callable, optional
-        Callback that receives each finished task as a `TrialRecord`.
+        Function that is called with each finished task, a `TrialRecord`.
 
     Returns
     -------
@@ -328,7 +325,8 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
 
 
 def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, trials: int = BLOCK) -> PointerErrorCourse:
-    """Compute the pointer errors of one output along one turn of it, or of the input if the output is fixed.
+    """Compute the pointer errors of one output over one revolution of the output, or of the input if the output is
+    fixed.
 
     Parameters
     ----------
@@ -337,16 +335,16 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     output : int
         Index of the output in `plan.outputs`, from 0.
     positions : int
-        Number of positions along the turn, both ends included.
+        Number of positions along the revolution, including both ends.
     seed : int
-        Random seed. The numbers are independent of those of `run_trials`.
+        Random seed. The random numbers are independent of those in `run_trials`.
     trials : int
         Number of trials, at most 256.
 
     Returns
     -------
     PointerErrorCourse
-        Errors, shape (trials, positions) [rad].
+        Pointer errors [rad], shape (trials, positions).
 
     Examples
     --------

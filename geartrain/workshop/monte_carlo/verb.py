@@ -56,7 +56,7 @@ def run(
         typer.Option(
             "--cutting",
             metavar="KIND=SIZE",
-            help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.",
+            help="Replace a declared cutting error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'; may be repeated.",
         ),
     ] = None,
     output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
@@ -67,7 +67,7 @@ def run(
         typer.Option(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
-            help="Repeat the trials over clearance_factor=1.005:1.04:8 or window=0.1:0.9:9.",
+            help="Repeat the trials at several clearances, such as clearance_factor=1.005:1.04:8 or window=0.1:0.9:9.",
         ),
     ] = None,
     sobol: Annotated[
@@ -82,7 +82,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Estimate how often a train with cutting errors jams, and how far its pointers deviate, by Monte Carlo trials.
+    """Estimate how often a train with cutting errors jams, and the errors of its pointers, by Monte Carlo trials.
 
     With -o FILE.parquet or FILE.csv, write a table of all trials.
 
@@ -135,11 +135,11 @@ def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
 
 
 class _StoppedError(Exception):
-    """Interrupt of the trials by the user."""
+    """Interruption of the trials by the user."""
 
 
 def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: TrialTable | None) -> TrialResults:
-    """Run the trials with the journal, and write each record to the table."""
+    """Run the trials with the journal, and write each trial to the table."""
     from geartrain.workshop.monte_carlo.trial_run import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
@@ -150,12 +150,14 @@ def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: Tr
 
 
 def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
-    """Return the sink of the plot; refuse an unknown picture or a file that cannot be written before the trials run."""
+    """Return the destination of the plot; reject an unknown picture or a file that cannot be written before the trials
+    run.
+    """
     if plot is not None:
         from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
 
         if picture not in ALL:
-            raise option_error("--picture", f"'{picture}' is not a picture", suggest(picture, ALL))
+            raise option_error("--picture", f"'{picture}' is not a kind of picture", suggest(picture, ALL))
     return picture_sink(plot, force, theme)
 
 

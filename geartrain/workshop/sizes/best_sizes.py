@@ -36,7 +36,7 @@ _CELLS, _NODES = 24, 4  # cells of each smooth interval, and Gauss nodes in each
 
 @dataclass(frozen=True)
 class BestToothSizes(Tabular, Pictured, Result):
-    """Best sizes of a pair with triangular teeth, and designs for comparison.
+    """Best sizes of a pair with triangular teeth, with other designs for comparison.
 
     See Also
     --------
@@ -61,27 +61,27 @@ class BestToothSizes(Tabular, Pictured, Result):
     )
 
     aims: tuple[str, ...]
-    """Objectives: one of `loss`, `error`, `impact`, `jam`, or two for a Pareto front."""
+    """Objectives: one of `loss`, `error`, `impact` and `jam`, or two of them for a Pareto front."""
     free: Mapping[str, Range]
     """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
-    """Limits on the designs."""
+    """Limits that the designs must satisfy."""
     best: ToothSizes
     """Best design for the first objective."""
     outlines: OutlineAgreement
-    """Comparison of the best design with the contact of its drawn outlines."""
+    """Comparison of the best design with the results from its drawn outlines."""
     equal_depth: ToothSizes | None
-    """Pair with radii of equal depth, and the window and half angles of `start`; None if it does not turn."""
+    """Pair with radii of equal depth, and with the window and half angles of `start`; None if it does not turn."""
     pitch_true: ToothSizes | None
-    """Pair with pitch-true radii, and the window and half angles of `start`; None if it does not turn."""
+    """Pair with pitch-true radii, and with the window and half angles of `start`; None if it does not turn."""
     front: tuple[ToothSizes, ...]
-    """Pareto front of two objectives, from the best design in the first to the best in the second; empty for one
-    objective.
+    """Pareto front of two objectives, from the best design for the first to the best design for the second; empty for
+    one objective.
     """
     evaluations: int
     """Number of designs evaluated."""
     stops: float | None
-    """Probability that the best design stops, 0 to 1; None if it was not limited."""
+    """Probability that the best design stops, 0 to 1; None if no limit on it was given."""
     tried: tuple[ToothSizes, ...]
     """Evaluated designs that turn and satisfy all limits."""
 
@@ -125,7 +125,7 @@ def find_tooth_sizes(
     probability: ProbabilityLimit | None = None,
     on_design: Callable[[], None] = lambda: None,
 ) -> BestToothSizes:
-    """Find the radii, clearance and half angle that optimise a pair with triangular teeth.
+    """Find the radii, clearance and half angle of a pair with triangular teeth that optimise one or two objectives.
 
     Parameters
     ----------
@@ -137,16 +137,16 @@ def find_tooth_sizes(
         Bounds of the free parameters `radii`, `window`, `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
         default only the radii are free.
     limits : sequence of SizeLimit
-        Limits on the design.
+        Limits that the design must satisfy.
     probability : ProbabilityLimit, optional
         Limit on the probability that the pair with cutting errors stops; only with one objective.
     on_design : callable
-        Callback after each design that is evaluated.
+        Progress function, called after each evaluated design.
 
     Returns
     -------
     BestToothSizes
-        Best design, verified by the contact of its outlines.
+        Best design, verified by the contact of its drawn outlines.
 
     Raises
     ------
@@ -201,7 +201,7 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
       If objectives or bounds are invalid.
     """
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
-        what = f"'{', '.join(aims)}' is not an objective or two different objectives"
+        what = f"'{', '.join(aims)}' does not name one objective or two different objectives"
         raise QuestionError(
             Problem(
                 what,
@@ -212,7 +212,9 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
     if "loss" in aims and not start.friction:
         what = "the loss cannot be minimised without friction"
         raise QuestionError(
-            Problem(what, "the loss of any teeth is 0", "give a friction above 0, or another objective")
+            Problem(
+                what, "without friction the loss is 0 for all teeth", "give a friction above 0, or another objective"
+            )
         )
     return checked_ranges(free)
 
@@ -222,8 +224,8 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Properties of a design from its transmission function, compared with those from the contact of its drawn
-    outlines.
+    """Properties of a design computed from its transmission function and from the contact of its drawn outlines, for
+    comparison.
 
     See Also
     --------
@@ -235,19 +237,18 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Transmission error, peak to peak, from the transmission function and from the outlines [rad of the driven
-    wheel].
+    """Peak-to-peak transmission error from the transmission function and from the outlines [rad of the driven wheel].
     """
     impact: tuple[float, float]
     """Impact loss from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]
     """Backlash from the transmission function and from the outlines [rad of the driven wheel]."""
     turns: bool
-    """True if the outlines turn without a jam and without loss of contact."""
+    """True if the outlines turn without a jam and without a loss of contact."""
 
     @property
     def difference(self) -> float:
-        """Maximum of the relative `differences` [1]."""
+        """Maximum of `differences` [1]."""
         return max(self.differences.values())
 
     @property

@@ -65,7 +65,7 @@ class ToothSizes(Result):
     teeth: tuple[int, int]
     """Numbers of teeth of the first and the second wheel."""
     radii: float
-    """Ratio of the tip radii R2/R1 divided by the ratio of teeth z2/z1; 1 is pitch-true [1]."""
+    """Ratio of the tip radii R2/R1 divided by the ratio of tooth numbers z2/z1 [1]; 1 is pitch-true."""
     window: float
     """Position of the clearance in the clearance window: 0 at the jam, 1 at the loss of contact [1]."""
     half_angles: tuple[float, float]
@@ -75,7 +75,7 @@ class ToothSizes(Result):
     driver: int = 1
     """Number of the driving wheel, 1 or 2."""
     ring: Literal[0, 1, 2] = 0
-    """Number of the internal wheel, 1 or 2; 0 for an external pair."""
+    """Number of the wheel that is a ring gear, 1 or 2; 0 for an external pair."""
 
     def __post_init__(self) -> None:
         # convert NumPy scalars to plain numbers, with which scalar code is faster
@@ -103,7 +103,7 @@ class ToothSizes(Result):
         )
 
     def parameter(self, name: str) -> float:
-        """Return the value of one of the `PARAMETERS`; for `half_angle`, the half angle of the first wheel [rad].
+        """Return the value of one of the `PARAMETERS`; for `half_angle`, of the first wheel [rad].
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class ToothSizes(Result):
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
-        """Clearance window; None if teeth with these sizes do not exist."""
+        """Clearance window of the pair; None if teeth with these sizes do not exist."""
         try:
             return find_window(self._unplaced) if self._unplaced.has_valleys else None
         except GearTrainError:
@@ -127,7 +127,7 @@ class ToothSizes(Result):
 
     @cached_property
     def transmission(self) -> TriangularTransmission | None:
-        """Transmission function; None if the pair does not turn at any clearance."""
+        """Transmission function of the pair; None if the pair does not turn at any clearance."""
         if self.limits is None or not self.limits:
             return None
         sizes = self._unplaced.at(self.limits.at(self.window))
@@ -144,7 +144,7 @@ class ToothSizes(Result):
 
     @property
     def sizes(self) -> TriangularSizes:
-        """Radii and centre distance of a pair that turns; the driver is first."""
+        """Radii and centre distance of a pair that turns, with the driver first."""
         assert self.transmission is not None
         return self.transmission.sizes
 
@@ -174,13 +174,13 @@ class ToothSizes(Result):
 
     @cached_property
     def impact(self) -> float:
-        """Energy that impacts dissipate in a pitch, divided by the kinetic energy of the driven side [1]."""
+        """Energy dissipated by impacts within a pitch, divided by the kinetic energy of the driven side [1]."""
         assert self.transmission is not None
         return impact_of(self.transmission)
 
     @cached_property
     def jam(self) -> float:
-        """Margin before a jam or a loss of contact: maximum permissible change of the centre distance [module]."""
+        """Margin to a jam or a loss of contact: maximum permissible change of the centre distance [module]."""
         assert self.limits is not None
         # distance to the nearer end of the window: a jam on one side, loss of contact on the other
         sizes, nearest = self.sizes, min(self.window, 1 - self.window)
@@ -201,12 +201,12 @@ class ToothSizes(Result):
 
     @property
     def phases(self) -> str:
-        """Phases of the path of contact, in their order."""
+        """Phases of the path of contact, in order."""
         assert self.transmission is not None
         return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
-        """Return the value of an objective, to be minimised; infinite if the pair does not turn.
+        """Return the value of an objective to be minimised; infinite if the pair does not turn.
 
         Parameters
         ----------
@@ -254,7 +254,7 @@ class SizeLimit(Result):
         check_choice("limit", self.figure, self.FIGURES)
 
     def excess(self, sizes: ToothSizes) -> float:
-        """Return the excess over the limit of a design that turns; 0 or less if the limit is satisfied.
+        """Return the amount by which a design that turns exceeds the limit; 0 or less if the limit is satisfied.
 
         Parameters
         ----------

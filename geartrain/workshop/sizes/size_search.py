@@ -173,7 +173,11 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
             raise QuestionError(
-                Problem(what, "the lower bound comes first", f"give two bounds from {minimum:g} to {most:g}")
+                Problem(
+                    what,
+                    "the lower bound must be below the upper bound, and both must be in the permitted range",
+                    f"give bounds from {minimum:g} to {most:g}",
+                )
             )
         found[name] = (float(low), float(high))
     if not found:
@@ -192,7 +196,8 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors stops. It is too expensive to evaluate for every design.
+    """Limit on the probability that a pair with cutting errors stops. It is only evaluated for the best designs,
+    because it is expensive.
 
     See Also
     --------
@@ -207,7 +212,7 @@ class ProbabilityLimit:
 
 @dataclass(frozen=True)
 class PairTrials:
-    """Monte Carlo trials of single pairs, all with the same errors and the same seed.
+    """Monte Carlo trials of single pairs, which all have the same errors and the same seed.
 
     See Also
     --------
@@ -224,11 +229,13 @@ class PairTrials:
     """
 
     errors: Sequence[ErrorOverride]
-    """Errors of cutting and fitting; `read_error_overrides` parses them from text."""
+    """Cutting and mounting errors; `read_error_overrides` parses them from text."""
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
-    """Random seed of the trials. It is the same for all pairs, so that their results differ only by the sizes."""
+    """Random seed of the trials. It is the same for all pairs, so that differences between results are only due to the
+    sizes.
+    """
 
     def stops(self, sizes: ToothSizes) -> float:
         """Return the fraction of trials in which the pair jams or clashes, 0 to 1.

@@ -57,7 +57,7 @@ _WORST = 4.0  # multiple of the best value up to which designs are shown
 
 
 def tooth_sizes_figure(found: BestToothSizes) -> Figure:
-    """Draw the best sizes of a pair with triangular teeth among all evaluated designs.
+    """Draw the best sizes of a pair with triangular teeth, and all evaluated designs.
 
     Parameters
     ----------
@@ -67,8 +67,8 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        For one objective, a panel for each free size. For two, the Pareto front, by itself and among all designs. Radii
-        of equal depth and pitch-true radii are marked.
+        For one objective, a panel for each free parameter. For two objectives, a panel with the Pareto front, and a
+        panel with all designs. Radii of equal depth and pitch-true radii are marked.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best sizes of its teeth; the worst declared pair is at the
+    """Draw the improvement of each pair of a train by the best sizes of its teeth, with the worst declared pair at the
     top.
 
     Parameters
@@ -106,8 +106,8 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with a line for each pair from its declared value to the value that is best for the train; the title has
-        the objective of the train before and after.
+        Figure with a line for each pair, from its declared value to the value that is best for the train. The title
+        contains the objective of the train before and after the optimisation.
 
     Examples
     --------

@@ -50,27 +50,28 @@ def find_train_sizes(
     state: str | None = None,
     on_step: OnStep = lambda: None,
 ) -> BestTrainSizes:
-    """Find the sizes of triangular teeth that minimise the loss of a train up to an output, or the error of this
-    output.
+    """Find the sizes of the triangular teeth of a train that optimise one objective at an output: loss, error, impact
+    or jam margin.
 
     Parameters
     ----------
     train : GearTrain
-        Train with triangular teeth on some pairs.
+        Train in which some pairs have triangular teeth.
     output : str
         Name of an output or a link.
     aim : str
-        Objective: `loss` or `error` of the train at the output; `impact`, the sum over the pairs on the way; or `jam`,
-        their minimum margin.
+        Objective: `loss` or `error` of the train at the output, which is minimised; `impact`, the sum of the impacts of
+        the pairs on the path to the output, which is minimised; or `jam`, the minimum margin of these pairs, which is
+        maximised.
     free : mapping of str to (float, float), optional
-        Bounds as in `find_tooth_sizes`. Pairs with common wheels have a common half angle, which is free if all of them
-        are sized.
+        Bounds as in `find_tooth_sizes`. Pairs with common wheels have a common half angle, which is free if all of
+        these pairs are optimised.
     limits : sequence of SizeLimit
         Limits for each pair.
     state : str, optional
         Name of a declared state, by default the first.
     on_step : callable
-        Callback after each evaluation of the train, and after each pair that is optimised separately.
+        Progress function, called after each evaluation of the train and after each pair that is optimised separately.
 
     Returns
     -------
@@ -80,7 +81,7 @@ def find_train_sizes(
     Raises
     ------
     QuestionError
-        If no pair with triangular teeth acts on the output, or no sizes turn.
+        If the output does not depend on a pair with triangular teeth, or if the pairs turn with no sizes.
 
     Notes
     -----
@@ -97,7 +98,7 @@ def find_train_sizes(
         raise QuestionError(
             Problem(
                 f"'{aim}' is not an objective",
-                "the sizes minimise one property of the train",
+                "sizes are optimised for one property of the train",
                 f"use one of {', '.join(AIMS)}",
             )
         )
@@ -360,7 +361,7 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: as declared, best separately, and best for the train.
+    """Sizes of one pair of a train: as declared, optimised separately, and optimised for the train.
 
     See Also
     --------
@@ -376,13 +377,13 @@ class PairSizes(Result):
     before: ToothSizes
     """Sizes as declared."""
     apart: ToothSizes
-    """Best sizes for the pair optimised separately."""
+    """Best sizes of the pair if it is optimised separately."""
     together: ToothSizes
     """Best sizes of the pair for the whole train."""
     runs: bool
     """True if the pair turns as declared."""
     outlines: OutlineAgreement
-    """Comparison of the best sizes for the train with the contact of their drawn outlines."""
+    """Comparison of the best sizes for the train with the results from their drawn outlines."""
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -397,7 +398,7 @@ class PairSizes(Result):
 
 @dataclass(frozen=True)
 class BestTrainSizes(Tabular, Pictured, Result):
-    """Best sizes of the triangular teeth of a train, and their improvement of the objective.
+    """Best sizes of the triangular teeth of a train, and the objective before and after the optimisation.
 
     See Also
     --------
@@ -437,18 +438,18 @@ class BestTrainSizes(Tabular, Pictured, Result):
     before: float | None
     """Objective of the train as declared; None if the train does not run.
 
-    It is the loss [1], the peak-to-peak error [rad], the sum of impacts [1], or the minimum margin [module].
+    The objective is the loss [1], the peak-to-peak error [rad], the sum of impacts [1], or the minimum margin [module].
     """
     apart: float
     """Objective of the train, in the unit of `before`, with each pair optimised separately."""
     together: float
     """Objective of the train, in the unit of `before`, with all pairs optimised together."""
     pairs: tuple[PairSizes, ...]
-    """Sizes of the pairs that act on the output."""
+    """Sizes of the pairs on which the output depends."""
     untouched: Mapping[str, str]
-    """Reason why a pair with a tooth form is unchanged, by the name of the pair."""
+    """Pair with a tooth form -> reason why it is unchanged."""
     declaration: Mapping[str, Any]
-    """Declaration that extends the given train with the best sizes."""
+    """Declaration with the best sizes, which extends the given train."""
 
     def _summary(self) -> str:
         before = "does not turn" if self.before is None else f"{self.before:.4g}"
@@ -456,8 +457,8 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for each pair: sizes as declared (if the pair turns), best separately, and best for the
-        train.
+        """Table with rows for each pair: sizes as declared (if the pair turns), optimised separately, and optimised for
+        the train.
         """
         rows = [
             (pair.name, name, sizes)

@@ -1,4 +1,4 @@
-"""Commands `geartrain optimise` and `geartrain mesh --objective`: optimum sizes of triangular teeth."""
+"""Commands `geartrain optimise` and `geartrain mesh --objective`: optimal sizes of triangular teeth."""
 
 from __future__ import annotations
 
@@ -48,15 +48,19 @@ _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 
 def run(
     file: File,
-    output: Annotated[str, typer.Option("--of", help="Output or link whose loss or error is optimised.")],
+    output: Annotated[str, typer.Option("--of", help="Output or link for which the objective is optimised.")],
     best: Annotated[
-        str, typer.Option("--objective", help="Minimise loss, error or impact, or maximise the jam margin.")
+        str,
+        typer.Option(
+            "--objective", help="Objective: minimise loss, error or impact, or maximise the jam margin (jam)."
+        ),
     ] = "loss",
     free: Annotated[
         list[str] | None,
         typer.Option(
             "--free",
-            help="Free parameter NAME or NAME=LOW:HIGH: radii, window or half_angle; may be repeated. Default: radii.",
+            help="Parameter to vary, NAME or NAME=LOW:HIGH: radii, window or half_angle; may be repeated; "
+            "default: radii.",
         ),
     ] = None,
     within: Annotated[
@@ -67,15 +71,13 @@ def run(
         ),
     ] = None,
     state: FirstState = None,
-    plot: Annotated[
-        Path | None, typer.Option("--plot", help="Write a plot of the improvement of each pair to this file.")
-    ] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Plot the improvement of each pair to this file.")] = None,
     json: Json = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Optimise the triangular teeth of a train, pair by pair and together; -o FILE.yaml writes a declaration.
+    """Optimise the triangular teeth of a train, first pair by pair, then together; -o FILE.yaml writes a declaration.
 
     Example: `geartrain optimise moon-triangular --of moon --objective jam --free window`.
     """
@@ -102,7 +104,7 @@ def run(
 
 
 def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
-    """Write the train that extends the given one: by its name if it is shipped, else by its path."""
+    """Write a declaration that extends the given train, by its name if it is shipped, else by its path."""
     from geartrain.train.yaml_nodes import as_yaml
 
     parent = file
@@ -116,9 +118,7 @@ def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
 
 @dataclass(frozen=True)
 class SizeQuestion:
-    """Options of `--objective`: one objective or two separated by a comma, free parameters, limits, and errors of the
-    wheels.
-    """
+    """Options of `--objective`: one or two objectives, free parameters, limits, and cutting errors."""
 
     best: str | None
     free: tuple[str, ...]
@@ -161,7 +161,9 @@ class SizeQuestion:
         given = [text.partition("=")[2] for text in self.within if _is_probability(text)]
         if bool(given) != bool(self.errors):
             if given:
-                raise option_error("--within", "stops needs cutting errors", "give --cutting 'pitch_deviation=1 %' too")
+                raise option_error(
+                    "--within", "the limit `stops` needs cutting errors", "give --cutting 'pitch_deviation=1 %' too"
+                )
             raise option_error("--cutting", "no limit depends on cutting errors", "give --within stops=5% too")
         if not given:
             return None
@@ -173,18 +175,18 @@ class SizeQuestion:
 
 
 def _is_probability(text: str) -> bool:
-    """Return whether the limit requires trials."""
+    """Return True if a limit applies to the probability of stops, which requires trials."""
     return text.partition("=")[0].strip() == "stops"
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the pair given by options, with the clearance by default in the middle of the window."""
+    """Return the pair described by options; by default its clearance is in the middle of the clearance window."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")
     for name in pair.own:
         if name in CLEARANCES and name != "window":
-            why = "the clearance window depends on the radii, so a fixed clearance would leave it"
+            why = "the clearance window depends on the radii, so a fixed clearance could lie outside it"
             what = f"{name} cannot be combined with --objective"
             raise GearTrainError(Problem(what, why, "give -p window=0.5", f"-p {name}"))
     shape = {name: text for name, text in pair.own.items() if name != "window"}
@@ -205,7 +207,7 @@ def _start(pair: PairRequest) -> ToothSizes:
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
-    """Parse NAME or NAME=LOW:HIGH to bounds by name; by default the radii are free."""
+    """Parse texts NAME or NAME=LOW:HIGH to a mapping from name to bounds; without texts, the radii are free."""
     found: dict[str, tuple[float, float] | None] = {}
     for text in given or ("radii",):
         name, equals, rest = text.partition("=")
@@ -224,7 +226,7 @@ def _bound(name: str, text: str) -> float:
 
 
 def read_limits(given: Sequence[str]) -> list[SizeLimit]:
-    """Parse NAME=LIMIT: a maximum or a minimum, depending on the figure."""
+    """Parse texts NAME=LIMIT; each limit is a maximum or a minimum, depending on the quantity."""
     from geartrain.workshop.sizes.size_design import SizeLimit
 
     found = []

@@ -220,7 +220,7 @@ def _findings(
     if ratio is not None and ratio < _EASY_RATIO:
         level: BuildLevel = "error" if ratio < _WHOLE else "note"
         why = (
-            "a tooth pair separates before the next one meets"
+            "a tooth pair leaves contact before the next one engages"
             if ratio < _WHOLE
             else "wear or a larger centre distance can reduce it below 1"
         )

@@ -46,7 +46,7 @@ _SHARE = 1e-6  # of the smaller part: a larger common volume is not a sliver
 
 @dataclass(frozen=True, slots=True)
 class TrainProof(Result):
-    """Result of the proof of a train: measured values and findings.
+    """Result of the proof that a train can be made and can turn: measured values and findings.
 
     See Also
     --------
@@ -56,11 +56,11 @@ class TrainProof(Result):
     KEYS = (Key("ready", "is_ready"), "verdict", "meshes", "links", "findings")
 
     meshes: tuple[MeshProof, ...]
-    """Measured values of every pair of cut wheels."""
+    """Measured values of every pair of wheels that are cut."""
     links: tuple[LinkFreedom, ...]
-    """Freedom of every link that turns."""
+    """Freedom of motion of every link that turns."""
     findings: tuple[BuildFinding, ...]
-    """Findings: errors first, then notes on parts that are risky or could not be checked."""
+    """Findings: first errors, then notes on parts that are risky or could not be checked."""
 
     @property
     def is_ready(self) -> bool:
@@ -69,7 +69,7 @@ class TrainProof(Result):
 
     @property
     def verdict(self) -> str:
-        """Verdict in one sentence."""
+        """Verdict as one sentence."""
         errors = build_errors(self.findings)
         if not errors:
             return "ready to cut"
@@ -78,14 +78,14 @@ class TrainProof(Result):
 
 
 def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> TrainProof:
-    """Return a proof that the written parts of a train can turn, mesh by mesh and as a whole.
+    """Check whether the exported parts of a train can turn, mesh by mesh and as a whole.
 
     Parameters
     ----------
     work : SolidModel
-        The train and its sizes.
+        Solid model of the train.
     watch : callable, optional
-        Callback after each of `proof_steps` steps.
+        Progress function, called after each of `proof_steps` steps.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def proof_is_installed() -> bool:
 
 
 def proof_steps(work: SolidModel) -> int:
-    """Return the number of calls of `watch` by `prove_train`."""
+    """Return the number of times that `prove_train` calls `watch`."""
     return len(work.blanks.backlashes) + 1 + pose_count(work)
 
 

@@ -49,8 +49,8 @@ class Epoch(Declared):
     """Date at a given position of the train: number of turns of the input since all pointers were at the start of their
     scales.
 
-    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar and later ones
-    in the Gregorian calendar, unless `calendar` is given. In a declaration, a plain text is read as the date.
+    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
+    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a plain text is read as the date.
 
     See Also
     --------

@@ -427,7 +427,7 @@ SOURCE = Source(
     "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
     "The copy consists of the abstract with the contexts of its references; equations are numbered as in the full "
     "note, whose PostScript was published by its author. The equations are evaluated on finished spur and bevel "
-    "profiles of 24 and 36 teeth (involute, uniform stress and uniform temperature). Points of both teeth are turned to the "
-    "positions at which they touch, and derivatives are computed numerically.",
+    "profiles of 24 and 36 teeth (involute, uniform stress and uniform temperature). Points of both teeth are turned "
+    "to the positions at which they touch, and derivatives are computed numerically.",
     tuple(row for part in _PARTS for row in part()),
 )

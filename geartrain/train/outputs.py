@@ -427,8 +427,8 @@ class Output(Declared):
     dial: Id | None = Field(None, description="Name of the dial on which the output is read")
     hand: Literal["needle", "hour", "minute", "seconds"] = Field(
         "needle",
-        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or thin with a "
-        "counterpoise (seconds)",
+        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or a thin hand "
+        "with a counterpoise (seconds)",
     )
     note: str | None = Field(None, description="Remark for readers")
 

@@ -78,8 +78,8 @@ class Triangular(ToothForm):
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,
-        description="Rule for the tip radii, or the two radii, or one number: the ratio of the second radius to the "
-        "first divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with "
+        description="Rule for the tip radii, the two radii themselves, or one number: the ratio of the second radius to "
+        "the first divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with "
         "a ring",
     )
 

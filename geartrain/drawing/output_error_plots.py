@@ -214,7 +214,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
-    kind = "transmission error" if motion._problem.rippling else "anomaly"
+    kind = motion._problem.deviation
     for tally, start, part, first in zip(motion._statistics(), motion._start_angles, parts, firsts, strict=True):
         turns, error, rate = (np.concatenate(column) for column in zip(*part, strict=True))
         mean = start / (2 * np.pi) + tally.mean * turns

@@ -249,11 +249,6 @@ def ripples(train: GearTrain) -> bool:
 _ABREAST = 8  # outputs in one table
 
 
-def deviation_name(motion: Motion) -> str:
-    """Return the name of the outputs' deviations: transmission error with real teeth, anomaly without."""
-    return "transmission error" if motion._problem.rippling else "anomaly"
-
-
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
     """Return a document on the deviation and speed of each output over a run, with the further requested results.
 
@@ -286,8 +281,12 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
     train, period = run.motion._problem, run.motion.period
     summary = [
         f"{run.turns:g} turns of '{train.driving_link}', {run.done} positions. Speeds are relative to the speed of "
-        f"'{train.driving_link}'; the {deviation_name(run.motion)} is the angle minus its mean motion."
+        f"'{train.driving_link}'; the {train.deviation} is the angle minus its mean motion."
     ]
+    if train.deviation == "deviation":
+        summary.append(
+            "A deviation includes the anomaly of pins, which is designed, and the transmission error of teeth."
+        )
     if run.done < run.samples:
         summary.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
@@ -316,7 +315,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
     """Yield sections on the outputs, on the pairs that cause their deviations, and on the requested further results."""
-    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics, deviation_name(run.motion)),))
+    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics, run.motion._problem.deviation),))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
     if rigid := _rigid(run.motion._problem.rigid):
@@ -324,7 +323,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
     if run.phase_statistics:
         yield _random_phases(run)
     if run.estimates:
-        yield _estimates(run.estimates, deviation_name(run.motion))
+        yield _estimates(run.estimates, run.motion._problem.deviation)
     for name, lines in run.spectra.items():
         if lines:
             yield _spectrum(name, lines)
@@ -347,7 +346,7 @@ def moving_sections(
         holds: tuple[str, ...] = ()
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
-        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run), deviation_name(run.motion)),))
+        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run), run.motion._problem.deviation),))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -413,7 +412,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
     motion = run.motion
     moved = [name for name in motion.outputs if any(motion.sensitivity[name][each.id] for each in motion._forward.used)]
     shown = moved if every_output else moved[:_ABREAST]
-    own = "transmission error" if motion._problem.rippling else "anomaly"
+    own = motion._problem.deviation
     text = [f"Contribution of each pair to an output: the range of its own {own} times the output's sensitivity to it."]
     if still := [name for name in motion.outputs if name not in moved]:
         text.append(f"No pair affects {', '.join(still)}.")
@@ -443,7 +442,7 @@ def _random_phases(run: MotionRun) -> Section:
         errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
         lows, highs = zip(*(each.speeds for each in sets), strict=True)
         rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
-    header = ("output", *_deviation_heads(deviation_name(run.motion)), "speed over its mean")
+    header = ("output", *_deviation_heads(run.motion._problem.deviation), "speed over its mean")
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))
 

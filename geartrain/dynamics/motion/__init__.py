@@ -1,10 +1,12 @@
 """Transmission errors of teeth and pins, and the motion of a train that results from them.
 
-motion_problem, motion_model              data of a train; motion as a function of the input position pair_errors,
-error_propagation            errors of pairs as sources; their propagation to the links error_composition
-errors along the order of solution compiled_composition                      the same calculation as a compiled kernel
+motion_problem, motion_model              data of a train; motion as a function of the input position
+pair_errors, error_propagation            errors of pairs as sources; their propagation to the links
+error_composition                         errors along the order of solution
+compiled_composition                      the same calculation as a compiled kernel
 motion_run, run_statistics                run over some revolutions, its spectrum by exact orders; peaks and moments
-extreme_search, rate_bounds               extremes between the positions of a run, with bounds kink_positions
-positions of kinks of transmission functions superposition                             fast first-order estimates
+extreme_search, rate_bounds               extremes between the positions of a run, with bounds
+kink_positions                            positions of kinks of transmission functions
+superposition                             fast first-order estimates
 pair_impacts                              energy of tooth impacts
 """

@@ -52,6 +52,13 @@ class MotionProblem:
     """Loops with redundant pairs, around which real teeth may contradict each other."""
 
     @property
+    def deviation(self) -> str:
+        """Name of the angle of an output minus its mean motion: transmission error of teeth, anomaly of pins, or
+        deviation if both contribute.
+        """
+        return ("deviation" if self.pins else "transmission error") if self.rippling else "anomaly"
+
+    @property
     def way(self) -> int:
         """Sign of the driving link's speed about its own axis; revolutions and angles are positive in its sense."""
         return -1 if self.speeds[self.driving_link] < 0 else 1

@@ -3,8 +3,9 @@
 load_case                            train in one state with its loads; check of equilibrium by virtual work
 torque_balance, flow_patterns        balance of every link; patterns of power flow consistent with the losses
 mean_efficiencies                    mean efficiency of each pair, depending on which of its torques is constant
-torque_analysis                      from a declared train to its torques and their verdict torque_results
-results; torques on single links and pairs power_flow                           power flow of a result: streams and
-recirculating power drivers                              driving side of each pair neglected_effects
-effects that a balance of mean torques neglects
+torque_analysis                      from a declared train to its torques and their verdict
+torque_results                       results; torques on single links and pairs
+power_flow                           power flow of a result: streams and recirculating power
+drivers                              driving side of each pair
+neglected_effects                    effects that a balance of mean torques neglects
 """

@@ -60,9 +60,6 @@ def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = F
 
     It lists similar known names, otherwise it is `otherwise`, otherwise it lists all known names if there are at
     most 30.
-
-    It lists similar known names, otherwise it is `otherwise`, otherwise it lists all known names if there are at
-    most 30.
     """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):

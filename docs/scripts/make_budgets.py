@@ -143,7 +143,7 @@ def published(rows: dict[str, TrainRow]) -> list[str]:
     text = f"extends: {REFERENCE}\nname: {REFERENCE}-pitch-true\n{PITCH_TRUE}\n"
     true = find_budget(geartrain.load(text), BudgetQuestion(outputs=("moon",), samples=REQUESTED.samples))
     jams = [case.events["jam"].value for case in budget.jams]
-    lines = ["| statement | here |", "|---|---|"]
+    lines = ["| statement | result |", "|---|---|"]
     figures = {
         "moon": budget["moon"],
         "saros": budget["saros"],
@@ -177,9 +177,9 @@ def digits(value: float) -> str:
 
 HEAD = """# Budgets of the pointers
 
-How large is the error of a pointer, and what causes it? `geartrain budget TRAIN` computes five causes separately, in
-degrees at the pointer and in days, and sorts them by size. Data that a train does not declare are reported as "not
-declared" and never counted as 0.
+How large is the error of a pointer, and what causes it? `geartrain budget TRAIN` computes the contributions of five
+causes separately, in degrees at the pointer and in days, and sorts them by size. If the data for a cause are not
+declared, the command reports "not declared"; it never counts the cause as 0.
 
 ![Causes of the error of each pointer of freeth-2021](images/budget.svg)
 
@@ -187,7 +187,7 @@ declared" and never counted as 0.
 
 ## Run it
 
-The train `freeth-2021` declares no tooth form. Extend it by the teeth that you assume:
+The train `freeth-2021` declares no tooth form. Extend it with the teeth that you assume:
 
 <!-- file: assumed.yaml -->
 ```yaml
@@ -199,66 +199,69 @@ ASSUMED
 $ geartrain budget assumed.yaml --of moon
 ```
 
-`--span` sets the time over which ratios drift, by default one Saros of 6585.3213 days. `--plot budget.svg` draws the
-picture above.
+`--span` sets the time over which the errors of ratios accumulate, by default one Saros of 6585.3213 days.
+`--plot budget.svg` draws the picture above.
 
 ## Causes
 
-| cause | meaning | degrees printed |
+| cause | meaning | printed value, in degrees |
 |---|---|---|
 | ratio | the mean speed differs from the target | drift over the span |
 | theory | the anomaly of the pins differs from the true motion of Moon or Sun | peak to peak, at the best phase |
-| teeth | transmission error of perfect teeth | peak to peak |
-| lost motion | backlash of the teeth when the crank turns back | maximum |
+| teeth | transmission error of perfectly made teeth | peak to peak |
+| lost motion | backlash of the teeth if the crank is turned back | maximum |
 | cutting | cutting errors of the wheels | central 95 % range of the Monte Carlo trials |
 
-**Ratio.** A pointer of mean speed $w$ (turns per unit of time) with the target $t$ gains over a time $T$
+**Ratio.** If $w$ is the mean speed of a pointer (turns per unit of time) and $t$ its target, the pointer gains in the
+time $T$ the angle
 
 $$ 360^\\circ\\,(|w| - |t|)\\,T, \\tag{1} $$
 
-computed exactly and compared with the shipped [periods](reference.md). If a pointer has several targets, an observed
-period takes precedence over a relation that the makers intended.
+which is computed exactly. A target is a declared period or speed, such as a period that `geartrain periods` lists. If
+a pointer has several targets, an observed period takes precedence over a relation that the makers intended.
 
-**Theory.** With perfect teeth, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The true
-motion has the equation of centre $C(M) = \\nu - M$ at the mean anomaly $M$. The true anomaly $\\nu$ follows from
-Kepler's equation $M = E - e \\sin E$ and $\\tan(\\nu/2) = \\sqrt{(1 + e)/(1 - e)} \\tan(E/2)$, with eccentricities
-$e$ of 0.0549 for the Moon and 0.0167 for the Sun. The error is
+**Theory.** If the teeth are perfect, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The
+equation of centre of the true motion is $C(M) = \\nu - M$, where $M$ is the mean anomaly. The true anomaly $\\nu$
+follows from Kepler's equation $M = E - e \\sin E$ and $\\tan(\\nu/2) = \\sqrt{(1 + e)/(1 - e)} \\tan(E/2)$, where the
+eccentricity $e$ is 0.0549 for the Moon and 0.0167 for the Sun. The error is
 
 $$ d(\\varphi) - C(\\varphi + s) - \\text{mean}, \\tag{2} $$
 
-with the phase $s$ that minimises its mean square. The error of a pointer without pins is all of $C$. If a pointer is
-read against another moving body, both ranges are added. Evection (1.3 degrees) and variation (0.7 degrees) of the
-Moon are not included.
+where $s$ is the phase that minimises the mean square of the error. For a pointer without pins, the error is the whole
+equation of centre $C$. If a pointer is read relative to another moving body, the ranges of both bodies are added.
+Evection (1.3 degrees) and variation (0.7 degrees) of the Moon are not included.
 
-**Teeth and lost motion.** Let $e_f$ be the pointer's error with real teeth and pins on the drive flanks, $e_b$ on the
-coast flanks, and $e_0$ with pins and perfect teeth ([motion](motion.md), equation (3)). Then
+**Teeth and lost motion.** Let $e_f$ be the error of the pointer if real teeth and pins are in contact on their drive
+flanks, $e_b$ the error if they are in contact on their coast flanks, and $e_0$ the error with pins and perfect teeth
+([motion](motion.md), equation (3)). Then
 
 $$ \\text{teeth} = e_f - e_0, \\qquad \\text{lost motion} = |e_b - e_f|. \\tag{3} $$
 
-Backlash between a pin and its slot cannot be declared, so it is reported as unknown.
+The backlash between a pin and its slot cannot be declared, so it is reported as unknown.
 
-**Cutting.** Each Monte Carlo trial draws wheels with cutting errors ([cut by hand](cut-by-hand.md)). If $e_c$ is the
-error of the trial at a random position, the cause is the range from the 2.5th to the 97.5th percentile of
+**Cutting.** In each Monte Carlo trial, the cutting errors of the wheels are drawn at random
+([cut by hand](cut-by-hand.md)). If $e_c$ is the error of the pointer in a trial at a random position, the contribution
+of cutting is the range from the 2.5th to the 97.5th percentile of
 
 $$ e_c - (e_f - e_0), \\tag{4} $$
 
-with a confidence interval from order statistics. If nearly all trials jam, the pushing flanks are followed as if they
-could pass.
+and its confidence interval follows from order statistics. If nearly all trials jam, the errors are computed from the
+pushing flanks as if jamming teeth could pass.
 
-Days are degrees divided by the mean speed of the pointer relative to the body it is read against. The total is the
-sum of the causes, an upper bound.
+The value in days is the value in degrees divided by the mean speed of the pointer relative to the body against which
+it is read. The total is the sum of the contributions of all causes, which is an upper bound of the error.
 
 ## Largest error of each train
 
-The table names, for each shipped train in its first state, the pointer with the largest total error and its two
-largest causes in degrees. "Assumed": the train declares no teeth, and those of the example are assumed, with bearing
-friction at every pointer. "None": triangular teeth with these counts cannot turn.
+For each shipped train in its first state, the table lists the pointer with the largest total error and its two largest
+causes in degrees. "Assumed" means that the train declares no teeth; the teeth of the example are assumed, with bearing
+friction at every pointer. "None" means that triangular teeth with these counts cannot turn.
 """
 
 PUBLISHED = """## Published statements
 
-Several publications judge the accuracy of the mechanism. The figures here are for `freeth-2021` with the assumed
-teeth above. No depth, radius or clearance of a tooth in mesh has survived, so other assumptions give other figures.
+Several publications assess the accuracy of the mechanism. The results in the table are for `freeth-2021` with the teeth
+assumed above. No depth, radius or clearance of a tooth in mesh has survived, so other assumptions give other results.
 """
 
 STATEMENTS = (
@@ -269,33 +272,33 @@ STATEMENTS = (
     ),
     (
         '"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement" (same)',
-        "Confirmed: a pair jams in {jams} % of the trials. It is a few very unequal pairs that jam",
+        "Confirmed: a pair jams in {jams} % of the trials. Only a few pairs of very unequal wheels jam",
     ),
     (
         '"Significant mechanical inaccuracies" besides the errors of theory (Freeth and Jones 2012, second-hand)',
         "Correct for the Moon: teeth {moon_teeth}, cutting {moon_cutting}. Not for Mars: {mars_teeth} and"
-        " {mars_cutting}, against nearly 38 deg of theory",
+        " {mars_cutting}, whereas the theory error is nearly 38 deg",
     ),
     (
         'Inaccuracies "would have cancelled out many of the subtle anomalies" (Wikipedia 2017, second-hand)',
-        "The Moon's anomaly ({uniform_theory} peak to peak) remains visible. Agreement with the true Moon within"
-        " {moon_theory} is not",
+        "Not so for the Moon's anomaly ({uniform_theory} peak to peak), which remains visible. Its agreement with the"
+        " true Moon to within {moon_theory} does not",
     ),
     (
         "The indicated Moon could be wrong by 20 degrees (Edmunds and Freeth 2011, second-hand)",
-        "Reached with cutting errors of 0.3 deg ([cut by hand](cut-by-hand.md)), and with any when the crank turns"
-        " back: {moon_lost_motion}",
+        "Confirmed for cutting errors of 0.3 deg ([cut by hand](cut-by-hand.md)), and for any cutting errors if the"
+        " crank is turned back: {moon_lost_motion}",
     ),
 )
 
-REST = """Lost motion is the largest cause of nearly every pointer, and you avoid it if you always turn forward.
+REST = """Lost motion is the largest error of nearly every pointer. To avoid it, always turn the crank forward.
 
 ## Assumptions
 
-- The driven wheels are braked, so that flanks remain in contact while the crank turns in one direction. Teeth and
-  arbors are rigid. Bearings have no backlash unless `fitting` declares it.
-- The eccentricities are modern values (NASA's planetary fact sheets). The Sun's was 0.0176 two thousand years ago,
-  which changes its equation of centre by a twentieth.
+- The driven wheels are braked, so that the flanks remain in contact while the crank turns in one direction. Teeth and
+  arbors are rigid. Bearings have no clearance unless `fitting` declares it.
+- The eccentricities are modern values (NASA's planetary fact sheets). Two thousand years ago, the eccentricity of the
+  Sun was 0.0176, which changes its equation of centre by one twentieth.
 - The true motion of planets is not modelled.
 
 This page is written by `python docs/scripts/make_budgets.py`.

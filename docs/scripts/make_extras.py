@@ -33,22 +33,22 @@ FOR = {
 
 PAGE_TEXT = """# Extras
 
-Extras are groups of optional packages. Without extras geartrain installs {count:.0f} packages ({size:.0f} MB), which
+Extras are groups of optional packages. Without extras, geartrain installs {count:.0f} packages ({size:.0f} MB). They
 suffice for `solve`, `check`, `report`, `view`, `gearbox`, `inspect`, `torques`, `motion`, `dynamics`, `strength`,
-`reconstruct`, `teeth`, `mesh`, `export` of SVG, STL and GLB, and for the library. A command that needs more prints
-what to install, for example
+`reconstruct`, `teeth`, `mesh`, `export` of SVG, STL and GLB, and for the library. A command that needs more packages
+prints the command that installs them, for example
 
 ```sh
 pip install 'matplotlib>=3.8'
 ```
 
-In a clone of the repository `pip install -e '.[plot]'` installs the same packages.
+In a clone of the repository, `pip install -e '.[plot]'` installs the same packages.
 
 | extra | for | `pip install` | packages added | MB |
 |---|---|---|---:|---:|
 {rows}
 
-Sizes are of installed files, before Python compiles them. Extras share packages, so that several extras need less
+Sizes are given for installed files before Python compiles them. Extras share packages, so that several extras need less
 than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for development: `dev` (810
 MB with the core), `site` for this site, and `ci` for all tests. The table is written by `python
 docs/scripts/make_extras.py --measure`.

@@ -18,7 +18,7 @@ COLUMNS = {
     "frame": lambda row: f"{row.milliseconds:.0f} ms",
     "three.js's example, lamps only": lambda row: f"{row.example_milliseconds:.0f} ms",
     "ratio": lambda row: f"{row.ratio:.2f}",
-    "ratio to one with a room": lambda row: f"{row.room_ratio:.2f}",
+    "ratio to the example with reflections": lambda row: f"{row.room_ratio:.2f}",
     "page": lambda row: f"{row.kilobytes:,.0f} kB",
     "requests": lambda row: str(row.requests),
 }

@@ -21,9 +21,9 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-All shipped trains with the speeds of their first outputs; all are determined unless noted. The
-[site](contributing.md#documentation) shows the plan, the dials, the animated page and the report of each; `geartrain
-view NAME -o x.html` writes the page. The files are in `trains/`; each cites its sources.
+This page lists all shipped trains with the speed of their first output. All trains are determined unless noted. The
+[site](contributing.md#documentation) shows the plan, the dials, the animated page and the report of each train;
+`geartrain view NAME -o x.html` writes the animated page. The files are in `trains/`; each file cites its sources.
 """
 MOST = 1
 
@@ -40,7 +40,7 @@ def page() -> str:
 
 
 def _group(folder: str, title: str) -> Iterator[str]:
-    yield f"\n## {title}\n\n| train | what it is | speeds of outputs |\n|---|---|---|\n"
+    yield f"\n## {title}\n\n| train | what it is | speed of an output |\n|---|---|---|\n"
     for path in sorted((ROOT / "trains" / folder).glob("*.yaml")):
         train = geartrain.load(path)
         answers = list(train.answers())

@@ -20,13 +20,13 @@ SOURCES: tuple[Source, ...] = (sorge.SOURCE, pennestri.SOURCE, smith_rows.SOURCE
 
 HEAD = """# Sources and their errata
 
-Every number, equation and statement of four sources is compared with the computed value. The tests recompute each
-one. A number is reproduced if it is equal within half a unit of the last printed digit, an equation if both sides are
-equal at many positions. "Read" numbers are declared in the shipped train or table, and not computed. The errata of
-each source are numbered; the evidence is the computed value. Errata of the other publications are in the last
-section.
+This page compares every number, equation and statement of four sources with the values that geartrain computes. The
+tests recompute each value. A number counts as reproduced if it is equal to within half a unit of the last printed
+digit, and an equation if its two sides are equal at many positions. A number counts as read if the shipped train or
+table declares it, so that it is not computed. The errata of each source are numbered; their evidence is the computed
+value. The last section lists errata of other publications.
 
-To see how one value is computed, run for example `python docs/scripts/make_sources.py 'Sorge Eq. (12)'`.
+To see how a value is computed, run, for example, `python docs/scripts/make_sources.py 'Sorge Eq. (12)'`.
 """
 
 

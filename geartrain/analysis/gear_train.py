@@ -313,8 +313,8 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with real teeth, each with its transmission function; empty if no pair declares a tooth form.
 
-        The driving side of each pair is that of the first state in which it is determined. `mechanics.meshes_in`
-        returns the pairs of another state.
+        The driving side of each pair is its driving side in the first state in which it is determined.
+        `mechanics.meshes_in` returns the pairs of another state.
         """
         return self.mechanics.meshes
 
@@ -602,8 +602,8 @@ class GearTrain:
         without: Sequence[str] = (),
         fast: bool | None = False,
     ) -> Any:
-        """Build a simulation that advances step by step and can be controlled between steps. The steps are those of
-        `dynamics`.
+        """Build a simulation that advances step by step and can be controlled between steps. The time steps are the
+        same as in `dynamics`.
 
         Parameters
         ----------

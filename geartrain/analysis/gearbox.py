@@ -239,7 +239,9 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
         if name not in engaged and (slip := _slip(speeds, clutch)) is not None
     }
     out, load = speeds.get(link), _load(train, state, source, link) if answer.verdict else None
-    power = None if load is None else _circulation(load)
+    # how equal planets share a load is not determined, but their common power flow is
+    shared = load if train.planets_as_one is train else _load(train.planets_as_one, state, source, link)
+    power = None if load is None or shared is None else _circulation(shared)
     return GearState(
         state,
         engaged,

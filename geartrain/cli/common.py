@@ -70,6 +70,13 @@ def is_sound(train: GearTrain, state: str | None) -> bool:
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
+def exit_code(sound: bool, to: Sink) -> int:
+    """Return the exit code; if the output is a file, report on standard error that a train is not as expected."""
+    if not sound and to.path is not None:
+        tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
+    return GOOD if sound else VERDICT
+
+
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
     """Return the named state, or all states with computable speeds; report each omitted state on standard error."""
     if state is not None:

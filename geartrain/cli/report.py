@@ -15,6 +15,7 @@ from geartrain.cli.common import (
     Out,
     as_json,
     emit,
+    exit_code,
     give,
     is_sound,
     load_all,
@@ -68,7 +69,7 @@ def report(
     else:
         pages = [describe_train(collect_report(train)) for train in trains]
         show(pages if everything else [without_details(page, section or ()) for page in pages], to)
-    raise typer.Exit(GOOD if good else VERDICT)
+    raise typer.Exit(exit_code(good, to))
 
 
 def _shared(train: GearTrain, view: bool) -> Document:

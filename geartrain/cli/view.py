@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import (
-    GOOD,
     INTERRUPTED,
-    VERDICT,
     Fast,
     File,
     Force,
     Sink,
     StateName,
     Without,
+    exit_code,
     file_name,
     is_sound,
     is_standard,
@@ -105,7 +104,7 @@ def view(
         if run is not None and not run.complete:
             tell(f"stopped after {run.turns[-1]:.4g} revolutions; the page shows these revolutions")
             raise typer.Exit(INTERRUPTED)
-    raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in taken) else VERDICT)
+    raise typer.Exit(exit_code(all(is_sound(train, each) for train, each in taken), to))
 
 
 def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, teeth: bool) -> None:

@@ -97,7 +97,7 @@ def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:
-    """Return centres of boxes that do not overlap, in the order of the wanted centres and close to them.
+    """Return centres of boxes that do not overlap, in the order of the wanted centres and as close to them as possible.
 
     needs    width of each box
     bounds   interval that contains the boxes as far as there is space
@@ -118,15 +118,15 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
 
 
 def _first_centre(members: Sequence[int], first: float, needs: Sequence[float], bounds: tuple[float, float]) -> float:
-    """Return the centre of the first box such that a row of boxes is within bounds; too long a row begins at the lower
-    bound.
+    """Return the centre of the first box such that a row of boxes is within bounds. A row that is too long begins at
+    the lower bound.
     """
     most = bounds[1] - needs[members[-1]] / 2 - _offsets(members, needs)[-1]
     return max(min(first, most), bounds[0] + needs[members[0]] / 2)
 
 
 def _offsets(members: Sequence[int], needs: Sequence[float]) -> list[float]:
-    """Return the distance of each box of a row from the first one."""
+    """Return the distance of each box of a row from the first box."""
     steps = [0.0]
     for one, other in pairwise(members):
         steps.append(steps[-1] + (needs[one] + needs[other]) / 2)
@@ -203,7 +203,7 @@ def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
 
 
 def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str = "normal") -> Box:
-    """Return the box of some lines of text centred at a point, with a margin."""
+    """Return the box of lines of text centred at a point, with a margin."""
     wide = max(text_width(line, size, weight) for line in lines)
     return x, y, wide + 0.04, len(lines) * _LINE * size / 72
 
@@ -215,7 +215,7 @@ class LabelSpace:
     taken: dict[tuple[int, int], list[Box]] = field(default_factory=dict)
 
     def free(self, box: Box) -> bool:
-        """Return whether a box shares no area with the occupied boxes."""
+        """Return True if a box does not overlap the occupied boxes."""
         return not any(overlap(box, other) for square in _squares(box) for other in self.taken.get(square, ()))
 
     def take(self, box: Box) -> None:
@@ -233,7 +233,7 @@ class LabelSpace:
 
 
 def _squares(box: Box) -> Iterator[tuple[int, int]]:
-    """Yield the squares of the grid that a box touches."""
+    """Yield the squares of the grid that a box overlaps."""
     x, y, width, height = box
     for across in range(floor((x - width / 2) / _CELL), floor((x + width / 2) / _CELL) + 1):
         for along in range(floor((y - height / 2) / _CELL), floor((y + height / 2) / _CELL) + 1):
@@ -241,7 +241,7 @@ def _squares(box: Box) -> Iterator[tuple[int, int]]:
 
 
 def overlap(one: Box, other: Box) -> float:
-    """Return the area [in^2] that two boxes share."""
+    """Return the area in which two boxes overlap [in^2]."""
     across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
     along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
     return max(across, 0.0) * max(along, 0.0)
@@ -260,7 +260,7 @@ _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 @dataclass(frozen=True, slots=True)
 class Callout:
-    """A line of text, or several lines below each other, with the point of the picture that they name [in]."""
+    """Callout: one or more lines of text, with the point of the picture that they name [in]."""
 
     words: Sequence[tuple[str, str]]
     """Lines of text, each as (identifier of the text in a vector file, text)."""
@@ -332,7 +332,7 @@ class CalloutMargin:
 
 
 def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds: tuple[float, float]) -> CalloutMargin:
-    """Return the callouts in two columns, close to what they name.
+    """Return the callouts in two columns, close to the points that they name.
 
     edges    inner edges of the columns; all anchors lie between them
     bounds   interval of y that contains the callouts as far as there is space
@@ -351,7 +351,9 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the positions of a column close to what is named, ordered so that as few lines as possible cross."""
+    """Return the positions of a column of callouts close to the points that they name, with the minimum number of
+    crossing lines.
+    """
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):

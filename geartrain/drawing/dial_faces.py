@@ -50,7 +50,7 @@ class PointerReading:
     error: float
     """Contribution of the starting angle, teeth and pins [turn], clockwise as read positive."""
     reach: float = 1.0
-    """Length of the hand over the radius of its scale.
+    """Length of the hand divided by the radius of its scale.
 
     The `outline` of the hand has points (x, half the width), both relative to this length.
     """
@@ -58,7 +58,7 @@ class PointerReading:
 
     @property
     def at(self) -> Fraction:
-        """Turns past the zero mark, clockwise as read.
+        """Turns from the zero mark, clockwise as read.
 
         They are exact except for the error, which is rounded. A hand on a line is read in the cell after the line, and
         an error of -1e-17 turns would put it in the cell before.
@@ -68,13 +68,13 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """A face with the pointers that are read on it; `name` is empty for a plain face of one output."""
+    """Face with the pointers that are read on it; `name` is empty for a plain face of one output."""
 
     name: str
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
-    """Text above the face if it is not the name; one dial may surround several axes."""
+    """Text above the face if it differs from the name, because one dial may surround several axes."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
@@ -134,7 +134,9 @@ def _driving_link(scene: Scene) -> str:
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, and for no face or too many."""
+    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, without any face, or for too many
+    faces.
+    """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
@@ -175,7 +177,7 @@ def _dial_picture(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPictu
 
 
 def place(centre: tuple[float, float], radius: float, turn: float | Fraction) -> tuple[float, float]:
-    """Return the point at `radius` about a centre, some turns clockwise from the zero mark at the top."""
+    """Return the point at `radius` about a centre, at a number of turns clockwise from the zero mark at the top."""
     x, y = clock_point(radius, turn)
     return centre[0] + x, centre[1] + y
 
@@ -229,7 +231,7 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre; on a spiral it ends at the winding that it has reached."""
+    """Draw a hand from the centre; on a spiral it ends at the turn of the spiral that it has reached."""
     if reading.turned is None:
         return
     scale = face.scale

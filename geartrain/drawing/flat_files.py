@@ -26,7 +26,7 @@ _STRAIGHT = 1e-9  # bulge below which an arc is drawn as a line
 
 
 def to_svg(drawing: FlatDrawing) -> str:
-    """Return a drawing as SVG: one path to cut, and a group for each layer that is not cut."""
+    """Return a drawing as SVG, with one path to cut and a group for each layer that is not cut."""
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
     lines = [
@@ -79,7 +79,9 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as DXF R2010 with its title as a custom property. Raise `MissingExtraError` without ezdxf."""
+    """Return a drawing as DXF R2010, with its title as a custom property. Raise `MissingExtraError` if ezdxf is not
+    installed.
+    """
     try:
         from ezdxf import units
         from ezdxf.enums import TextEntityAlignment
@@ -125,7 +127,7 @@ def _draw(space: Any, contour: Contour, layer: str) -> None:
 
 
 OUTLINES = (".svg", ".dxf", ".csv")
-"""Suffixes of files with the outline of one wheel."""
+"""Suffixes of files that can contain the outline of one wheel."""
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:

@@ -74,7 +74,7 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """A pair of links of kind revolute, gear or coupling; the label is its axis or the name of the pair."""
+    """Edge between two links, of kind revolute, gear or coupling; its label is the axis or the name of the pair."""
 
     ends: tuple[str, str]
     kind: str
@@ -83,7 +83,7 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return all pairs in declared order; `broken` names the gear pairs and couplings to be marked."""
+    """Return all edges in the declared order; `broken` names the gear pairs and couplings to be marked."""
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -143,7 +143,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of the links [in], and every pair with its curve (3, 2): ends and middle control point."""
+    """Return the positions of the links [in], and every edge with its curve (3, 2): ends and middle control point."""
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
@@ -243,7 +243,7 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the ink of edges under a box with a margin; the edge `own` is not counted."""
+        """Return the ink of edges that is hidden by a box with a margin; the edge `own` is not counted."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
@@ -252,7 +252,7 @@ class _Traces:
 def _draw_labels(
     axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
 ) -> None:
-    """Draw every edge's label on the edge, close to its middle, where it hides as little of other edges as possible.
+    """Draw every edge's label on the edge, close to its middle, where it hides the minimum amount of other edges.
 
     Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no
     position on the edge is free.
@@ -269,8 +269,8 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the positions of a label along its edge, from the middle outwards, each with the ink of other edges it
-    hides.
+    """Return the positions of a label along its edge, from the middle outwards, each with the ink of other edges that
+    it hides.
     """
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
@@ -305,8 +305,8 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw the name of a link next to its vertex, where it hides little ink, on the side where the fewest edges
-    leave.
+    """Draw the name of a link next to its vertex, where it hides little ink, on the side where the fewest
+    edges leave.
     """
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
@@ -323,7 +323,7 @@ def _name_vertex(
 def _free_sides(
     link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]
 ) -> list[tuple[float, float]]:
-    """Return sixteen unit directions, the one farthest from all edges of a vertex first."""
+    """Return sixteen unit directions in descending order of distance from the edges of a vertex."""
     here = np.array(at[link])
     mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
     if not mates:

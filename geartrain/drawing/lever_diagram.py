@@ -33,7 +33,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """A point of a lever: abscissa, members, the brakes and clutches closed at each member, and their speed or None."""
+    """Point of a lever: abscissa, members, brakes and clutches that are closed at each member, and speed or None."""
 
     x: Fraction
     links: list[str]
@@ -101,7 +101,7 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]) -> tuple[float, float]:
-    """Return the range of all speeds with a margin, so that every panel has the same scale."""
+    """Return the range of all speeds with a margin, so that all panels have the same scale."""
     points = (point for lever in levers for answer in answers for point in _points(train, lever, answer))
     speeds = [0.0, *(float(point.speed) for point in points if point.speed is not None)]
     more = 0.08 * (max(speeds) - min(speeds)) or 0.5
@@ -165,7 +165,7 @@ def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
 
 
 def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
-    """Draw one set in one state: a vertical for each member, and the line through their speeds."""
+    """Draw one set in one state: a vertical line for each member, and the line through their speeds."""
     points = _points(train, lever, answer)
     xs = [float(point.x) for point in points]
     known = [(float(point.x), float(point.speed)) for point in points if point.speed is not None]
@@ -223,7 +223,9 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Write members with their speeds above and abscissae below, moved apart where verticals are close together."""
+    """Write members with their speeds above and abscissae below, moved apart where vertical lines are close
+    together.
+    """
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -253,7 +255,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _speed_text(value: Fraction | None) -> str:
-    """Return a short fraction as a fraction, a long one as a decimal, and None as a question mark."""
+    """Return a short fraction as a fraction, a long fraction as a decimal, and None as a question mark."""
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

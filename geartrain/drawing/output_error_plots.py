@@ -50,8 +50,8 @@ _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the pane
 
 
 class _Trace(NamedTuple):
-    """One output over the turns of the input: angle [turn], deviation [rad], and speed over the mean (or the input's)
-    speed.
+    """Motion of one output against the turns of the input: angle [turn], deviation [rad], and speed divided by the mean
+    (or input) speed.
     """
 
     name: str
@@ -61,13 +61,13 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     kind: str
-    """Name of the deviation: transmission error with real teeth, anomaly without."""
+    """Name of the deviation: transmission error with real teeth, otherwise anomaly."""
     first: tuple[Floats, Floats, Floats]
     """Turns, deviation and speed at each of the first positions."""
 
     @property
     def errs(self) -> bool:
-        """True if the deviation is larger than rounding."""
+        """True if the deviation is larger than rounding errors."""
         return bool(np.ptp(self.error) > _ROUNDING)
 
 
@@ -154,7 +154,7 @@ def _omitted(erring: int, exact: int) -> Iterator[str]:
 
 
 def _count_remark(outputs: int, which: str) -> Iterator[str]:
-    """Yield a remark on the outputs beyond the maximum number that is drawn."""
+    """Yield a remark on outputs that exceed the maximum number of drawn outputs."""
     less = outputs - _OUTPUTS
     if less == 1:
         yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --of"
@@ -201,7 +201,7 @@ def _drawers(trace: _Trace) -> list[_Drawer]:
 
 
 def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
-    """Return the trace of every output, thinned to what the resolution of the picture shows."""
+    """Return the trace of every output, reduced to the resolution of the picture."""
     motion = run.motion
     parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
     firsts: list[tuple[Floats, Floats, Floats]] = []
@@ -225,7 +225,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
 
 
 def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, Floats, Floats]]:
-    """Return turns, deviation and speed of each output at the first positions, without thinning."""
+    """Return turns, deviation and speed of each output at the first positions, without reduction."""
     columns = zip(passage.error[:, :_MOST], passage.rate[:, :_MOST], means, strict=True)
     return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
@@ -319,7 +319,7 @@ _BINS = 900  # intervals, about one per pixel, over which losses are averaged if
 _MINIMUM = 1e-9  # relative to all losses: smaller losses are rounding
 _CUT = 1.5  # axis limit over the 98 % quantile of the torque, which is unbounded near a lock
 _MOST_LOSSES = 6
-"""Maximum number of parts drawn, those with the largest losses; the others are drawn as one."""
+"""Maximum number of parts that are drawn separately, by largest loss; the other parts are drawn as one."""
 _OTHERS = 9  # series of the remaining parts, whose fill in print is used by no other part
 
 
@@ -439,7 +439,7 @@ def _mean_speed(found: TorqueCycle) -> float:
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:
-    """Return the losses, the largest first; the parts beyond the number of colours are summed."""
+    """Return the losses in descending order. The parts beyond the number of colours are added."""
     if found.losses is None:
         return []
     names, values = found.losses.labels[0], np.asarray(found.losses.values)
@@ -459,7 +459,7 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
 
 
 def _bounds(turns: Floats, values: Floats) -> tuple[float, float]:
-    """Return the range of an unbounded curve that is worth drawing."""
+    """Return the range of an unbounded curve that is drawn."""
     even = np.interp(np.linspace(turns[0], turns[-1], _MOST_POSITIONS), turns, values)
     low, high = np.nanquantile(even, (0.02, 0.98))
     return _CUT * min(low, 0.0), _CUT * max(high, 0.0)

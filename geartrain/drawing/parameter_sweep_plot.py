@@ -1,4 +1,4 @@
-"""Plots of the results of a pair over one or two of its parameters."""
+"""Plots of the results of a pair against one or two of its parameters."""
 
 from __future__ import annotations
 
@@ -188,7 +188,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel; the minimum and the maximum of one quantity share a panel."""
+    """Return the columns of each panel; minimum and maximum of one quantity share a panel."""
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
         stem, _, end = name.rpartition("_")
@@ -225,7 +225,7 @@ def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
 
 
 def _bands(x: Floats, verdicts: Texts) -> Iterator[tuple[float, float, str]]:
-    """Yield start, end and verdict of each interval with one verdict, bounded halfway between samples."""
+    """Yield start, end and verdict of each interval with a single verdict, bounded halfway between samples."""
     edges = np.concatenate((x[:1], (x[1:] + x[:-1]) / 2, x[-1:]))
     changes = (np.flatnonzero(verdicts[1:] != verdicts[:-1]) + 1).tolist()
     for start, end in zip([0, *changes], [*changes, len(x)], strict=True):

@@ -155,7 +155,7 @@ def _draw_waves(page: ScaledPage, projected: ProjectedScene) -> None:
 
 
 def _draw_coupling(page: ScaledPage, projected: ProjectedScene, coupling: SceneCoupling) -> None:
-    """Draw the pin and the part of the slot that it can reach, or the pins in their holes."""
+    """Draw the pin and the part of the slot that it can reach, or pins in their holes."""
     if coupling.hole:
         _draw_holes(page, projected, coupling)
         return
@@ -198,7 +198,7 @@ class PlanNames:
     reach: Floats
     """Radius of the disc that each wheel hides (n,); 0 for a ring, which is open."""
     arms: Floats
-    """Points (m, 2) that keep names off arms, slots, and pins in holes."""
+    """Points (m, 2) that keep names away from arms, slots, and pins in holes."""
     scale: float
     """Inches per millimetre."""
 
@@ -206,7 +206,7 @@ class PlanNames:
     def of(
         cls, projected: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
     ) -> PlanNames:
-        """Return candidate label positions [inches] of the given wheels; `at` converts view coordinates to inches."""
+        """Return candidate label positions [in] of the given wheels; `at` converts view coordinates to inches."""
         centres = np.array([at(projected.seen(projected.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
         ends = [at(projected.seen(np.array([start, end]))) for _, start, end in arms_of(projected)]
@@ -230,7 +230,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved off the callout lines (2, 2) where there is space."""
+        """Return the names on wheels, moved away from the callout lines (2, 2) where there is space."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -303,7 +303,7 @@ def _points_along(lines: Sequence[Floats]) -> Floats:
 
 
 def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Return whether each point (n, 2) lies in one of the discs (m, 2)."""
+    """Return True for each point (n, 2) that is in one of the discs (m, 2)."""
     if not len(points) or not len(centres):
         return np.zeros(len(points), dtype=bool)
     middle = points.mean(axis=0)
@@ -470,13 +470,13 @@ def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
 
 
 def _hubs(projected: ProjectedScene) -> list[Floats]:
-    """Return a point on the axis of each body, so that trains without wheels have a size too."""
+    """Return a point on the axis of each body, so that trains without wheels also have a size."""
     bodies = projected.scene.bodies
     return [projected.seen([projected.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
-    """Write one line at the foot on what could not be placed or has no space."""
+    """Write one line at the bottom on elements that could not be placed or have no space."""
     found = [notice["what"] for notice in scene.notices[:1]]
     if len(scene.notices) > 1:
         found.insert(1, f"and {len(scene.notices) - 1} more")

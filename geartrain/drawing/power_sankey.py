@@ -108,7 +108,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
 
 
 class _NodeLabels:
-    """Labels of nodes, with powers as shares of the power put in."""
+    """Labels of nodes, with powers as fractions of the power input."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
         self.whole, self.watts = flow.power_in, watts
@@ -178,7 +178,7 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """Draw a return band: out to the right, up, leftwards above everything else, down and in."""
+    """Draw a return band: out to the right, up, leftwards above all other bands, down and in."""
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2

@@ -51,7 +51,7 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """A scene in a pose, and the directions right, up and towards the reader as rows of `screen` (3, 3)."""
+    """Scene in a pose, with the directions right, up and towards the reader as rows of `screen` (3, 3)."""
 
     scene: Scene
     pose: ScenePose
@@ -63,7 +63,7 @@ class ProjectedScene:
         return sum(map(self.faces, self.scene.wheels)) >= _MOST * len(self.scene.wheels)
 
     def faces(self, wheel: SceneWheel) -> bool:
-        """Return whether a wheel is seen along its axis."""
+        """Return True if a wheel is viewed along its axis."""
         # the cosine is flat at 0: a deficit of 1e-9 is 0.0026 deg, less than any declared tilt and more than rounding
         return abs(float(self.axis(wheel) @ self.screen[2])) > 1 - 1e-9
 
@@ -178,7 +178,7 @@ def _screen(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Axes in inches on which millimetres are drawn.
+    """Axes in inches, on which millimetres are drawn.
 
     foot   height of the text below the side view
     """
@@ -192,7 +192,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield the body, a point of its own axis and a point of the borne axis for every arm of a carrier."""
+    """Yield for every arm of a carrier the body, a point of its own axis and a point of the carried axis."""
     scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -322,7 +322,7 @@ def _draw_faces(
 
 
 def _tint(wheel: SceneWheel, light: float) -> Floats:
-    """Return the colour of a body, the lighter the more light falls on the face."""
+    """Return the colour of a body, lighter where more light is incident on the face."""
     own = np.array(to_rgb(series_colour(wheel.body)))
     return np.asarray(own + (1 - own) * (0.3 + 0.6 * light))
 
@@ -361,7 +361,7 @@ def _thread(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
 
 
 def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
-    """Return the end faces of a wheel with their teeth: the one away from the reader, then the visible one."""
+    """Return the end faces of a wheel with their teeth: first the face away from the reader, then the visible face."""
     (high, wide), (low, narrow) = projected.ends(wheel)
     first = projected.seen(projected.outline(wheel, wide, high))
     last = projected.seen(projected.outline(wheel, narrow, low))
@@ -373,7 +373,7 @@ def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
 
 
 def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the axes of wheels through their centres, and an arm from each carrier to each axis that it bears."""
+    """Draw the axes of wheels through their centres, and an arm from each carrier to each axis that it carries."""
     for wheel in projected.scene.wheels:
         centre, along = projected.centre(wheel), projected.axis(wheel)
         reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
@@ -399,7 +399,9 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw the train from its right, as high as the plan: layers side by side, the reader's side on the right."""
+    """Draw the train from its right side, as high as the plan, with the layers side by side and the reader on the
+    right.
+    """
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: float(projected.seen(projected.centre(each))[0])):

@@ -1,4 +1,4 @@
-"""Layout of a Sankey diagram of power flow: columns from where power enters, with bands between them.
+"""Layout of a Sankey diagram of power flow: columns from the power input, with bands between them.
 
 Lengths are in inches, x to the right and y down. A band is a stream, and its width is its power. Bands that close a
 loop run back above everything else.
@@ -23,13 +23,13 @@ _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 @dataclass(eq=False)
 class SankeySpot:
-    """A node in its column, or the place where a band passes a column if `node` is None."""
+    """Node in its column, or the position where a band passes a column if `node` is None."""
 
     node: PowerNode | None
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """Power that passes the node; `shed` is the width of its loss [in]."""
+    """Power that passes through the node; `shed` is the width of its loss [in]."""
     shed: float = 0.0
     left: float = 0.0
     """Space for text to the left of its centre [in]."""
@@ -62,7 +62,9 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """A band between two spots in neighbouring columns, or a return band; `start` and `end` are its tops there."""
+    """Band between two spots in neighbouring columns, or a return band; `start` and `end` are the tops of the band at
+    the spots.
+    """
 
     source: SankeySpot
     target: SankeySpot
@@ -80,7 +82,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """A return band: distances right of its source and left of its target where it turns, and the top of its lane."""
+    """Return band: distances from its source and its target at which it turns, and the top of its lane."""
 
     piece: BandSegment
     right: float
@@ -115,7 +117,9 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, the shortest innermost, and the space they take right and left of each column."""
+    """Return the return bands, the shortest innermost, and the space that they require right and left of
+    each column.
+    """
     taken: dict[tuple[int, bool], float] = {}
     turns: list[ReturnBand] = []
     lane = inf
@@ -168,7 +172,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return losses by node, and streams; a bearing fed by only one shaft becomes a loss of that shaft."""
+    """Return losses by node, and streams. A bearing that is fed by only one shaft becomes a loss of that shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -195,7 +199,7 @@ def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[Powe
 
 
 def _depth_first(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
-    """Yield all streams by depth-first search from where power enters, the largest stream of a node first."""
+    """Yield all streams by depth-first search from the power input, the largest stream of a node first."""
     after: dict[PowerNode, list[PowerStream]] = {}
     for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
         after.setdefault(stream.source, []).append(stream)
@@ -225,7 +229,9 @@ def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the column of each node: one after all that feed it (longest path); outputs are in the last column."""
+    """Return the column of each node, one after all nodes that feed it (longest path); outputs are in the
+    last column.
+    """
     columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
     moved = True
     while moved:
@@ -253,7 +259,7 @@ def find_scale(
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and the spots where they pass columns."""
+    """Return streams as bands of segments, and the spots at which they pass columns."""
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):
@@ -318,7 +324,7 @@ def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
-    """Swap spots of one column where that reduces crossings; return whether any were swapped."""
+    """Swap spots of one column if that reduces crossings; return True if spots were swapped."""
     column, swapped = table[at], False
     near = range(max(0, at - 1), min(len(table), at + 2))
     tangle = _crossing_cost(table, near)
@@ -373,7 +379,7 @@ _HEIGHT_SWEEPS = 24
 
 
 def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
-    """Set the tops of all spots and of their bands, so that bands run level where possible."""
+    """Set the tops of all spots and of their bands, so that bands are level where possible."""
     for column in table:
         y = 0.0
         for spot in column:
@@ -395,7 +401,9 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top at which a spot's bands are level, and its weight; bands that pass a column weigh the most."""
+    """Return the top at which a spot's bands are level, and its weight. Bands that pass a column have the maximum
+    weight.
+    """
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:
@@ -428,7 +436,9 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set the tops of bands at both ends, in the order of the spots they connect to, return bands uppermost."""
+    """Set the tops of bands at both ends, in the order of the spots that they connect to, with return bands
+    uppermost.
+    """
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

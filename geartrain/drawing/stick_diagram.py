@@ -194,17 +194,17 @@ class StickMesh:
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, the one on the lower row first; `wheels` are their wheels (for a coupling, the links again)."""
+    """Links, with the link on the lower row first; `wheels` are their wheels (for a coupling, the links again)."""
     wheels: tuple[str, str]
     ring: str
     x: float
-    """Abscissa of the column; the vertical line of a ring is one column further right."""
+    """Abscissa of the column. The vertical line of a ring is one column further to the right."""
     low: float
-    """Lower end of its part of the column [in]."""
+    """Lower end of the part of the mesh in the column [in]."""
     high: float
-    """Upper end of its part of the column [in]."""
+    """Upper end of the part of the mesh in the column [in]."""
     meet: float
-    """Height at which its wheels touch."""
+    """Height at which the wheels touch."""
 
 
 _Arrangement = tuple[
@@ -227,7 +227,7 @@ class StickSkeleton:
     meshes: list[StickMesh]
     cranks: list[StickCrank]
     lone: list[tuple[str, float]]
-    """Wheels that mesh with nothing, with their column."""
+    """Wheels that have no mate, with their column."""
     width: float
     height: float
 
@@ -261,7 +261,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
 
 
 def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
-    """Return the number of vertical lines that overlap another one."""
+    """Return the number of vertical lines that overlap another vertical line."""
     known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
     return sum(
         x == at and low < top and bottom < high
@@ -271,7 +271,7 @@ def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> i
 
 
 def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
-    """Extend the shaft of each carrier to its cranks, and the nearest shaft on each borne axis too."""
+    """Extend the shaft of each carrier to its cranks, and the nearest shaft on each carried axis."""
     for crank in cranks:
         shafts[crank.carrier].xs.append(crank.x)
         borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
@@ -331,7 +331,7 @@ def _set_heights(
 
 
 def _fit_side_by_side(one: StickShaft, other: StickShaft) -> bool:
-    """Return whether two shafts, with a name before each, do not overlap."""
+    """Return True if two shafts, with a name before each, do not overlap."""
     room = 0.35 + 0.07 * max(len(one.link), len(other.link))
     return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
 
@@ -456,7 +456,9 @@ class _Drawing:
         self.words.name_link(shaft.link, left, right, shaft.y)
 
     def draw_mesh(self, mesh: StickMesh) -> None:
-        """Draw two wheels up to where they touch, a pin in its slot or hole, or two links that stay parallel."""
+        """Draw two wheels up to the point where they touch, a pin in its slot or hole, or two links that remain
+        parallel.
+        """
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
@@ -488,7 +490,7 @@ class _Drawing:
         self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw a pin in its slot; for links that stay parallel, two bars side by side."""
+        """Draw a pin in its slot; for links that remain parallel, two bars side by side."""
         coupling = self.couplings[mesh.name]
         parallel = coupling.kind == "parallel"
         for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
@@ -506,9 +508,7 @@ class _Drawing:
         self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel from its shaft to where it touches its mate, connected to its earlier occurrence if there is
-        one.
-        """
+        """Draw a wheel from its shaft to its mate, connected to its earlier occurrence if there is one."""
         self._line([x, x], [foot, end], BLUE, _WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -522,14 +522,14 @@ class _Drawing:
         self.feet.setdefault(wheel, (x, foot))
 
     def draw_lone(self, wheel: str, x: float) -> None:
-        """Draw a wheel that meshes with nothing."""
+        """Draw a wheel that has no mate."""
         link = self.train.declaration.wheels[wheel][0]
         y = self.skeleton.shafts[link].y
         self._draw_wheel_line(x, y, y + _LONE, wheel, link)
         self._tick(x, y + _LONE, "spur")
 
     def draw_crank(self, crank: StickCrank) -> None:
-        """Draw a carrier's arm, ending in a bearing about the axis it bears."""
+        """Draw a carrier's arm, which ends in a bearing about the axis that it carries."""
         y = self.skeleton.shafts[crank.carrier].y
         far = self.skeleton.rows[crank.axis][0]
         self._line([crank.x, crank.x], [y, far], ORANGE, _CARRIER, zorder=3, gid=f"crank {crank.carrier}")

@@ -18,7 +18,7 @@ _NEAREST = 9  # levels tried for an axis
 
 @dataclass(slots=True)
 class StickShaft:
-    """A link on its axis: height and the abscissae of its parts; the frame has no shaft."""
+    """Link on its axis: height, and abscissae of its parts; the frame has no shaft."""
 
     link: str
     axis: str
@@ -55,7 +55,7 @@ def _mate(axis: str, one: str, other: str) -> list[str]:
 
 
 def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
-    """Return the interval that an axis takes on its level, with the names before and after it."""
+    """Return the interval that an axis occupies on its level, with the names before and after it."""
     own = [shaft for shaft in shafts.values() if shaft.axis == axis]
     left = min(min(shaft.xs) - 0.25 - 0.085 * len(shaft.link) for shaft in own)
     return left, max(max(shaft.xs) for shaft in own) + 0.35 + 0.065 * len(axis)
@@ -108,7 +108,7 @@ _CRANK = 0.3  # inches for a carrier's crank before a group
 
 @dataclass(frozen=True, slots=True)
 class StickCrank:
-    """A carrier's arm at `x`, from its own shaft to the axis it bears."""
+    """Carrier's arm at `x`, from its own shaft to the axis that it carries."""
 
     carrier: str
     axis: str
@@ -157,7 +157,7 @@ def find_columns(
     axis_of: dict[str, str],
     shafts: dict[str, StickShaft],
 ) -> tuple[list[tuple[Circuit, float]], list[StickCrank], list[tuple[str, float]], float]:
-    """Return the columns of all meshes, the cranks, the columns of wheels without mesh, and the total width.
+    """Return the columns of all meshes, the cranks, the columns of wheels without a mesh, and the total width.
 
     A crank is placed before the first group in which its borne axis meshes.
     """
@@ -196,7 +196,7 @@ def find_columns(
 
 
 def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
-    """Return the moving link that bears an axis, or None."""
+    """Return the moving link that carries an axis, or None."""
     tops = (
         train.kinematics.tree.top[link]
         for link, own in axis_of.items()

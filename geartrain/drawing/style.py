@@ -1,4 +1,4 @@
-"""Common parts of all figures: names of matplotlib, colours and sizes, panels for curves and bars, text, image files.
+"""Common parts of all figures: matplotlib names, colours and sizes, panels for curves and bars, text, and image files.
 
 Importing this module without matplotlib raises an error that names the extra `plot`.
 """
@@ -73,7 +73,7 @@ _ONE_AT_A_TIME = Lock()  # the salt of SVG ids is a global setting of matplotlib
 
 
 class ShownFigure(_Figure):
-    """A figure that a notebook shows inline, without a window and without state shared between figures."""
+    """Figure that a notebook shows inline, without a window and without state shared between figures."""
 
     def _repr_svg_(self) -> str:
         return render(self, ".svg").decode("utf-8")
@@ -158,12 +158,12 @@ LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
 def series_look(at: int) -> dict[str, Any]:
-    """Return the colour and dashes of the series with an index from 0 on, as keyword arguments of lines."""
+    """Return the colour and dashes of the series with an index from 0, as keyword arguments of lines."""
     return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
 def plain(axes: Axes) -> None:
-    """Set text of one size, a light grid, and no frame at the top and right."""
+    """Set text of uniform size, a light grid, and no frame at the top and right."""
     axes.tick_params(labelsize=SMALL)
     axes.grid(True, color=PALE, linewidth=0.5, alpha=0.6)
     axes.set_axisbelow(True)
@@ -211,7 +211,7 @@ def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tupl
 
 
 def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> None:
-    """Draw a whisker at a bar; nothing for None."""
+    """Draw a whisker at a bar; draw nothing if the interval is None."""
     if ends is not None:
         axes.plot(ends, [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=7, gid="within")
 
@@ -257,7 +257,7 @@ def short(name: str, letters: int = 20) -> str:
 
 
 def kept_extremes(values: Floats, most: int) -> Ints:
-    """Return indices of a curve thinned without loss of extremes.
+    """Return indices of a curve that is thinned without losing extremes.
 
     Each of about `most` / 3 intervals keeps its first position, its minimum and its maximum. All positions are kept if
     there are at most `most`.

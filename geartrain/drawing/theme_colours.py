@@ -142,9 +142,7 @@ def _set_grid(axis: Axis, colour: Any) -> None:
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
-    """Return the fill colour and hatch of a series area in a theme that defines them; None for other artists and
-    markers.
-    """
+    """Return the fill colour and hatch of a series area in a theme that defines them; otherwise None."""
     areas = THEMES[name].areas
     if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
         return None
@@ -189,7 +187,9 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill for a colour; None if it is not a mixture of the light ones."""
+    """Return the theme's mixture of shade and fill for a colour; None if it is not a mixture of the light theme's
+    colours.
+    """
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
     share = float((rgb - shade) @ along / (along @ along))

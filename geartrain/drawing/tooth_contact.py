@@ -80,7 +80,9 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """The driving tooth pair at alpha_1 and alpha_2 [rad], in one phase; all other teeth follow from the pitch."""
+    """Pose with the driving tooth pair at alpha_1 and alpha_2 [rad], in one phase; all other teeth follow from the
+    pitch.
+    """
 
     sizes: TriangularSizes
     phase: str
@@ -112,7 +114,8 @@ class ToothPairPose:
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of all teeth of a wheel, or of those within an angle [rad] of the line of centres.
+        """Return vertices (n, 2) of all teeth of a wheel, or of the teeth within an angle [rad] from the line of
+        centres.
 
         In the second case the centre is a vertex too. The body of a ring ends at a circle beyond its roots.
         """
@@ -245,7 +248,7 @@ def teeth_figure(
 
 @dataclass(frozen=True, slots=True)
 class ToothViewport:
-    """The part of the plane that is drawn; `whole` is True if it shows whole wheels."""
+    """Part of the plane that is drawn; `whole` is True if it contains whole wheels."""
 
     left: float
     right: float
@@ -255,11 +258,11 @@ class ToothViewport:
 
     @property
     def shape(self) -> float:
-        """Height over width."""
+        """Height divided by width."""
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
-        """Return the angle [rad] on either side of the line of centres that contains all of a wheel in view."""
+        """Return the angle on either side of the line of centres that contains the visible part of a wheel [rad]."""
         if self.whole:
             return pi
         z = here.wheel(which)[0]
@@ -279,7 +282,7 @@ def _whole(here: ToothPairPose) -> ToothViewport:
 
 
 def _near(here: ToothPairPose) -> ToothViewport:
-    """Return a viewport around contact, instant centre and pitch point with a margin of one or two pitches."""
+    """Return a viewport around contact point, instant centre and pitch point, with a margin of one or two pitches."""
     sizes = here.sizes
     pitch = 2 * pi * sizes.D / sizes.pitch_sum
     points = [(sizes.D * sizes.z1 / sizes.pitch_sum, 0.0)]

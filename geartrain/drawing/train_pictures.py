@@ -1,4 +1,4 @@
-"""Selection of the picture of a train by kind."""
+"""Selection of the picture of a train by its kind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves of a pair of wheels: transmission functions over the driver's angle, and conjugate tooth forms side by side.
+"""Curves of a pair of wheels: transmission functions against the driver angle, and conjugate tooth forms side by side.
 
 `triangular_figure` shows the ideal and the real path of triangular teeth, and `transmission_figure` any pair.
 `shapes_figure` shows flanks, paths of contact, and stress, heat, sliding and losses along the path of conjugate forms.
@@ -224,7 +224,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits that contain the real path, and the ideal path as far as it stays near the real one."""
+    """Return axis limits that contain the real path, and the ideal path where it is near the real path."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -239,7 +239,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
 
 
 def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
-    """Draw a line at the angle at which flank lies on flank, if it is within reach."""
+    """Draw a line at the angle at which the flanks coincide, if it is within the panel."""
     matching = transmission.sizes.matching
     if abs(matching) >= transmission.sizes.reach1:
         return
@@ -262,7 +262,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact: tau before it, where the last tooth pair separates, and tau after it, where the next one
+    """Draw each impact: tau before it, where the last tooth pair separates, and tau after it, where the next tooth pair
     drives.
     """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
@@ -324,7 +324,9 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis of the instant centre over the distance: tau/(1 + tau), or tau/|1 - tau| with a ring."""
+    """Draw a second axis with the instant centre divided by the centre distance: tau/(1 + tau), or tau/|1 - tau| with a
+    ring.
+    """
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -455,7 +457,7 @@ def _form_text(paths: Mapping[str, PathOfContact]) -> str:
 
 
 def _leaves_panel(axes: Axes) -> bool:
-    """Return whether a curve extends beyond its panel."""
+    """Return True if a curve extends beyond its panel."""
     low, high = axes.get_ylim()
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
     return any(bool(((y < low) | (y > high)).any()) for y in drawn)
@@ -468,7 +470,7 @@ def _pitch_title(pitch: PitchSurfaces) -> str:
 
 
 def _places(path: PathOfContact) -> Floats:
-    """Return values of X along the whole path, without the pitch point itself."""
+    """Return values of X along the whole path, except at the pitch point."""
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
@@ -478,7 +480,7 @@ def _places(path: PathOfContact) -> Floats:
 
 
 def _flat(points: Floats) -> Floats:
-    """Return x and y from the pitch point; on the sphere as seen from outside above it."""
+    """Return x and y from the pitch point; on the sphere, as viewed from outside above the pitch point."""
     return points[..., :2]
 
 
@@ -488,7 +490,7 @@ def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
 
 
 def _label_flank_panel(axes: Axes, text: str) -> None:
-    """Label a panel of flanks, not to scale because steep flanks would coincide."""
+    """Label a panel of flanks, which is not to scale, because steep flanks would coincide."""
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     name_axes(axes, title=text)

@@ -175,9 +175,6 @@ def _nodes(
 
     An edge (circuit, far node, a, b) means: relative speed of the far node = a/b times the relative speed of this
     node.
-
-    An edge (circuit, far node, a, b) means: relative speed of the far node = a/b times the relative speed of this
-    node.
     """
     size = len(index)
     node_of: dict[int, int] = {}

@@ -135,6 +135,11 @@ def same_kind(first: str | None, second: str | None) -> bool:
 def nearest_unit(unit: str, dimension: str) -> str:
     """Return a text with known units that are similar to an unknown one, such as `rpm` for RPM."""
     known = units_of(dimension)
+    if re.search(r"\b(year|yr|month)s?\b", unit):
+        return (
+            "a calendar unit has several lengths: declare it for all speeds, such as "
+            "`unit: {per: year_tropical_J2000}`, and write plain numbers"
+        )
     spelt = {name.casefold(): name for name, meant in SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
     close = nearest_names(unit.casefold(), names)

@@ -128,9 +128,9 @@ _TITLE = "Top-level keys"
 _HEAD = """\
 # The declaration, key by key
 
-Printed by `geartrain inspect schema --as markdown`. Each section has an example that you can load, and a table of its
-keys with a YAML line for each. `geartrain inspect schema` prints the same as a JSON Schema, with which editors complete
-and check your files.
+This page is printed by `geartrain inspect schema --as markdown`. Each section has an example that you can load, and a
+table of its keys with a YAML line as an example of each. `geartrain inspect schema` prints the same information as a
+JSON Schema, which editors use to complete and check your files.
 
 ## Values
 
@@ -233,12 +233,12 @@ def _section(
     yield from (f"{text}." if several else text, "", "```yaml", examples()[name][0].rstrip(), "```", "")
     if several:
         each = [_kind_title(models, part) for part in chapter.parts]
-        yield from (f"One of {', '.join(f'[`{title}`](#{_anchor(title)})' for title in each)}.", "")
+        yield from (f"Declare one of {', '.join(f'[`{title}`](#{_anchor(title)})' for title in each)}.", "")
     tables = [_rows(_part(models, part), kinds) for part in chapter.parts]
     common = [row for row in tables[0] if all(row in table for table in tables)]
     new = [row for row in common if row not in printed]
     if new:
-        yield from ("| key, in an example | type | default | meaning |", "|---|---|---|---|")
+        yield from ("| key with an example | type | default | meaning |", "|---|---|---|---|")
         for row in new:
             cells = (f"`{tables[0][row]}`", *row[1:])
             yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
@@ -248,8 +248,8 @@ def _section(
         if row in printed:
             known.setdefault(printed[row], []).append(f"`{row[0]}`")
     if known:
-        groups = (f"as in [{above.shown}](#{above.anchor}): {', '.join(keys)}" for above, keys in known.items())
-        yield from (f"{'Also' if new else 'Keys'}, {'; '.join(groups)}.", "")
+        groups = (f"{', '.join(keys)}, as in [{above.shown}](#{above.anchor})" for above, keys in known.items())
+        yield from (f"{'Further keys' if new else 'Keys'}: {'; '.join(groups)}.", "")
     printed |= dict.fromkeys(new, chapter)
 
 

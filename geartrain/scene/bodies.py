@@ -1,4 +1,4 @@
-"""Links of a scene with their axes and parents, and every wheel with its place and one tooth as it is cut.
+"""Links of a scene with their axes and parents, and wheels with their positions and one tooth each as cut.
 
 Wheels without a flat outline (bevels, crowns, worms, and teeth that cannot be cut) get nominal teeth.
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """Flexible wheel of a strain wave and its generator."""
+    """Flexible wheel of a strain wave gear, with its wave generator."""
 
     wheel: str
     """Name of the wheel."""
@@ -120,7 +120,7 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def tooth_height(z: int, mate: int, within: bool) -> float:
-    """Return the maximum height (modules) of a tooth that does not touch the roots of a mate with few teeth.
+    """Return the maximum height of a tooth [modules] that does not touch the roots of a mate with few teeth.
 
     within   one of them is a ring; tips then also pass each other outside of the mesh
     """
@@ -163,7 +163,9 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread, wound round its axis; height is relative to the pitch radius."""
+    """Return the axial section of a worm's thread as points around its axis; heights are relative to the
+    pitch radius.
+    """
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -260,7 +262,7 @@ def _role(stage: SceneContext, link: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ToothProfiles:
-    """Tooth profiles by wheel, names of tooth forms by pair, and notices on wheels that could not be drawn."""
+    """Tooth profiles by wheel, names of tooth forms by pair, and notices on wheels that could not be drawn as cut."""
 
     profiles: Mapping[str, ToothProfile]
     forms: Mapping[str, str]
@@ -287,7 +289,7 @@ def _section(toothing: WheelTeeth) -> ToothProfile:
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield the reasons why planar wheels are drawn differently from how they could be cut, each reason once."""
+    """Yield the reasons why planar wheels are drawn differently from how they are cut, each reason once."""
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -334,7 +336,7 @@ def _mates(stage: SceneContext, name: str) -> Iterator[str]:
 def find_wheels(
     stage: SceneContext, profiles: Mapping[str, ToothProfile], turns: Mapping[str, float]
 ) -> tuple[tuple[SceneWheel, ...], tuple[ToothProfile, ...]]:
-    """Return all wheels in the order declared, and the tooth forms that they share.
+    """Return all wheels in the order declared, and the tooth profiles that they share.
 
     profiles   tooth by wheel
     turns      angle (rad) of the first tooth of each wheel about the direction of its body
@@ -401,7 +403,9 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle (rad) of its teeth or its thread from the axis, positive for a right hand."""
+    """Return the helix angle of a wheel's teeth, or of a worm's thread, relative to the axis [rad]; positive for a
+    right hand.
+    """
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)
@@ -409,12 +413,12 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if the declared axis of a wheel points against the reference direction of its parallels, else 1."""
+    """Return -1 if the declared axis of a wheel is opposite to the reference direction of its parallel axes, else 1."""
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
 def as_placed(stage: SceneContext, wheel: str) -> float:
-    """Return the angle (rad) of a wheel's first tooth in the layout, about the reference direction."""
+    """Return the angle of a wheel's first tooth about the reference direction in the layout [rad]."""
     place = stage.layout.wheels[wheel]
     return place.turn * flip(stage, place)
 
@@ -430,7 +434,9 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power lost at each wheel's meshes, half of a pair's loss at each wheel."""
+    """Return the fraction of the input power that is lost at each wheel's meshes; half of the loss of a pair is
+    assigned to each wheel.
+    """
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

@@ -1,4 +1,4 @@
-"""Construction of the scene of a train: places, outlines and motion of all its elements.
+"""Construction of the scene of a train: positions, outlines and motion of all its elements.
 
 The rotation of each wheel on its body brings teeth into contact as their transmission function requires in the zero
 pose. The transmission function of a pair gives the angles of both wheels at the angle of its driver, so that a
@@ -57,9 +57,11 @@ class MeshDirections:
     """Directions of contact of the two wheels of a pair."""
 
     contact: tuple[Vector, Vector]
-    """Unit vectors from their centres to the point of contact, perpendicular to their axes."""
+    """Unit vectors from the centres of the wheels to the point of contact, perpendicular to their axes."""
     same: int
-    """1 if positive rotations of both wheels about their directions move the teeth in contact the same way, else -1."""
+    """1 if positive rotations of both wheels about their directions move the teeth in contact in the same direction,
+    else -1.
+    """
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
@@ -86,7 +88,9 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
 
 
 def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vector) -> Vector:
-    """Return the unit vector across the axis of a bevel wheel towards its mate, on the facing side of the apex."""
+    """Return the unit vector perpendicular to the axis of a bevel wheel towards its mate, on the facing side of the
+    apex.
+    """
     lies = scaled(stage.along(mate.axis), float(mate.facing)) if mate.facing else minus(mate.centre, own.centre)
     return unit_or_z(across(lies, axis))
 
@@ -97,14 +101,16 @@ _ROUNDS = 4
 
 @dataclass(frozen=True, slots=True)
 class WheelPhases:
-    """Angles of first teeth (rad) by wheel, about the direction of its body, from its reference."""
+    """Angle of the first tooth of each wheel, about the direction of its body and from its reference [rad]."""
 
     turns: Mapping[str, float]
     notices: tuple[Problem, ...] = ()
 
 
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> WheelPhases:
-    """Return the angle of every wheel at which it meshes with its mates; without mates, as in the layout."""
+    """Return the angle of every wheel at which it meshes with its mates; for a wheel without mates, its angle in the
+    layout.
+    """
     found = _Mounting(stage, moved)
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
@@ -136,7 +142,9 @@ class _Mounting:
         return [circuit for circuit in self.stage.train.circuits if circuit.id in self.meetings]
 
     def spread(self, first: Circuit) -> None:
-        """Place all wheels connected with a pair by meshes, by breadth-first search, unless they are placed already."""
+        """Place all wheels that are connected with a pair by meshes, by breadth-first search, except wheels that are
+        already placed.
+        """
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -158,7 +166,7 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Place the mate of a wheel that is placed already."""
+        """Place the mate of a wheel that is already placed."""
         position = self._position(circuit, own)
         if own == self._driver(circuit):
             self._set(circuit, 1 - own, position + self._ahead(circuit, position))
@@ -171,8 +179,8 @@ class _Mounting:
         self._note_phase(circuit, at)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return by how much (pitches, -1/2 to 1/2) a driver's tooth is ahead of the phase of its transmission
-        function.
+        """Return the distance by which a driver's tooth is ahead of the phase of its transmission function [pitches,
+        -1/2 to 1/2].
         """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
@@ -185,7 +193,8 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
-        """Return how far (pitches, in the sense of rotation) the driven wheel's tooth is ahead of the driver's.
+        """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation
+        [pitches].
 
         position   position of the driver's tooth (pitches); off the phase of its transmission function, the driven
                    tooth is advanced until the driver does not interfere with it at any position
@@ -214,12 +223,12 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of the first tooth of a placed wheel, in pitches past the contact, forwards."""
+        """Return the initial position of the first tooth of a placed wheel, forwards from the contact [pitches]."""
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
     def _set(self, circuit: Circuit, at: int, position: float) -> None:
-        """Place a wheel with a tooth at a given position (pitches)."""
+        """Place a wheel with a tooth at a given position [pitches]."""
         wheel = circuit.wheels[at]
         pitch = self._pitch(wheel)
         self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (position % 1) * pitch) % (2 * pi)
@@ -319,13 +328,15 @@ def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str
 
 
 def _original(wheel: str, own: dict[str, str], link: str) -> str:
-    """Return the declared wheel of a copied wheel, whose name has the same suffix as that of its link."""
+    """Return the declared wheel of a copied wheel, whose name has the same suffix as its link."""
     end = link.removeprefix(own[link])
     return wheel.removesuffix(end) if end else wheel
 
 
 def _parent(train: Train) -> str:
-    """Return the name that an extending declaration would use: of a shipped train, else of the file that was read."""
+    """Return the name with which a declaration can extend the train: the shipped train, or else the file
+    that was read.
+    """
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]

@@ -27,7 +27,7 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """A train in one state, with its layout."""
+    """Train in one state, with its layout and the indices of its bodies and wheels."""
 
     train: GearTrain
     answer: Answer
@@ -59,12 +59,12 @@ class SceneContext:
 
     @cached_property
     def driving_link(self) -> str | None:
-        """First input with a speed other than 0, whose turns are prescribed; None if nothing is driven."""
+        """First input with a speed other than 0, whose turns are prescribed; None if no link is driven."""
         return next((link for link, speed in self.case.inputs.items() if speed), None)
 
     @cached_property
     def crank(self) -> str | None:
-        """Link at which the train would be cranked by hand."""
+        """Link that is turned by hand: the declared crank, or the driving link."""
         return self.train.declaration.crank or self.driving_link
 
     def speed(self, link: str) -> Fraction | None:
@@ -87,7 +87,7 @@ class SceneContext:
         return None if speed is None else self.case.shown(speed)
 
     def sense(self, link: str) -> int:
-        """Return -1 if a link's axis points against the reference direction of its parallels, else 1."""
+        """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, else 1."""
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
@@ -105,7 +105,9 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the direction of an axis, reversed if it points against the first declared axis parallel to it."""
+        """Return the direction of an axis, reversed if it is opposite to the first declared axis that is parallel to
+        it.
+        """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):
@@ -117,7 +119,9 @@ class SceneContext:
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the driving link in one time unit of the input, for `100 rpm` per minute; 1 if nothing is driven."""
+        """Turns of the driving link in one time unit of the input (one minute for `100 rpm`); 1 if no link
+        is driven.
+        """
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration
@@ -148,10 +152,10 @@ class SceneContext:
 
 
 def exact(value: Fraction | None) -> str | None:
-    """Return a ratio as exact text; None for None."""
+    """Return a ratio as exact text; None if the ratio is None."""
     return None if value is None else fraction_text(value)
 
 
 def rounded(value: Fraction | None) -> str:
-    """Return a ratio as decimal text; empty for None."""
+    """Return a ratio as decimal text; empty if the ratio is None."""
     return "" if value is None else decimal(value)

@@ -1,4 +1,5 @@
-"""Dials with the place and direction of their scales; pointers with their readings and the pairs they depend on.
+"""Dials with the position and direction of their scales, and pointers with their readings and the pairs on which they
+depend.
 
 An output depends on the pairs whose errors would change it; this is computed exactly. An error in one pair is a
 right-hand side in its row. Its effect on an output is the weight of that row in the only combination of rows that gives
@@ -43,7 +44,8 @@ _BUDGET = 4_000_000  # maximum number of operations of the elimination
 
 
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
-    """Return names of pairs and couplings by output, in order from the input; empty for a train that does not move.
+    """Return the names of the pairs and couplings on which each output depends, in order from the input; empty for a
+    train that does not move.
 
     All meshes in parallel, such as several planets between two wheels, are included.
     """
@@ -66,7 +68,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the used pairs together with the pairs that turn the pins of used followers."""
+    """Return the used pairs, with the pairs that turn the pins of used followers."""
     found, left = set(used), set(swings)
     while met := found & left:
         left -= met
@@ -87,7 +89,7 @@ def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return for each output the labels of the rows that have a weight in it; redundant rows have none."""
+    """Return for each output the labels of the rows with a non-zero weight in it; redundant rows have no weight."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -135,7 +137,7 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
 
 
 Key = tuple[str, str, str]
-"""Key of a dial: its name, the link on which it is mounted, the axis of the pointer that is read on it."""
+"""Key of a dial: its name, the link on which it is mounted, and the axis of the pointer that is read on it."""
 
 _APART = 0.96  # maximum sum of the radii of two neighbours, over their distance
 _SPIRAL = 1.8  # radius of a spiral over that of a circle next to it
@@ -214,7 +216,7 @@ def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Po
 
 
 def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials with titles; those that exist about several axes are distinguished by their outputs."""
+    """Return the dials with titles. Dials of one name about several axes are distinguished by their outputs."""
     often = Counter(face.id for face in dials)
     read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
     return tuple(
@@ -224,7 +226,7 @@ def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:
-    """Return the key of the dial of an output; None if it names none."""
+    """Return the key of the dial of an output; None if the output has no dial."""
     output = stage.outputs[name]
     if output.dial is None:
         return None
@@ -257,7 +259,9 @@ def _train_width(stage: SceneContext) -> float:
 
 
 def _side_width(stage: SceneContext, normal: Vector) -> float:
-    """Return the width of the side on which a dial is mounted (mm); infinite for dials that face the reader or away."""
+    """Return the width of the side on which a dial is mounted [mm]; infinite for dials that face towards or away from
+    the reader.
+    """
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
@@ -276,7 +280,7 @@ def _extent(stage: SceneContext, way: Vector) -> float:
 
 
 def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
-    """Return the point of an axis beyond all wheels on one side."""
+    """Return the point of an axis that is beyond all wheels on one side."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
     wheels = stage.layout.wheels.values()
@@ -285,14 +289,14 @@ def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -
 
 
 def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, float]:
-    """Return the lower and upper position of the faces' centres of a wheel along a direction (mm)."""
+    """Return the lower and upper position, along a direction, of the centres of a wheel's faces [mm]."""
     along = dot(stage.layout.axes[wheel.axis].direction, way)
     low, high = sorted(dot(wheel.centre, way) + at * along for at in wheel.span)
     return low, high
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials reduced so that they do not overlap; dials about one axis are nested."""
+    """Return the dials, reduced in size so that they do not overlap; dials about one axis are nested."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -381,7 +385,7 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext) -> SceneEpoch | None:
-    """Return the declared date in turns of the driving link; None if none is declared, or nothing is driven."""
+    """Return the declared date in turns of the driving link; None if no date is declared, or if no link is driven."""
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
@@ -397,7 +401,7 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the speeds that an output should have relative to the driving link.
+    """Return the target speeds of an output relative to the driving link.
 
     speed   speed of the output in the train's unit; a target without a sense takes that of the output
     """

@@ -23,7 +23,7 @@ Point = tuple[float, float]
 INNER = 0.55
 """Radius of the innermost turn of a spiral relative to the outermost."""
 RING = 0.17
-"""Width of a scale around another one, relative to the radius."""
+"""Width of a scale around another scale, relative to the radius."""
 
 _CELL = "cell"
 _NUMERALS, _HOURS = 12, 24  # maximum count of numerals: default, declared
@@ -53,7 +53,7 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: turn of the spiral and cell, both from 1; name of the part, and cell within it.
+    """Reading of a pointer: turn of the spiral and cell, both from 1; name of the part, and cell within the part.
 
     The name is empty on a scale without names.
     """
@@ -73,11 +73,11 @@ class DialScale:
     divisions: int
     """Number of cells along all turns."""
     inner: float = 1.0
-    """Radius of the inner end relative to that of the dial."""
+    """Radius of the inner end, relative to the radius of the dial."""
     outer: float = 1.0
-    """Radius of the outer end relative to that of the dial; equal to `inner` for a circle."""
+    """Radius of the outer end, relative to the radius of the dial; equal to `inner` for a circle."""
     way: int = 1
-    """1 if it is counted clockwise as read, -1 if counter-clockwise."""
+    """Direction of counting: 1 if clockwise as read, -1 if counter-clockwise."""
     cell: str = _CELL
     """Name of one division, such as `cell` or `degree`."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
@@ -87,22 +87,26 @@ class DialScale:
     glyphs: tuple[tuple[int, str], ...] = ()
     """Glyphs in cells, by cell number from 1."""
     around: DialScale | None = None
-    """Another scale around this one."""
+    """Another scale around this scale."""
     radial: bool = False
-    """True if the feet of all numerals point to the centre, as with Roman numerals, which have no 0."""
+    """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
     counted: int = 0
     """Line at which declared numerals start again; 0 without declared numerals, when cells are counted from 1."""
 
     def radius(self, turned: float) -> float:
-        """Return the relative radius after a number of turns from the inner end; for a circle always the outer one."""
+        """Return the relative radius after a number of turns from the inner end; for a circle always the
+        outer radius.
+        """
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
-        """Return the turns after a number of divisions, exact."""
+        """Return the number of turns after a number of divisions, exact."""
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns; a pointer on a line is in the cell after it."""
+        """Return the reading of a pointer after a number of turns. A pointer on a line is in the cell after
+        the line.
+        """
         along = turned % self.turns
         done = along / self.turns * self.divisions
         for name, first, span in self.names:
@@ -111,7 +115,9 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own, or with numerals that of the line before it."""
+        """Return the number with which a cell is read: its own number, or with numerals the number of the line before
+        it.
+        """
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
@@ -167,7 +173,9 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals, else about twelve to a circle from 0; none for a spiral or a scale with names."""
+    """Return the declared numerals, by default about twelve on a circle from 0, and none for a spiral or a scale with
+    names.
+    """
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -214,7 +222,7 @@ class Engraving:
 
 
 def engrave(scale: DialScale) -> list[Engraving]:
-    """Return all lines of a scale and of the one around it."""
+    """Return all lines of a scale, and of the scale around it."""
     found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
     if scale.around is not None:
         found += engrave(scale.around)
@@ -248,7 +256,7 @@ def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> St
 
 
 def _circle(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the rim, borders that extend inwards, and the text inside of these."""
+    """Yield the rim, the borders that extend inwards from it, and the text inside the borders."""
     at = {line for _, line in scale.numerals}
     starts = {first for _, first, _ in scale.names}
     every = -(-scale.divisions // _MARKS)
@@ -265,7 +273,7 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _depth(scale: DialScale, cell: int) -> float:
-    """Return the length of a border: on a scale of 30 divisions or more every fifth is longer."""
+    """Return the length of a border. On a scale of 30 divisions or more, every fifth border is longer."""
     return _LONG if scale.divisions >= 30 and cell % 5 == 0 else _SHORT
 
 
@@ -308,7 +316,7 @@ def _written(
 
 
 def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
-    """Yield numerals at their lines, inside of the borders and of any names."""
+    """Yield numerals at their lines, inside the borders and any names."""
     if not scale.numerals:
         return
     inside = 0.5 * _TALL + 0.075 if scale.names else 0.0
@@ -325,7 +333,7 @@ def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
-    """Yield glyphs in their cells, in a common size that fits all."""
+    """Yield glyphs in their cells, in a common size that fits in all cells."""
     if not scale.glyphs:
         return
     room = _FULL * 2 * pi * radius * float(scale.turn_of(1))
@@ -338,7 +346,7 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the groove and the cells inside of it, which are as deep as the spacing of turns.
+    """Yield the groove and the cells inside it, which are as deep as the spacing of turns.
 
     The first whole cell of a turn has its number.
     """

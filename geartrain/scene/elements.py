@@ -172,7 +172,7 @@ class SceneWheel(Shown):
     centre: Vector
     """Centre of its pitch circle, on its axis [mm]."""
     direction: Vector
-    """Unit vector along the axis, equal to that of its body."""
+    """Unit vector along the axis, equal to the direction of its body."""
     reference: Vector
     """Unit vector perpendicular to the axis, from which `turn` is measured."""
     turn: float
@@ -300,7 +300,7 @@ class SceneCoupling(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneShiftElement:
-    """A brake or a clutch.
+    """Shift element of a scene: a brake or a clutch.
 
     See Also
     --------
@@ -312,9 +312,9 @@ class SceneShiftElement:
     kind: Literal["brake", "clutch"]
     """Brake or clutch."""
     bodies: Sequence[int]
-    """Index of the body that a brake fixes to the frame, or indices of the two that a clutch connects."""
+    """Index of the body that a brake fixes to the frame, or indices of the two bodies that a clutch connects."""
     closed: bool
-    """True if it is engaged in this state."""
+    """True if the element is engaged in this state."""
     text: str
     """Description, such as `B brakes ring`."""
 

@@ -41,7 +41,9 @@ def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[st
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """Return the equation of a circuit as text: `64 (b - frame) + 38 (c - frame) = 0`; names are declared speeds."""
+    """Return the equation of a circuit as text, such as `64 (b - frame) + 38 (c - frame) = 0`; names represent declared
+    speeds.
+    """
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
@@ -92,7 +94,7 @@ def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
 
 
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
-    """Return the brakes and clutches in the order declared, with their condition in a state."""
+    """Return the brakes and clutches in the order declared, with their condition in one state."""
     declared = stage.train.declaration
     closed = stage.train.kinematics.cases[state].engaged
     found = []
@@ -150,7 +152,9 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the direction of the first pin; pins in holes are midway between axes that their link carries, if any."""
+    """Return the direction of the first pin. Pins in holes are placed midway between the axes that their link carries,
+    if any.
+    """
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
@@ -165,7 +169,7 @@ def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, a
 
 
 def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, axis: Vector) -> tuple[Vector, ...]:
-    """Return equally spaced places on a circle, the first in a direction; empty for a pin in a slot."""
+    """Return equally spaced points on a circle, the first in a given direction; empty for a pin in a slot."""
     number = declared.pins if isinstance(declared, PinsInHoles) else 0
     return tuple(plus(middle, turned(towards, axis, 2 * pi * at / number), radius) for at in range(number))
 
@@ -195,7 +199,9 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset (mm), as declared, else from the axes as placed, else from typical proportions."""
+    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from typical
+    proportions.
+    """
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
@@ -214,7 +220,9 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of the two links; without wheels that of the pin's axis."""
+    """Return the height midway between the nearest wheels of the two links; without wheels, the height of the pin's
+    axis.
+    """
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

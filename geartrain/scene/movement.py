@@ -1,4 +1,4 @@
-"""Motion of a scene: exact speeds, and the errors of teeth and pins as tables and steps that a page can carry.
+"""Motion of a scene: exact speeds, and errors of teeth and pins as tables and steps that are stored in a page.
 
 Angles differ from their exact mean values by transmission errors. These are given as tables of the errors of gear pairs
 and pins, and as the steps that compose them.
@@ -247,7 +247,7 @@ class InitialPosition:
     """Initial position of a pair with a transmission error."""
 
     driver: str
-    """Driving link. `forward` is 1, or -1 if it turns against its body's direction."""
+    """Driving link; `forward` is 1, or -1 if it turns against the direction of its body."""
     forward: int
     S: float
     """Forward angle of the driver (rad)."""
@@ -257,7 +257,7 @@ class InitialPosition:
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error (rad) of the driven side at which a driver out of phase does not cut into it.
+        """Return the minimum error of the driven side [rad] at which a driver that is out of phase does not overlap it.
 
         The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
         requires e(S + shift), so c is the maximum of their difference.
@@ -270,7 +270,7 @@ class InitialPosition:
 
 @dataclass(frozen=True, slots=True)
 class MovementStart:
-    """The movement, and the pose at its start."""
+    """Movement of a scene, and the pose at its start."""
 
     movement: Movement
     rest: Mapping[str, float]
@@ -280,11 +280,15 @@ class MovementStart:
     motion: Motion | None = None
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
-    """Movement against the declared sense of the driving link, on the other flanks; None if it is the same."""
+    """Movement against the declared sense of the driving link, on the coast flanks; None if it is equal to the forward
+    movement.
+    """
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement of a train in its state: the mean motion, with the reason, if errors cannot be followed."""
+    """Return the movement of a train in its state; if the errors cannot be computed, the mean motion with
+    the reason.
+    """
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
@@ -335,7 +339,9 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement in reverse if it differs from that ahead, and notices on why it cannot be followed."""
+    """Return the movement in reverse if it differs from the forward movement, and notices on why it cannot
+    be computed.
+    """
     try:
         composition = motion._backward
         _check_positions(composition, -float(motion.period or 1))
@@ -347,7 +353,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give offsets."""
+    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still cause offsets."""
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
@@ -371,7 +377,9 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Return the turns of the driving link after which all angles and errors repeat; None if nothing moves."""
+    """Return the number of turns of the driving link after which all angles and errors repeat; None if the train does
+    not move.
+    """
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

@@ -29,7 +29,7 @@ _DASHES: tuple[Dash, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """Colours as #rrggbb by purpose."""
+    """Theme: colours as #rrggbb by purpose."""
 
     desk: str
     """Background of a page, behind cards."""
@@ -46,7 +46,7 @@ class Theme:
     fault: str
     """Errors."""
     fill: str
-    """Faces of the object in a picture. `shade` is for faces turned away, `band` for flows and marks."""
+    """Faces of the object in a picture; `shade` is for faces that are turned away, `band` for flows and marks."""
     shade: str
     band: str
     scale: tuple[str, str, str]
@@ -54,7 +54,7 @@ class Theme:
     series: tuple[str, ...]
     """Ten colours of series, in order."""
     areas: tuple[tuple[str, str], ...] = ()
-    """Colour and matplotlib hatch of areas of the series, if they are not filled with the colour of the series."""
+    """Colour and matplotlib hatch of the areas of each series, if they are not filled with the colour of the series."""
 
     @property
     def css(self) -> str:

@@ -23,7 +23,7 @@ _ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, an
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Angles A of all bodies about their directions (rad, modulo a turn), and the rigid motions of the bodies."""
+    """Angles A of all bodies about their directions [rad, modulo a turn], and rigid motions of the bodies."""
 
     angles: Floats
     turned: Floats
@@ -34,16 +34,18 @@ class ScenePose:
     moved: Floats
 
     def point(self, body: int, point: object) -> Floats:
-        """Return the positions of points (..., 3) of a body that are given in the zero pose."""
+        """Return the positions of points (..., 3) of a body, which are given in the zero pose."""
         return np.asarray(np.asarray(point, dtype=float) @ self.turned[body].T + self.moved[body])
 
     def way(self, body: int, way: object) -> Floats:
-        """Return the rotated directions (..., 3) of a body that are given in the zero pose."""
+        """Return the rotated directions (..., 3) of a body, which are given in the zero pose."""
         return np.asarray(np.asarray(way, dtype=float) @ self.turned[body].T)
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact turns of a body after `turns` of the driving link, from its relative speed; 0 for None."""
+    """Return the exact turns of a body after `turns` of the driving link, from its relative speed; 0 if the speed is
+    None.
+    """
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
@@ -143,7 +145,7 @@ def _matrix(rows: object, height: int, width: int) -> Floats:
 
 
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) -> float:
-    """Return the transmission error that a pair adds to the body it drives (rad)."""
+    """Return the transmission error that a pair adds to its driven body [rad]."""
     transmission = scene.movement.transmissions[source.transmission]
     swing = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier]
     mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)

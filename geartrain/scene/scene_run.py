@@ -1,4 +1,4 @@
-"""Simulated motion of a train as a page carries it: angles at few samples, contacts, and impacts.
+"""Simulated motion of a train as stored in a page: angles at few samples, contacts, and impacts.
 
 Sample n is `step n` seconds after the start of the replayed part. The angle of a link is
 
@@ -88,7 +88,7 @@ class SceneContact(Result):
     )
 
     name: str
-    """Name of the pair or coupling; for an escapement that of its link."""
+    """Name of the pair or coupling; for an escapement, name of its link."""
     kind: str
     """Kind of contact: pair, pin or escapement."""
     body: int
@@ -171,14 +171,14 @@ class SceneRun(Result):
 
 
 TOLERANCE = 1e-4
-"""Maximum deviation of angles on a page from those of the simulation (rad)."""
+"""Maximum difference between the angles on a page and the simulated angles [rad]."""
 _TOUCHES = 1e-9  # rad: smaller gaps are rounding errors of angles
 _FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a line are measured along the angle
 
 
 @dataclass(frozen=True)
 class ShownSamples:
-    """Samples of the counted part of a run, including the one at time 0, which a run does not keep."""
+    """Samples of the evaluated part of a run, with the sample at time 0, which a run does not store."""
 
     run: TimeRun
 
@@ -187,7 +187,7 @@ class ShownSamples:
         return np.asarray(self.run.time > self.run.skip - self.run.step / 2)
 
     def of(self, values: Floats, first: float = 0.0) -> Floats:
-        """Return the values at the replayed samples; `first` at time 0."""
+        """Return the values at the replayed samples, with `first` at time 0."""
         picked = values[self._picked]
         return np.concatenate(([first], picked)) if self.run.skip == 0 else picked
 
@@ -250,7 +250,7 @@ def find_run(
     pairs: Sequence[ScenePair],
     couplings: Sequence[SceneCoupling],
 ) -> SceneRun:
-    """Return the counted part of a run for replay on a page.
+    """Return the evaluated part of a run for replay on a page.
 
     Raise `QuestionError` if the run is of another train or state.
 
@@ -324,7 +324,7 @@ def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield each contact with its kind, the body with which its point moves, and this point in the zero pose (mm)."""
+    """Yield each contact with its kind, the body with which its point moves, and this point in the zero pose [mm]."""
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
@@ -336,7 +336,9 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the contact point of pallets with the escape wheel, a wheel without mates, else with the largest wheel."""
+    """Return the contact point of the pallets with the escape wheel: the wheel without mates, otherwise the largest
+    wheel.
+    """
     if not wheels:
         return (0.0, 0.0, 0.0)
     # an escape wheel has no mate among gears

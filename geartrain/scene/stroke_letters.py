@@ -18,12 +18,12 @@ from math import cos, sin
 
 @dataclass(frozen=True, slots=True)
 class HandOutline:
-    """Outline of a hand along x from its axis, its tip at 1."""
+    """Outline of a hand along x from its axis, with its tip at 1."""
 
     reach: float
     """Length relative to the radius of the scale on which it is read."""
     stations: tuple[tuple[float, float], ...]
-    """Pairs (x, half the width there) from the tail to the tip, relative to its length."""
+    """Pairs (x, half the width at x) from the tail to the tip, relative to the length."""
 
 
 HANDS: Mapping[str, HandOutline] = {
@@ -189,7 +189,7 @@ def _rounded(corners: list[Point]) -> Iterator[Point]:
 
 
 def capitals(text: str) -> str:
-    """Return a text as it is engraved, in capitals without accents."""
+    """Return a text as it is engraved: in capitals without accents."""
     return "".join(each for each in unicodedata.normalize("NFD", text.upper()) if not unicodedata.combining(each))
 
 

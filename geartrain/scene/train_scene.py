@@ -1,4 +1,4 @@
-"""Scene of a train: all data that a picture of it needs, as plain data. Lengths in mm, angles in rad.
+"""Scene of a train: all data that are required for a picture of it, as plain data. Lengths in mm, angles in rad.
 
 Places are given in the zero pose, in which the angle of every link is zero. The angle of a body about its `direction`,
 after `t` turns of the driving link, is

@@ -94,7 +94,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     Parameters
     ----------
     text : str
-        A number, a fraction, a pair of counts, a quotient of two periods, or a name listed by `geartrain periods`; see
+        A number, a fraction, a pair of counts, a ratio of two periods, or a name listed by `geartrain periods`; see
         Notes. A leading sign requests a sense of rotation: + the same sense as the input, - the opposite sense. Without
         a sign both senses are accepted.
     per : str, optional
@@ -116,9 +116,10 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     "13.368267", "235/19", "1:30"      the number, exactly as written
     "235 months / 19 years"            a pair of counts: while the second (years) makes 19 revolutions, the first
                                        (months) makes 235, so its pointer is 235/19 times as fast
-    "365.2422 d / 29.53059 d"          a quotient of two periods: the number of revolutions of the second during one
-    "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period over
-                                       the speed with the first. Each side is a time or the name of a period.
+    "365.2422 d / 29.53059 d"          a ratio of two periods: the number of revolutions of the second during one
+    "year_julian / month_metonic"      revolution of the first, so the ratio is the speed with the second period
+                                       divided by the speed with the first. Each side is a time or the name of a
+                                       period.
     "metonic_months_per_year"          a name from that table whose row is a speed (revolutions per year) or a count
     "month_synodic_J2000" and `per`    a single period: its number of revolutions in one period `per`
 

@@ -112,23 +112,23 @@ class CircularArc(ToothForm):
     )
     addendum: TwoFigures | None = Field(
         None,
-        description="Addendum in modules, one value, or a list of two (first, second wheel); default that of the "
+        description="Addendum in modules, one value, or a list of two (first, second wheel); default as in the "
         "standard",
     )
     radius: TwoFigures | None = Field(
         None,
         description="Radius of the tip arcs in modules, one value, or a list of two (first, second wheel); default "
-        "that of the standard",
+        "as in the standard",
     )
     thickness: TwoFigures | None = Field(
         None,
         description="Tooth thickness on the pitch circle in modules, one value, or a list of two (first, second "
-        "wheel); default that of the standard",
+        "wheel); default as in the standard",
     )
     backlash: Length | None = Field(
         None,
         description="Minimum backlash on the pitch circle, in modules or with a unit; the leaves are thinned if they "
-        "have less; default that of the standard",
+        "have less; default as in the standard",
     )
     centre_distance: Length | None = Field(
         None, description="Centre distance, in modules or with a unit; default half the sum of the tooth numbers"

@@ -35,7 +35,7 @@ class CoulombFriction(BaseModel):
     sliding: Friction = Field(description="Coefficient of sliding friction")
     static: Friction | None = Field(
         None,
-        description="Coefficient of static friction, which a start has to overcome; `sliding` or more, default "
+        description="Coefficient of static friction, which must be overcome to start; `sliding` or more, default "
         "`sliding`",
     )
     deviation: Friction | None = Field(

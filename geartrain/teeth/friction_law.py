@@ -171,7 +171,7 @@ class StribeckFriction(FrictionLaw):
         description="Coefficient of kinetic friction, the limit at high speed without `viscous`"
     )
     speed: PositiveVelocity = Field(
-        description="Sliding speed at which 1/e of the difference of `static` and `kinetic` remains"
+        description="Sliding speed at which 1/e of the difference between `static` and `kinetic` remains"
     )
     exponent: PositiveFigure = Field(Figure.parse("2"), description="Exponent of the speed, usually 1/2 to 2")
     viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
@@ -217,7 +217,7 @@ class DokosFriction(FrictionLaw):
     law: Literal["dokos"] = Field(description="Dokos's friction of dry steel on dry steel, by sliding speed")
     slowest: PositiveVelocity = Field(
         SLOWEST_OF_DOKOS,
-        description="Sliding speed up to which the coefficient is 0.53, an assumption: the source gives no speed",
+        description="Sliding speed up to which the coefficient is 0.53; assumed, since the source gives no speed",
     )
 
     def coefficient(self, speed: Floats) -> Floats:
@@ -237,7 +237,7 @@ class TabulatedFriction(FrictionLaw):
 
     law: Literal["table"] = Field(description="Table of coefficients at given speeds, interpolated linearly")
     speeds: tuple[Velocity, ...] = Field(
-        description="Speeds in rising order; the coefficient is constant outside their range"
+        description="Speeds in ascending order; the coefficient is constant outside their range"
     )
     coefficients: tuple[Coefficient, ...] = Field(description="Coefficient of friction at each speed")
     of: Speeds = Field("sliding", description="Speed of the table: sliding (at each contact) or pitch_line")

@@ -48,14 +48,14 @@ class _Coupling(BaseModel):
     pin_radius: Length | None = Field(None, description="Distance of the pin from the axis of its own link")
     offset: Length | None = Field(None, description="Distance between the axes of the two links")
     clearance: Annotated[Length, AfterValidator(_not_negative)] | None = Field(
-        None, description="Width of the slot less the diameter of the pin; default 0"
+        None, description="Width of the slot minus the diameter of the pin; default 0"
     )
     friction: DeclaredCoulombFriction | None = Field(
         None,
         description="Coefficient of friction of the pin in its slot, or `{sliding, static, deviation}`; default none",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default the train's"
+        None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default from the train"
     )
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
@@ -80,7 +80,7 @@ class _Coupling(BaseModel):
 
 
 class PinAndSlot(_Coupling):
-    """Pin in a slot whose axis is inside the pin's circle: both have the same mean speed."""
+    """Pin in a slot whose axis is inside the pin's circle: both links have the same mean speed."""
 
     kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
 

@@ -54,7 +54,7 @@ class UniformTemperature(ConjugateToothForm):
         None, description="Heat per area over friction times tangential force; a smaller value makes taller teeth"
     )
     depth: Figure | None = Field(
-        None, description="Working depth in modules, instead of heat; default that of the 20 deg involute"
+        None, description="Working depth in modules, instead of heat; default as for the 20 deg involute"
     )
     minimum_angle: Angle | None = Field(
         None, description="Minimum pressure angle, which is at the pitch point, in reading c; default 12 deg"

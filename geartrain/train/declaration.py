@@ -49,8 +49,8 @@ class Epoch(Declared):
     """Date at a given position of the train: number of turns of the input since all pointers were at the start of their
     scales.
 
-    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar and later ones
-    in the Gregorian calendar, unless `calendar` is given. In a declaration, a plain text is read as the date.
+    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
+    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a plain text is read as the date.
 
     See Also
     --------
@@ -165,8 +165,8 @@ class Train(Declared):
     geartrain.GearTrain : Analyse a train.
     """
 
-    name: str = Field("train", description="Short name, preferably that of the file")
-    title: str = Field("", description="Title on one line, for readers")
+    name: str = Field("train", description="Short name, preferably the same as the file name")
+    title: str = Field("", description="One-line title for readers")
     note: str | None = Field(None, description="Remark for readers")
     frame: Id = Field("frame", description="Fixed link, whose speed is 0")
     unit: SpeedUnit | None = Field(
@@ -228,9 +228,7 @@ class Train(Declared):
         None, description="Default material of all wheels: a name of the table or of `materials`"
     )
     density: MaterialDensity | None = Field(None, description="Default density of all wheels")
-    materials: ByName[Material] = Field(
-        {}, validate_default=True, description="Further materials besides those of the table, by name"
-    )
+    materials: ByName[Material] = Field({}, validate_default=True, description="Additional materials, by name")
     cutting: WheelManufacture | None = Field(None, description="Default manufacturing errors of all wheels")
     fitting: PairMounting | None = Field(None, description="Default mounting errors of all gear pairs")
     view: View = Field(View(), description="Side from which the train is viewed, and positive sense of rotation")
@@ -242,7 +240,7 @@ class Train(Declared):
     )
     extends: str | None = Field(
         None,
-        description="Declaration to change: a file in the same folder, or the name of a shipped train or evidence",
+        description="Declaration to extend: a file in the same folder, or the name of a shipped train or evidence",
     )
     remove: Remove | None = Field(None, description="Parts of the declaration in `extends` to remove")
     sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(

@@ -343,7 +343,9 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
         Problem(
             "the file does not exist",
             f"'{path.stem}' is not the name of a shipped {kind} either",
-            _suggestion(path.stem, evidence),
+            f"this folder has {path.name}.yaml: write that name"
+            if path.name and _exists(path.with_name(f"{path.name}.yaml"))
+            else _suggestion(path.stem, evidence),
             str(source),
         )
     )

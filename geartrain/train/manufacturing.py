@@ -110,7 +110,7 @@ class ArborSizes(Declared):
     """
 
     diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
-    span: FaceWidth = Field(description="Distance of the bearings, from middle to middle")
+    span: FaceWidth = Field(description="Distance between the centres of the bearings")
     pivot: FaceWidth | None = Field(None, description="Diameter of its pivots; default `diameter`")
     pivot_length: FaceWidth | None = Field(
         None, description="Length of a pivot in its hole; default the pivot's diameter"

@@ -352,7 +352,7 @@ class Wheel(Declared):
         Field(description="Tooth count, or an uncertain count with its range; for a worm, the number of starts")
     )
     internal: Boolean = Field(
-        False, description="True for a ring (internal teeth); a mesh with it preserves the sense of rotation"
+        False, description="True for a ring (internal teeth); a mesh with a ring preserves the sense of rotation"
     )
     flexible: Boolean = Field(
         False,
@@ -372,15 +372,20 @@ class Wheel(Declared):
     module: Length | None = Field(
         None, description="Module, pitch diameter over tooth count; for helical teeth the normal module"
     )
-    thickness: Thickness | None = Field(None, description="Thickness of the wheel along its axis; default the train's")
-    density: MaterialDensity | None = Field(None, description="Density of the material; default the train's")
+    thickness: Thickness | None = Field(
+        None, description="Thickness of the wheel along its axis; default from the train"
+    )
+    density: MaterialDensity | None = Field(None, description="Density of the material; default from the train")
     face_width: FaceWidth | None = Field(
-        None, description="Face width (width of the teeth along the axis); default the train's, or the thickness"
+        None, description="Face width (width of the teeth along the axis); default from the train, or the thickness"
     )
     material: Id | None = Field(
-        None, description="Name of the material, in the table (docs/strength.md) or in `materials`; default the train's"
+        None,
+        description="Name of the material, in the table (docs/strength.md) or in `materials`; default from the train",
     )
-    cutting: WheelManufacture | None = Field(None, description="Manufacturing errors of the teeth; default the train's")
+    cutting: WheelManufacture | None = Field(
+        None, description="Manufacturing errors of the teeth; default from the train"
+    )
     status: Status | None = Field(None, description="Status of the wheel: surviving, reconstructed or hypothetical")
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
@@ -463,7 +468,7 @@ class Link(Declared):
         None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
-        None, description="Mass of a link on a moving carrier; default from its wheels, like `inertia`"
+        None, description="Mass of a link on a moving carrier; default from its wheels, as for `inertia`"
     )
     bearing: DeclaredBearing | None = Field(
         None,
@@ -496,7 +501,7 @@ class Axis(Declared):
         description="Direction vector about which speeds are positive; default [0, 0, 1]",
     )
     position: tuple[Length, Length, Length] | None = Field(
-        None, description="A point of the axis, as three lengths; default unknown"
+        None, description="Point on the axis, as three lengths; default unknown"
     )
     note: str | None = Field(None, description="Remark for readers")
 
@@ -564,24 +569,24 @@ class GearPair(Declared):
 
     id: str = Field("", description="Name of the pair; default `first~second`")
     pair: tuple[Id, Id] = Field(description="Ids of the two wheels")
-    tooth_form: DeclaredToothForm | None = Field(None, description="Tooth form; default the train's")
+    tooth_form: DeclaredToothForm | None = Field(None, description="Tooth form; default from the train")
     friction: DeclaredFriction | None = Field(
         None,
         description="Coefficient of friction between teeth, `{sliding, static, deviation}`, or a friction law; "
-        "default the train's",
+        "default from the train",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Coefficient of restitution of tooth impacts, 0 to 1; default the train's"
+        None, description="Coefficient of restitution of tooth impacts, 0 to 1; default from the train"
     )
     stiffness: PairStiffness | None = Field(
         None,
         description="Mesh stiffness: torque on the driven wheel per radian of its deflection, or force along the "
-        "line of action per length; default the train's",
+        "line of action per length; default from the train",
     )
     damping: PairDamping | None = Field(
         None,
         description="Mesh damping: torque on the driven wheel per rad/s, or force along the line of action per speed; "
-        "default the train's",
+        "default from the train",
     )
     efficiency: DeclaredEfficiency | None = Field(
         None,
@@ -595,9 +600,10 @@ class GearPair(Declared):
     driver: Id | None = Field(None, description="Id of the driving wheel; default from the power flow")
     phase: Figure | None = Field(
         None,
-        description="Pitches by which a tooth of the first wheel is past the line of centres at angle 0; default 0",
+        description="Number of pitches by which a tooth of the first wheel is past the line of centres at angle 0; "
+        "default 0",
     )
-    fitting: PairMounting | None = Field(None, description="Mounting errors of its axes; default the train's")
+    fitting: PairMounting | None = Field(None, description="Mounting errors of its axes; default from the train")
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
 

@@ -67,7 +67,9 @@ class DialNumerals(Declared):
     """
 
     style: Literal["roman", "arabic"] = Field("arabic", description="Style of the numerals")
-    every: Whole | None = Field(None, description="Number of divisions between numerals; default as small as fits")
+    every: Whole | None = Field(
+        None, description="Number of divisions between numerals; default the smallest that fits"
+    )
     to: Whole | None = Field(
         None,
         description="Highest numeral before they start again, such as 12 on a dial of 24 hours; default all divisions",
@@ -90,7 +92,7 @@ class Graduation(Declared):
     divisions: Whole = Field(
         1, description="Number of divisions along all turns; default the sum of the spans of its names"
     )
-    cell: str = Field("", description="Name of one division; default from a named scale, else cell")
+    cell: str = Field("", description="Name of one division; default from a named scale, otherwise cell")
     names: Annotated[
         tuple[Annotated[DialName, short_for("name")], ...],
         AlsoShort({"enum": [*NAMED_SCALES]}),
@@ -210,7 +212,7 @@ class Dial(Graduation):
     around: DialRing | None = Field(None, description="Second scale around this one, read by the same pointers")
     look: Literal["scale", "ball"] = Field(
         "scale",
-        description="Appearance: a scale with a pointer, or a half-black ball such as shows the Moon's phase",
+        description="Appearance: a scale with a pointer, or a half-black ball that shows the Moon's phase",
     )
     note: str | None = Field(None, description="Remark for readers")
 
@@ -353,7 +355,8 @@ class Expect(Declared):
     """
 
     value: Figure = Field(
-        description="Expected speed in the train's unit: exact for integers and fractions, to the digits of a decimal"
+        description="Expected speed in the train's unit; integers and fractions are exact, "
+        "decimals are compared to their digits"
     )
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
@@ -382,7 +385,7 @@ class Published(Declared):
     Output : its field `published`
     """
 
-    value: Figure = Field(description="Value as printed; it must agree to its digits")
+    value: Figure = Field(description="Value as printed; the computed value must match all its digits")
     as_: Literal["speed", "input/output", "output/input"] = Field(
         "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
@@ -417,15 +420,15 @@ class Output(Declared):
     of: Id | None = Field(None, description="Link that turns; default the name of the output")
     relative_to: Id | None = Field(None, description="Link to which the speed is relative; default the frame")
     expect: Annotated[Expect, short_for("value")] | None = Field(None, description="Required speed in the train's unit")
-    published: Published | None = Field(None, description="Value printed in a source, which must agree")
+    published: Published | None = Field(None, description="Value printed in a source, which the output must match")
     targets: tuple[Annotated[Target, short_for("name")], ...] = Field(
         (), description="Periods or speeds with which the output is compared"
     )
     dial: Id | None = Field(None, description="Name of the dial on which the output is read")
     hand: Literal["needle", "hour", "minute", "seconds"] = Field(
         "needle",
-        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or thin with a "
-        "counterpoise (seconds)",
+        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or a thin hand "
+        "with a counterpoise (seconds)",
     )
     note: str | None = Field(None, description="Remark for readers")
 

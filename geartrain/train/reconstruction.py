@@ -80,7 +80,7 @@ class GivenCoupling(Declared):
     Reconstruction : has them as `given`
     """
 
-    pair: tuple[Id, Id] = Field(description="Two links, that of the pin first")
+    pair: tuple[Id, Id] = Field(description="Two links, beginning with the link of the pin")
     kind: Literal["pin_and_slot"] = Field(
         "pin_and_slot", description="Kind of coupling: a pin in a slot has a mean ratio of 1"
     )
@@ -136,7 +136,7 @@ class MeasuredGeometry(Declared):
 
 
 class Reconstruction(Declared):
-    """Rules for the reconstruction of a train from surviving parts; a declaration that has them is not a train.
+    """Rules for the reconstruction of a train from surviving parts; a declaration with these rules is not a train.
 
     Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
     pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).
@@ -150,13 +150,13 @@ class Reconstruction(Declared):
 
     add: AddedParts = Field(AddedParts(), description="Parts that may be added")
     carrier: Id | None = Field(
-        None, description="Link on which the arbors turn, with its speed among the inputs; default the frame"
+        None, description="Link on which the arbors turn, whose speed is an input; default the frame"
     )
     use: Literal["wheels", "arbors", "some"] = Field(
         "wheels", description="Parts that must be used: every surviving wheel, every surviving arbor, or neither"
     )
     sense: Literal["given", "free"] = Field(
-        "given", description="Evidence of speeds: with their signs (given), or magnitudes only (free)"
+        "given", description="Evidence of the speeds: given (with their signs) or free (only their magnitudes)"
     )
     idlers: Boolean = Field(False, description="True if a driven wheel may itself drive another (idler)")
     apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels that are known not to mesh")

@@ -73,18 +73,18 @@ def rates(train: Train) -> Iterator[Problem]:
         yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
 
 
+_TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`, turns as `{name: NAME, turns: 5}`"
+
+
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
     """Yield a problem for each target that is not in the table, or whose dimension differs from the train's unit."""
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)
         if row is None:
-            yield Problem(
-                f"unknown astronomical period '{target.name}'",
-                "a target name must be in the table of periods",
-                suggested_period(target.name),
-                place,
-            )
+            what = f"unknown astronomical period '{target.name}'"
+            fix = _TARGET_KEYS if re.match(r"[\d+-]", target.name) else suggested_period(target.name)
+            yield Problem(what, "a target that is a text is a name in the table of periods", fix, place)
             return
         if row.kind == "count":
             yield Problem(
@@ -223,6 +223,10 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
     names = list(known)
     few = f"use one of: {', '.join(names)}; or " if 0 < len(names) <= 12 else "correct the name, or " if names else ""
     link = next((link for link in train.links if link != train.frame), train.frame)
+    if kind == "link" and name in train.wheels:
+        owner = next(link for link, each in train.links.items() if name in each.wheels)
+        why = f"'{name}' is a wheel of the link '{owner}'"
+        return Problem(f"no link '{name}'", why, f"write '{owner}'", train.place(*loc))
     line = f"`{_HOMES[kind].format(name, link=link)}`" if kind in _HOMES else f"the {kind}"
     fix = suggest(name, names, otherwise=f"{few}declare {line}")
     return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))

@@ -100,7 +100,7 @@ class HandDrive(Declared):
 
 
 class Drive(Declared):
-    """Drive of the train for simulations in time: exactly one of rate, torque, weight, spring and hand.
+    """Drive of the train for simulations in time, declared by exactly one of rate, torque, weight, spring and hand.
 
     A drive acts at the link where power enters, which is `crank` or by default the input, in the direction in which
     this link turns. A rate is the mean speed of the input, like the train's `rate`. If `crank` is another link, its
@@ -233,7 +233,7 @@ class Escapement(Declared):
 
 
 class Clutch(Declared):
-    """Brake or clutch: exactly one of `fixes` and `locks`.
+    """Brake or clutch, declared by exactly one of `fixes` and `locks`.
 
     See Also
     --------
@@ -263,22 +263,22 @@ class State(Declared):
     """
 
     engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are engaged, by name")
-    fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default the train's")
+    fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default from the train")
     locks: tuple[tuple[Id, Id], ...] | None = Field(
-        None, description="Pairs of links that are locked together; default the train's"
+        None, description="Pairs of links that are locked together; default from the train"
     )
-    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link; default the train's")
+    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link; default from the train")
     loads: ByName[Torque] | None = Field(
-        None, description="External torques by link, positive if power enters the train; default the train's"
+        None, description="External torques by link, positive if power enters the train; default from the train"
     )
-    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default the train's")
-    drive: Drive | None = Field(None, description="Drive of the train in time; default the train's")
+    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default from the train")
+    drive: Drive | None = Field(None, description="Drive of the train in time; default from the train")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
     )
     expect: ExpectedVerdict | None = Field(
         None,
-        description="Expected verdict, which does not count as a failure (`free` for neutral); default the train's",
+        description="Expected verdict, which does not count as a failure (`free` for neutral); default from the train",
     )
     note: str | None = Field(None, description="Remark for readers")
 

@@ -189,7 +189,8 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
             place(loc[:-1]),
         )
     if kind == "missing":
-        return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1]))
+        fix = f"add `{_wheel_pair(error['input'])}`" if _is_wheel_pair(loc) else f"add `{key}:`"
+        return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", fix, place(loc[:-1]))
     if kind == "union_tag_invalid":
         tag, known = unknown_tag(error)
         what = f"`{tag}` has the unknown value '{context['tag']}'"
@@ -204,12 +205,23 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     got = f"the given value is {shown if len(shown) <= 60 else shown[:57] + '...'}"
     if kind in _SHAPES:
         shape, of = _SHAPES[kind]
-        line = example_line(loc, of)
+        line = _wheel_pair(error["input"]) if _is_wheel_pair(loc) else example_line(loc, of)
         fix = f"write for example `{line}`" if line else f"write {shape}"
         return Problem(f"{_where(loc)} is not {shape}", got, fix, place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
     return Problem(what, got, "see `geartrain inspect schema`", place(loc))
+
+
+def _is_wheel_pair(loc: Loc) -> bool:
+    return len(loc) == 3 and loc[0] == "gears" and loc[2] == "pair"
+
+
+def _wheel_pair(raw: Any) -> str:
+    """Return the line `pair: [first, second]` for text such as `first ~ second`, or for a pair with such an id."""
+    text = raw.get("id") if isinstance(raw, dict) else raw
+    wheels = [wheel.strip() for wheel in text.split(_MARK)] if isinstance(text, str) else []
+    return f"pair: [{', '.join(wheels if len(wheels) == 2 and all(wheels) else ('sun', 'planet'))}]"
 
 
 def _without_space(loc: Loc, value: Any) -> str:

@@ -257,7 +257,7 @@ def test_a_graph_that_would_differ_from_its_train_is_refused_with_what_changes_t
         lambda: nx.set_node_attributes(graph, 0, "speed"),
     ]
     for change in changes:
-        with pytest.raises(QuestionError, match=r"with_teeth or with_changes"):
+        with pytest.raises(QuestionError, match=r"`with_teeth` or `with_changes`"):
             change()
     assert edge["ratio"] == Fraction(-18, 24)
     assert len(graph) == 4

@@ -121,7 +121,7 @@ def test_nothing_is_fetched_from_elsewhere(site: Path) -> None:
 
 def test_what_makes_the_site_is_no_part_of_it(site: Path) -> None:
     assert [path.name for path in site.rglob("*.py")] == []
-    assert not (site / "data").exists()
+    assert not (site / "scripts").exists()
     assert not (site / "site").exists()
 
 
@@ -149,17 +149,16 @@ def test_pictures_of_the_gallery_turn_under_the_pointer_and_open_the_train(
             film.seek(5)
             assert np.abs(first - np.asarray(film.convert("RGB"), dtype=int)).max() > 60, "it moves"
     shown = "(each) => getComputedStyle(each, '::after').backgroundImage"
-    for where in ("gallery", "index"):
-        page.goto((site / f"{where}.html").as_uri())
-        picture = page.locator("a.turning[title=worm]")
-        assert picture.evaluate(shown) == "none", "no film is fetched before it is wanted"
-        picture.hover()
-        assert picture.evaluate(shown).endswith('film/worm.webp")')
-        page.emulate_media(reduced_motion="reduce")
-        assert picture.evaluate(shown) == "none"
-        page.emulate_media(reduced_motion="no-preference")
-        picture.click()
-        assert page.url.endswith("view/worm.html")
+    page.goto((site / "gallery.html").as_uri())
+    picture = page.locator("a.turning[title=worm]")
+    assert picture.evaluate(shown) == "none", "no film is fetched before it is wanted"
+    picture.hover()
+    assert picture.evaluate(shown).endswith('film/worm.webp")')
+    page.emulate_media(reduced_motion="reduce")
+    assert picture.evaluate(shown) == "none"
+    page.emulate_media(reduced_motion="no-preference")
+    picture.click()
+    assert page.url.endswith("view/worm.html")
     assert wrong == []
 
 

@@ -60,7 +60,7 @@ def test_hands_are_told_to_show_what_python_says(show_shared: Opening, name: str
         lead = scene.bodies[scene.driving_link or 0].id
         speed = Fraction(solved[pointer.output]) / Fraction(solved.speeds[lead])
         assert of != base
-        words = scale.told(pointer.sense * scale.way * speed * at)
+        words = scale.reading_text(pointer.sense * scale.way * speed * at)
         assert told[pointer.output].partition(", ")[2] == words, pointer.output
         checked += 1
     assert checked >= 3

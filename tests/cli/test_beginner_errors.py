@@ -237,7 +237,7 @@ error: my.yaml:8: `outputs` is not a mapping of keys to values
         """\
 error: my.yaml:3: the line contains a tab
   why: YAML is indented with spaces only
-  fix: replace the tab by spaces
+  fix: replace the tab with spaces
 """,
     ),
     "an indentation": (
@@ -245,7 +245,7 @@ error: my.yaml:3: the line contains a tab
         " a: {wheels",
         """\
 error: my.yaml:3: the YAML cannot be read here
-  why: a key and a colon are expected here, as far to the right as the keys above
+  why: a key and a colon are expected here, with the same indentation as the keys above
   fix: write `key: value`, and indent all keys of a mapping equally
 """,
     ),
@@ -254,7 +254,7 @@ error: my.yaml:3: the YAML cannot be read here
         "a {wheels: {p: 20}}",
         """\
 error: my.yaml:3: the YAML cannot be read here
-  why: a key and a colon are expected here, as far to the right as the keys above
+  why: a key and a colon are expected here, with the same indentation as the keys above
   fix: write `key: value`, and indent all keys of a mapping equally
 """,
     ),

@@ -37,7 +37,7 @@ def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
 @pytest.mark.parametrize(
     ("more", "word"),
     [
-        (("--objective", "speed"), "not an objective"),
+        (("--objective", "speed"), "does not name one objective"),
         (("--objective", "error", "--free", "depth"), "not a free parameter"),
         (("--objective", "error", "--free", "window=0.5"), "NAME=LOW:HIGH"),
         (("--objective", "error", "--within", "depth=1"), "NAME=LIMIT"),

@@ -108,7 +108,7 @@ REFUSED = [
     ([48, 96, "-p", "clearance_factor=1.01", "--plot", "x.bmp"], "'.bmp'"),
     ([48, 96, "-p", "clearance_factor=1.01", "--profile", "w.svg"], "the module is missing"),
     ([48, 96, "--module", "1mm", "-p", "clearance_factor=1.01", "--profile", "w.stl"], "not an output format"),
-    ([48, 96, "--profile", "w.svg", "--vary", "clearance_factor=1.01:1.02:3"], "omit --vary"),
+    ([48, 96, "--profile", "w.svg", "--vary", "clearance_factor=1.01:1.02:3"], "omit --profile or --vary"),
 ]
 
 
@@ -284,8 +284,8 @@ def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_d
 TRANSMISSION = "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s"
 REFUSED_TRANSMISSIONS = [
     (["--friction", "dokos"], "give --rate and --module"),
-    (["--friction", "dokos", "--rate", "1 rpm"], "unknown: the module"),
-    (["--friction", "dokos", "--module", "1mm"], "unknown: the speed of the driver"),
+    (["--friction", "dokos", "--rate", "1 rpm"], "cannot be computed without the module"),
+    (["--friction", "dokos", "--module", "1mm"], "cannot be computed without the speed of the driver"),
     (["--friction", "stribek,static=1"], "'stribeck'"),
     (["--friction", "stribeck,static=0.2"], "kinetic: Field required"),
     (["--friction", "dokos", "--vary", "window=0.1:0.9:3"], "needs a coefficient of friction"),

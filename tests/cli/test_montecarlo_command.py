@@ -208,7 +208,7 @@ def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
         cutting: {pitch_deviation: {normal: 2 %}}
     """
     closed = load(train_file(loop, "loop.yaml"))
-    with pytest.raises(GearTrainError, match="close a loop"):
+    with pytest.raises(GearTrainError, match="form a loop"):
         find_trial_plan(closed)
     assert find_trial_plan(closed, without=("two",)).pairs[0].name == "one"
 

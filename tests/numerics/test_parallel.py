@@ -658,7 +658,10 @@ def test_workers_are_as_many_as_the_cores_this_process_may_use(monkeypatch: pyte
 
 @pytest.mark.parametrize(
     ("requested", "said"),
-    [({"workers": 0}, "0 workers"), ({"workers": 2, "dask": "tcp://x:1"}, "both workers and a dask scheduler")],
+    [
+        ({"workers": 0}, "the number of workers is 0"),
+        ({"workers": 2, "dask": "tcp://x:1"}, "both workers and a dask scheduler"),
+    ],
 )
 def test_what_cannot_be_requested_is_refused(requested: dict[str, Any], said: str) -> None:
     with pytest.raises(QuestionError, match=said), open_executor(**requested):

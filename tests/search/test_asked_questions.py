@@ -98,7 +98,7 @@ def test_the_command_says_the_size_first_and_refuses_the_absurd() -> None:
     done = ended("reconstruct", "moon-c-e", "-k", "1000", "--count")
     assert done.returncode == 2
     assert "problem: 3 arbors with 4 wheels; 1 dial; at most 1000 added wheels" in done.stderr
-    assert "1e2330 choices" in done.stderr
+    assert "1e2330 combinations" in done.stderr
 
 
 def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,5 +112,5 @@ def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.
         "the problem has 6 arbors with 10 wheels and 14820 combinations of their counts; 2 dials; "
         "at most 2 added wheels of 12 to 225 teeth"
     )
-    for way in ("`-k 1`", "e3 has 19, e4 has 13, m1 has 5", "leave out arbors"):
+    for way in ("`-k 1`", "e3 has 19, e4 has 13, m1 has 5", "omit arbors"):
         assert way in problem.fix

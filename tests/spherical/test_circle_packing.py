@@ -363,7 +363,7 @@ def cube_beside_cube() -> list[tuple[int, int]]:
         (list(nx.complete_bipartite_graph(3, 3).edges()), "not planar: 0, 1, 2, 3, 4, 5"),
         ([(1, 1), (1, 2)], "1 meshes with itself"),
         ([("a", "b"), ("b", "a")], "a and b mesh twice"),
-        ([(0, 1), (1, 2), (2, 3)], "leave 0, 3 out"),
+        ([(0, 1), (1, 2), (2, 3)], "remove 0, 3"),
         ([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 6), (6, 3)], "only 3 connects two parts"),
         ([(0, 1)], "2 gears"),
         ([*nx.cubical_graph().edges(), (10, 11), (11, 12), (12, 13), (13, 10)], "10, 11, 12, 13 are not connected"),

@@ -386,7 +386,7 @@ def test_suggestions_give_sets_with_teeth() -> None:
 
 
 def test_an_odd_loop_is_named_instead_of_searched() -> None:
-    with pytest.raises(GearTrainError, match="is odd"):
+    with pytest.raises(GearTrainError, match="has an odd number of gears"):
         suggest_tooth_counts(from_polyhedron("dodecahedron"))
 
 

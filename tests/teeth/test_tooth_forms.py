@@ -669,7 +669,7 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
             {},
             "too long for a contact speed margin of 0.38 and a pressure angle of 25 deg",
         ),
-        ({"form": "least_friction", "arcs": [3, 0]}, (24, 36), {}, "too long for a margin"),
+        ({"form": "least_friction", "arcs": [3, 0]}, (24, 36), {}, "too long for a contact speed margin"),
         ({"form": "lantern"}, (30, 60), {"internal": True}, "ring of pins"),
         ({"form": "lantern"}, (30, 60), {"shaft_angle": RIGHT}, "bevel lantern"),
     ],

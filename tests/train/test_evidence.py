@@ -120,7 +120,7 @@ def test_the_sense_may_be_given_up() -> None:
 MISTAKES = {
     "misspelt key": (changed("  add:", "  ad:"), 12, ["unknown key 'ad'", "did you mean 'add'?"]),
     "misspelt key of a part": (changed("{wheels: 2, t", "{wheel: 2, t"), 12, ["unknown key 'wheel'", "'wheels'"]),
-    "no bounds": (changed(", teeth: [10, 20]", ""), 12, ["no bounds", "teeth: [12, 225]"]),
+    "no bounds": (changed(", teeth: [10, 20]", ""), 12, ["no range of tooth counts", "teeth: [12, 225]"]),
     "empty bounds": (changed("[10, 20]", "[20, 10]"), 12, ["the range 20 to 10 is empty"]),
     "negative number": (changed("{wheels: 2, t", "{wheels: -1, t"), 12, ["-1 is not a valid number of parts"]),
     "no such word": (
@@ -213,7 +213,7 @@ def test_evidence_has_its_own_catalogue() -> None:
     [
         ("back-trian", ["did you mean 'back-train'"]),
         ("zzz", ["give a file, or one of:", "back-train", "metonic-l-m"]),
-        ("freeth-2008", ["it is a shipped train", "--without", "back-train"]),
+        ("freeth-2008", ["it is a shipped train", "--lost ARBOR", "back-train"]),
     ],
 )
 def test_evidence_that_is_not_shipped(name: str, fix: list[str]) -> None:

@@ -29,9 +29,9 @@ def comparisons(rows: Iterable[Comparison]) -> str:
     columns = {
         "case": lambda row: row.case,
         "error of geartrain": lambda row: row.error,
-        "time": lambda row: seconds_text(row.seconds),
+        "time of geartrain": lambda row: seconds_text(row.seconds),
         "alternative": lambda row: row.other,
-        "its error": lambda row: row.other_error,
-        "its time / ours": lambda row: "-" if row.other_seconds is None else number(row.other_seconds / row.seconds),
+        "error of alternative": lambda row: row.other_error,
+        "time ratio": lambda row: "-" if row.other_seconds is None else number(row.other_seconds / row.seconds),
     }
     return "\n".join(table(columns, rows)).strip()

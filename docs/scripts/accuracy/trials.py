@@ -74,9 +74,9 @@ def extremes() -> str:
     cases = read("extremes").cases
     columns = {
         "case": lambda row: row.name,
-        "how extreme": lambda row: row.extreme,
-        "error against 50 digits": lambda row: f"{row.error:.1e} {row.unit}",
-        "bound checked by a test": lambda row: f"{row.bound:.0e}",
+        "parameters": lambda row: row.extreme,
+        "error relative to 50 digits": lambda row: f"{row.error:.1e} {row.unit}",
+        "bound": lambda row: f"{row.bound:.0e}",
         "time": lambda row: seconds_text(row.seconds),
     }
     return "\n".join(table(columns, [[row for row in cases if row.name == name][-1] for name in SHOWN])).strip()
@@ -145,7 +145,7 @@ def draw() -> None:
             axes[0].plot([loop.rate], [at], color=HUES[1], marker="s", ls="", label="" if at else "loop")
             axes[0].plot([batch.rate], [at], color=HUES[0], marker="o", ls="", label="" if at else "batch")
         names = [
-            NAMES[batch.family].format(batch.case.replace(", 35 wheels in doubt", _what(batch))).replace(": ", "\n")
+            NAMES[batch.family].format(batch.case.replace(", 35 uncertain wheels", _what(batch))).replace(": ", "\n")
             for _, batch in _pairs()
         ]
         axes[0].set_yticks(range(len(names)), names, fontsize=8)

@@ -138,7 +138,7 @@ def mercury_of_huygens() -> Finding:
     sky = period("year_sidereal_J2000") / period("mercury_sidereal_period_jpl")
     single = Fraction(count("huygens-planetarium-1682", "me121"), count("huygens-planetarium-1682", "me17"))
     train = Fraction(load("huygens-planetarium-1682").solve()["mercury"])
-    text = f"{float(single):.4f} turns per year, with 7/12 {float(train):.4f}; the sky has {float(sky):.4f}"
+    text = f"{float(single):.4f} turns per year, with 7/12 {float(train):.4f}; the modern value is {float(sky):.4f}"
     return Finding(abs(single / sky - 1) < Fraction(1, 1000), text)
 
 
@@ -147,7 +147,7 @@ def saturn_of_huygens() -> Finding:
     years = 1 / abs(Fraction(load("huygens-planetarium-1682").solve()["saturn"]))
     own = float(years / Fraction(77708431, 2640858) - 1)
     sky = float(years / (period("saturn_sidereal_period_jpl") / period("year_sidereal_J2000")) - 1)
-    return Finding(abs(own) < 2e-4, f"error {1e6 * own:+.1f} ppm; of the modern period {1e6 * sky:+.1f} ppm")
+    return Finding(abs(own) < 2e-4, f"error {1e6 * own:+.1f} ppm; relative to the modern period {1e6 * sky:+.1f} ppm")
 
 
 def month_of_gosper() -> Finding:
@@ -172,7 +172,7 @@ def rows() -> Iterator[Row]:
     claim = "periods of 762 and 742 years (Psi for Upsilon)"
     yield words(f"{place}, numerals", claim, "numerals()", "462 and 442 (Author Correction, August 2021)")
     yield exact(f"{place}, total", "wheels", "69", "len(load('freeth-2021').declaration.wheels)")
-    yield words(f"{place}, Jupiter", "the relation 315/344", "jupiter()", "two other admissible relations are nearer")
+    yield words(f"{place}, Jupiter", "the relation 315/344", "jupiter()", "two other admissible relations are closer")
     yield words("Voulgaris et al. 2022", "the draconic pointer needs 225 teeth for b1", "needs_225()")
     yield digits("Price 1974", "days per turn of the crank", "73", "days_per_turn(45)")
     yield words("Price 1974, wheel A", "45 teeth, also read as 48", "wheel_a()")
@@ -188,7 +188,7 @@ def rows() -> Iterator[Row]:
 
 SOURCE = Source(
     "Other publications",
-    "Publications from which other shipped trains are declared",
+    "Other shipped trains are declared from these publications",
     "`geartrain report TRAIN` lists the errata of a train with their reasons.",
     tuple(rows()),
 )

@@ -40,7 +40,7 @@ def count(wheel: str, train: GearTrain | None = None) -> int | None:
 
 
 def speed(link: int) -> Fraction:
-    """The exact speed of a link, in turns a year."""
+    """The exact speed of a link, in turns per year."""
     return Fraction(paper().solve()[str(link)])
 
 
@@ -118,7 +118,10 @@ def introduction() -> Iterator[Row]:
     yield outside("History", "the find: 1900, 42 m deep, one mile east of Pinakakia; ship of 80-50 B.C.", HISTORY)
     yield outside("Description", "Pappos, Heron, Cicero, Archimedes, Al-Biruni, Willis 1837", HISTORY)
     yield _OWN.outside(
-        "Description, sheets", "bronze of 2.0 to 2.3 mm", "no thickness enters speeds", "same_speeds('thickness: 2 mm')"
+        "Description, sheets",
+        "bronze of 2.0 to 2.3 mm",
+        "speeds do not depend on thickness",
+        "same_speeds('thickness: 2 mm')",
     )
     yield outside(
         "Fig. 1",
@@ -204,7 +207,7 @@ def willis() -> Finding:
         i, j, k = (Fraction(speeds[name]) for name in (each.i, each.j, each.carrier))
         tau = Fraction(-each.b, each.a)
         residuals.append(i - tau * j + (tau - 1) * k)
-    return Finding(not any(residuals), f"0, exactly, for all {len(residuals)} circuits")
+    return Finding(not any(residuals), f"exactly 0 for all {len(residuals)} circuits")
 
 
 # -------------------------------------------------------------------------------------------------------------- speeds
@@ -248,7 +251,7 @@ def speeds() -> Iterator[Row]:
     for link, printed in SPEEDS.items():
         yield Row(
             f"Table 4, w{link}",
-            "speed, turns a year",
+            "speed (turns per year)",
             printed,
             Command(SOLVE, f"states.0.speeds.{link}.exact"),
             Digits(),
@@ -293,7 +296,7 @@ def missing(planet: str, o1: int, o2: int, x: int) -> Finding:
     found = turns(o1, o2, x)
     wanted = period(f"{planet}_synodic_period_jpl") / period("year_tropical_J2000")
     error = float(1 / found / wanted - 1)
-    return Finding(abs(error) < 0.0025, f"{found} turns a year, the period {100 * error:+.3f} %")
+    return Finding(abs(error) < 0.0025, f"{found} turns per year, period error {100 * error:+.3f} %")
 
 
 def misprint() -> Finding:
@@ -332,7 +335,9 @@ def counts_months(link: int, months: int) -> Finding:
     """Whether a link turns once in so many mean synodic months, within a part in ten thousand."""
     wanted = period("year_tropical_J2000") / period("month_synodic_J2000") / months
     found = abs(speed(link))
-    return Finding(abs(found / wanted - 1) < Fraction(1, 10**4), f"{found} turns a year, wanted {float(wanted):.4f}")
+    return Finding(
+        abs(found / wanted - 1) < Fraction(1, 10**4), f"{found} turns per year, required {float(wanted):.4f}"
+    )
 
 
 def years_and_months() -> Iterator[Row]:
@@ -351,7 +356,7 @@ def years_and_months() -> Iterator[Row]:
         "period('month_synodic_hipparchus_4267')",
         "29.53059 (Almagest IV 2)",
     )
-    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, and right")
+    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, which are correct")
     yield words(
         "Results, its name",
         "that month is the sidereal one",
@@ -382,7 +387,7 @@ def results() -> Iterator[Row]:
     yield digits("Results 2, w5", "year over sidereal month", "13.3684", "speed(5)")
     yield digits(
         "Results 2, actual",
-        "the actual value of it",
+        "the actual value of this ratio",
         "13.3676",
         "period('year_tropical_J2000') / period('month_sidereal_J2000')",
         "13.3682; 13.3676 follows from the month of Table 5",
@@ -391,7 +396,7 @@ def results() -> Iterator[Row]:
         "Results 3, wheel 19",
         "turns once in a synodic month",
         "counts_months(19, 1)",
-        "link 17 does (235/19 a year)",
+        "link 17 does (235/19 per year)",
     )
     yield digits(
         "Results 3, actual",
@@ -400,13 +405,13 @@ def results() -> Iterator[Row]:
         "Fraction('365.242199') / Fraction('29.53059')",
         "12.3683, with 29.53059; the printed divisor lost a digit",
     )
-    yield digits("Results 3, w17", "turns of link 17 a year, without sign", "12.3684", "abs(speed(17))")
+    yield digits("Results 3, w17", "turns of link 17 per year, without sign", "12.3684", "abs(speed(17))")
     yield digits("Results 3, Price", "Price's ratio 236/19", "12.4210", "price_ratio()", "12.3684 = 235/19")
     yield words(
         "Results 4, wheel 9",
         "turns once in a lunar year",
         "counts_months(9, 12)",
-        "link 19 does (235/228 a year)",
+        "link 19 does (235/228 per year)",
     )
     yield digits(
         "Results 4, actual",
@@ -415,7 +420,7 @@ def results() -> Iterator[Row]:
         "Fraction('365.242199') / (Fraction('29.53059') * 12)",
         "1.03069 (printed without rounding)",
     )
-    yield digits("Results 4, w19", "turns of link 19 a year, without sign", "1.0307", "abs(speed(19))")
+    yield digits("Results 4, w19", "turns of link 19 per year, without sign", "1.0307", "abs(speed(19))")
     yield exact("Results 5, wheel 8", "years in which it turns once", "4", "1 / speed(8)")
     yield words(
         "Results 5, alone",
@@ -428,7 +433,7 @@ def results() -> Iterator[Row]:
 def missing_parts() -> Iterator[Row]:
     """Table 6 and what it is for."""
     yield declared(exact("Missing parts, N", "teeth of wheel N", "64", "count('N', price())"))
-    yield digits("Missing parts, speed of N", "turns a year", "0.25", "speed(8)")
+    yield digits("Missing parts, speed of N", "turns per year", "0.25", "speed(8)")
     yield declared(exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()"))
     yield declared(digits("Footnote 2, days", "its days", "6585.32", "period('saros_223_synodic_modern')"))
     yield words("Footnote 2, years", "18 years and about 11 days", "saros_of_years()")
@@ -463,7 +468,7 @@ def missing_parts() -> Iterator[Row]:
     yield _OWN.outside(
         "Conclusion",
         "months more accurate than Price thought",
-        "follows from 236/19, an erratum above: Price's train has the same speed",
+        "follows from 236/19, an erratum listed above; Price's train has the same speed",
         "price_months()",
     )
 
@@ -472,7 +477,9 @@ def sidereal() -> Finding:
     """Which month has 29.53058 days."""
     days = Fraction("29.53058")
     nearest = min(("month_synodic_J2000", "month_sidereal_J2000"), key=lambda name: abs(period(name) - days))
-    return Finding(nearest == "month_sidereal_J2000", "nearest: " + nearest.removesuffix("_J2000").replace("_", " "))
+    return Finding(
+        nearest == "month_sidereal_J2000", f"nearest: {nearest.removesuffix('_J2000').removeprefix('month_')} month"
+    )
 
 
 def pointers() -> Finding:
@@ -480,14 +487,14 @@ def pointers() -> Finding:
     sun = abs(speed(3))
     moon = abs(speed(5)) * period("month_sidereal_J2000") / period("year_tropical_J2000") - 1
     return Finding(
-        sun == 1 and abs(moon) < Fraction(1, 10**4), f"1 a year; sidereal months to {1e6 * float(moon):.0f} ppm"
+        sun == 1 and abs(moon) < Fraction(1, 10**4), f"1 turn per year; sidereal months to {1e6 * float(moon):.0f} ppm"
     )
 
 
 def mates() -> Finding:
     """What meshes with the wheel of link 8."""
     found = [
-        f"{each.j if each.i == '8' else each.i} by {each.id}" for each in paper().circuits if "8" in (each.i, each.j)
+        f"{each.j if each.i == '8' else each.i} ({each.id})" for each in paper().circuits if "8" in (each.i, each.j)
     ]
     return Finding(not found, f"it meshes with links {' and '.join(found)}")
 

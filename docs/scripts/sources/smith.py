@@ -165,7 +165,7 @@ def steady_force() -> Finding:
         spread[shape] = float(v.sin_phi.max() / v.sin_phi.min())
     text = ", ".join(f"{shape} {value:.3f}" for shape, value in spread.items())
     return Finding(
-        spread["involute"] < 1 + 1e-9 < min(spread["stress"], spread["heat"]), f"maximum over minimum: {text}"
+        spread["involute"] < 1 + 1e-9 < min(spread["stress"], spread["heat"]), f"maximum over minimum force: {text}"
     )
 
 
@@ -496,7 +496,9 @@ def shared_work() -> Finding:
     ratio = Command("mesh 24 36", "contact_ratio").value()
     whole, divided = answer["one_pair"]["loss"] * ratio, answer["shared"]["loss"]
     part = divided / whole
-    return Finding(abs(part - 1) < 1e-6, f"contact ratio {ratio:.3f}: divided it is {part:.3f} of the undivided")
+    return Finding(
+        abs(part - 1) < 1e-6, f"contact ratio {ratio:.3f}: if the force is shared, W is {part:.3f} times as large"
+    )
 
 
 def losses(kind: Kind) -> tuple[float, float]:
@@ -518,7 +520,9 @@ def losses(kind: Kind) -> tuple[float, float]:
 def trains() -> Finding:
     """Loss of three stages of 10 over one of 1000, with one pinion, by (51) as it must be."""
     one, three = 1 + 1 / 1000, 3 * (1 + 1 / 10)
-    return Finding(three < one, f"1000 to 1, the same pinion: three stages lose {three / one:.2f} times as much")
+    return Finding(
+        three < one, f"for 1000 to 1 with the same pinion, three stages lose {three / one:.2f} times as much"
+    )
 
 
 def heights() -> Finding:
@@ -572,7 +576,7 @@ def involute_root() -> Finding:
     v = profiles.seen(path("spur", "involute"), True, 0.2)
     assert _off(v.c(1), np.sqrt(v.r[0] ** 2 - base**2)) < TWICE
     power = float(log(c[0] / c[1]) / log(above[0] / above[1]))
-    return Finding(abs(power - 0.5) < 1e-4, f"c goes with (r - r0)^{power:.3f}, stress with (r - r0)^{-power / 2:.3f}")
+    return Finding(abs(power - 0.5) < 1e-4, f"c varies as (r - r0)^{power:.3f}, stress as (r - r0)^{-power / 2:.3f}")
 
 
 def heat() -> float:
@@ -628,12 +632,12 @@ def uniform(form: str, kind: Kind) -> Finding:
         return Finding(float(np.ptp(D) / D.max()) < 1e-9, "S = D cos psi along its closed form, from 80 to 50 deg")
     if form == "stress":
         spread = max(float(np.ptp(c.H) / c.H.max()) for _, c in sides(kind)[2:4])
-        return Finding(spread < 1e-9, "stress uniform to 1e-9, approach and recess")
+        return Finding(spread < 1e-9, "the stress is uniform to 1e-9 in approach and recess")
     spread = 0.0
     for (_, c), ded in zip(sides(kind)[4:], ("Q1", "Q2"), strict=True):
         heat = getattr(c, ded)
         spread = max(spread, float(np.ptp(heat) / heat.max()))
-    return Finding(spread < 1e-9, "heat of the hotter tooth uniform to 1e-9, approach and recess")
+    return Finding(spread < 1e-9, "the heat of the hotter tooth is uniform to 1e-9 in approach and recess")
 
 
 def minimum_height(shape: str) -> Finding:
@@ -643,7 +647,7 @@ def minimum_height(shape: str) -> Finding:
     c = PathOfContact(SPUR, other, other).at(np.linspace(-0.999, 0.999, 400) * SPUR.p / 2)
     own = path("spur", "stress" if shape == "stress" else "heat").at(np.linspace(-0.999, 0.999, 400) * SPUR.p / 2)
     first, second = (float(np.max(e.H if shape == "stress" else np.maximum(e.Q1, e.Q2))) for e in (own, c))
-    return Finding(first <= second, f"maximum {first:.3f}; of an involute of {tilt:g} deg {second:.3f}")
+    return Finding(first <= second, f"maximum {first:.3f}; {second:.3f} for an involute of {tilt:g} deg")
 
 
 def extremal_is_minimum() -> Finding:
@@ -660,7 +664,7 @@ def extremal_is_minimum() -> Finding:
         bump = 0.05 * wave * pi * np.cos(wave * pi * (x + 1) / 2)
         others.append(float(weights @ (d * (slope + bump) ** 2)) * half)
     good = abs(own * log(last / first) - 1) < 1e-9 and min(others) > own
-    return Finding(good, f"J = X^2/ln(d2/d1) = {own:.6f}; three other paths {min(others):.6f} and more")
+    return Finding(good, f"J = X^2/ln(d2/d1) = {own:.6f}; three other paths give at least {min(others):.6f}")
 
 
 # ------------------------------------------------------------------------------------------------- what commands give

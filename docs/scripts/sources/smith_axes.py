@@ -37,7 +37,9 @@ def rolling() -> Finding:
     draws = [(rng.uniform(0.1, 9), rng.uniform(0.1, pi - 0.1), rng.uniform(-4, 4)) for _ in range(500)]
     skew = min(slowest(*each) for each in draws)
     plane = max(max(slowest(0.0, angle, ratio), slowest(far, 0.0, ratio)) for far, angle, ratio in draws)
-    text = "500 pairs of axes, by the pitch of the relative screw: 0 where they meet or are parallel, above 0 elsewhere"
+    text = (
+        "relative screws of 500 pairs of axes: the pitch is 0 if the axes intersect or are parallel, otherwise above 0"
+    )
     return Finding(plane < 1e-12 < skew, text)
 
 
@@ -54,7 +56,9 @@ def generatrix() -> Finding:
             speed = np.cross([0.0, 0.0, 1.0], point) - np.cross(second, point - base)
             across = max(across, float(np.linalg.norm(np.cross(speed, turning)) / np.linalg.norm(turning)))
         across = max(across, abs(float(foot[0])), abs(float(foot[2])))
-    text = "one line crosses the common normal of both axes and slides along itself; its rotation makes both surfaces"
+    text = (
+        "one line crosses the common normal of both axes and slides along itself; rotating it generates both surfaces"
+    )
     return Finding(across < 1e-12, text)
 
 
@@ -72,9 +76,9 @@ def efficiencies() -> Finding:
     ]
     limit = 0.05 / 1.95 * cos(NORMAL_ANGLE)  # (1 - m) / (1 + m) = 0.95 at 45 degrees, m = friction / cos(20 degrees)
     text = (
-        f"friction {DUDLEY[0]} to {DUDLEY[1]}, losses of teeth only: spur and bevel {100 * min(near):.1f} to "
+        f"friction {DUDLEY[0]} to {DUDLEY[1]}, losses of teeth only; spur and bevel {100 * min(near):.1f} to "
         f"{100 * max(near):.1f} %; worms and crossed helices of 5 to 45 deg lead {100 * min(crossed):.1f} to "
-        f"{100 * max(crossed):.1f} %, above 95 % where friction is less than {limit:.4f}"
+        f"{100 * max(crossed):.1f} %, above 95 % if friction is less than {limit:.4f}"
     )
     return Finding(min(crossed) > 0.5 and max(crossed) < 0.97 < min(near), text)
 

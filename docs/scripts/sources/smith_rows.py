@@ -29,7 +29,9 @@ def introduction() -> Iterator[Row]:
         "efficiencies()",
         why="bearings and oil, which measured efficiencies include, are not counted",
     )
-    yield _OF_AXES.words("Section 2, hyperboloids", "the general case, with its generatrix", "generatrix()")
+    yield _OF_AXES.words(
+        "Section 2, hyperboloids", "hyperboloids are the general case and have a common generatrix", "generatrix()"
+    )
     yield outside("Section 3", "terms", "definitions; the [glossary](glossary.md) has ours")
     for kind, number in (("spur", 2), ("bevel", 3)):
         yield equation(
@@ -69,14 +71,18 @@ def introduction() -> Iterator[Row]:
         "at the same arcs they have more",
     )
     for form in ("involute", "cycloid"):
-        yield words(f"Section 6, {form}s", "need no matched pair: any size mates with any", f"same_flank('{form}')")
+        yield words(
+            f"Section 6, {form}s", "they need no matched pair: any size meshes with any other", f"same_flank('{form}')"
+        )
     yield words("Section 7, force", "only involutes transmit a constant force", "steady_force()")
-    yield words("Section 7, spacing", "only involutes run well at other distances", "spacing()")
-    yield words("Section 7, contacts", "more than 1.4 contacts on the mean have been made", "contact_number()")
+    yield words("Section 7, spacing", "only involutes run well at other centre distances", "spacing()")
+    yield words(
+        "Section 7, contacts", "gears with more than 1.4 contacts on average have been made", "contact_number()"
+    )
     yield _OF_AXES.outside(
         "Section 7, few teeth",
         "cycloids work with one or two teeth",
-        "conjugate teeth are made of three teeth a wheel or more here",
+        "geartrain constructs conjugate teeth only for wheels of three or more teeth",
         "fewest_teeth()",
     )
 
@@ -161,11 +167,11 @@ def conjugates() -> Iterator[Row]:
             f"the gear of theorem {theorem} is the same for every mate",
             f"same_flank('{shape}')",
         )
-    yield words("Section 9, not Don Juan", "the gear of theorem 8 is not", "not_one_flank()")
+    yield words("Section 9, not Don Juan", "the gear of theorem 8 is not the same for every mate", "not_one_flank()")
     yield _OF_AXES.outside(
         "Section 9, steady heat",
         "a gear whose rate of heat is constant could be had",
-        "no such form is offered, for the note gives it no use",
+        "geartrain does not offer this form, since the note gives no use for it",
         "no_steady_heat()",
     )
 
@@ -189,7 +195,7 @@ def friction() -> Iterator[Row]:
     )
     yield equation("Eq. (23)", "s: upper sign of the root", "(eq_23(1.0), eq_23(-1.0))", Corrected(ONCE), "lower sign")
     yield words(
-        "Theorem 4", "sliding is unavoidable, 0 at the pitch point only, where it turns round", "sliding_turns()"
+        "Theorem 4", "sliding is unavoidable; it is 0 only at the pitch point, where it reverses", "sliding_turns()"
     )
     yield outside("Section 10, bearings", "pins with ball bearings, belts", "not teeth")
     for place, what, printed in (
@@ -203,8 +209,8 @@ def friction() -> Iterator[Row]:
         ("Dokos, slow", "mu of dry steel", "0.53", "dokos(1)"),
         ("Dokos, fast", "mu at 10^7 times the speed", "0.18", "dokos(10**7)"),
         ("Buckingham, 150 ft/min", "mu of cast iron in oil", "0.0112", "buckingham(150)"),
-        ("Buckingham, 2100 ft/min", "the same", "0.0385", "buckingham(2100)"),
-        ("Buckingham, stationary", "the same", "0.0517", "buckingham(0)"),
+        ("Buckingham, 2100 ft/min", "mu of cast iron in oil", "0.0385", "buckingham(2100)"),
+        ("Buckingham, stationary", "mu of cast iron in oil", "0.0517", "buckingham(0)"),
     ):
         transmission = expression.partition("(")[0]
         yield digits(
@@ -276,7 +282,7 @@ def curvatures() -> Iterator[Row]:
     )
     yield equation(
         "Eq. (45), theorem 7",
-        "the same by the law of cosines, with c + s",
+        "speed of the contact by the law of cosines, with c + s",
         "speed_of_contact('spur')",
         Corrected(TWICE),
         "c - s",
@@ -295,9 +301,9 @@ def work_and_stress() -> Iterator[Row]:
     yield equation("Eq. (46)", "work of friction, spur: what stands under the integral", "work('spur')", Equal(ONCE))
     yield words(
         "Section 15, n contacts",
-        "n contacts that share the force leave W as it is",
+        "n contacts that share the force do not change W",
         "shared_work()",
-        "each place of a tooth bears less",
+        "the work decreases, since each point of a tooth bears less force",
     )
     yield words(
         "Footnote 6",
@@ -318,11 +324,11 @@ def work_and_stress() -> Iterator[Row]:
     )
     yield equation(
         "Eq. (52)",
-        "the same, bevel",
+        "lost part, bevel",
         "losses('bevel')",
         Corrected(ONCE),
         "cot R1 + cot R2",
-        "the printed one is right for perpendicular axes",
+        "the printed formula is right for perpendicular axes",
     )
     for place, printed, key in (
         ("saving", "33", "33"),
@@ -341,7 +347,7 @@ def work_and_stress() -> Iterator[Row]:
         "Section 16, trains",
         "trains lose less than one pair of large ratio",
         "trains()",
-        "they lose more, with (51) corrected",
+        "they lose more if (51) is corrected",
     )
     yield equation("Eqs. (53), (54)", "stress by force and curvatures, plane and sphere", "stress()", Equal(TWICE))
     yield equation("Eq. (55)", "what is uniform, spur", "stress()", Equal(TWICE))
@@ -356,7 +362,9 @@ def work_and_stress() -> Iterator[Row]:
     yield equation("Eq. (58), theorem 9", "what is uniform, bevel", "stress()", Equal(TWICE))
     yield equation("Eq. (59)", "tan c1", "curvature('bevel')", Equal(TWICE))
     yield words(
-        "Section 17, involutes", "c falls with sqrt(r - r0), stress grows with (r - r0)^(-1/4)", "involute_root()"
+        "Section 17, involutes",
+        "c decreases as sqrt(r - r0), and stress increases as (r - r0)^(-1/4)",
+        "involute_root()",
     )
     yield _OF_AXES.equation("Footnote 8", "stress of two balls", "two_balls()")
 
@@ -370,14 +378,14 @@ def heat_and_optima() -> Iterator[Row]:
         "Z: a square over a sum of twelve terms",
         "long_one(63)",
         Corrected(TWICE),
-        "linear in r'', with the other sign",
+        "Z is linear in r'', with the opposite sign",
     )
     yield equation(
         "Eq. (64)",
         "a differential equation of the fourth order",
         "order_of_64()",
         Corrected(1e-20),
-        "of the second order, with a closed solution",
+        "it is of the second order and has a closed-form solution",
     )
     yield words(
         "Theorem 10",
@@ -395,7 +403,7 @@ def heat_and_optima() -> Iterator[Row]:
     yield _OF_AXES.outside(
         "Section 20",
         "n contacts: other constants in other pieces",
-        "these shapes are made for one pair in contact here",
+        "geartrain constructs these shapes for one tooth pair in contact",
         "one_pair()",
     )
     for shape, tilt in (("stress", 45), ("temperature", 80)):
@@ -417,9 +425,9 @@ _PARTS = (introduction, conjugates, friction, curvatures, work_and_stress, heat_
 SOURCE = Source(
     "Smith",
     "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
-    "The copy is the abstract with the contexts of its references; equations are numbered as in the whole "
-    "note, whose PostScript its author published. They are evaluated on finished profiles of 24 and 36 "
-    "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of both teeth are turned "
-    "to where they touch, and differentiated numerically.",
+    "The copy consists of the abstract with the contexts of its references; equations are numbered as in the full "
+    "note, whose PostScript was published by its author. The equations are evaluated on finished spur and bevel "
+    "profiles of 24 and 36 teeth (involute, uniform stress and uniform temperature). Points of both teeth are turned "
+    "to the positions at which they touch, and derivatives are computed numerically.",
     tuple(row for part in _PARTS for row in part()),
 )

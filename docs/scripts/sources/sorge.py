@@ -212,17 +212,17 @@ def sum_of_angles() -> Finding:
         late = c.x < 0
         v1, v2 = (np.arctan2(each[1], c.D - each[0])[late] for each in (one, two))
         worst = max(worst, float(np.abs(np.abs(v1) + np.abs(v2 - v1) - np.abs(c.y[late])).max()))
-    return Finding(worst < 1e-12, "after the line of centres; before it, up to matching, their difference")
+    return Finding(worst < 1e-12, "true after the line of centres; before it, up to matching, it is their difference")
 
 
 def kinematics() -> Iterator[Row]:
     """Sections III A and B."""
-    yield words("III, loci", "contact on the driven tip circle in approach, on the driver's in recess", "loci()")
+    yield words("III, loci", "contact is on the driven tip circle in approach, and on the driver's in recess", "loci()")
     yield equation("Eq. (5)", "closure along the line of centres, approach", "closure(A, 0)")
     yield equation("Eq. (6)", "closure across it, approach", "closure(A, 1)")
     yield equation("Eq. (7)", "alpha_2(alpha_1) in approach", "eq_7()")
     yield equation("Eq. (8)", "the quadratic equation of v in approach", "eq_8()")
-    yield words("Eq. (8), signs", "linear coefficient positive, third term negative", "signs_8()")
+    yield words("Eq. (8), signs", "the linear coefficient is positive, the third term negative", "signs_8()")
     yield equation("Eq. (9)", "v in approach", "off(A, note.eq_9, lambda c: c.apart)")
     yield equation(
         "Eq. (9), root",
@@ -242,7 +242,9 @@ def kinematics() -> Iterator[Row]:
     yield equation("Eq. (13)", "closure along the line of centres, recess", "closure(R, 0)")
     yield equation("Eq. (14)", "closure across it, recess", "closure(R, 1)")
     yield equation("Eq. (15)", "the quadratic equation of v in recess", "eq_15()")
-    yield words("Eq. (15), signs", "third term positive, and the quarter-discriminant of (16)", "signs_15()")
+    yield words(
+        "Eq. (15), signs", "the third term is positive, and so is the quarter-discriminant of (16)", "signs_15()"
+    )
     yield equation("Eq. (16)", "v in recess: plus before the root", "eq_16()", Corrected(), "minus")
     yield equation("Eq. (17)", "alpha_2 as an arctangent of a quotient", "eq_17()", Equal(1e-9))
     yield words("Eq. (17), text", "abs(alpha_2) is a sum of two angles at O2", "sum_of_angles()")
@@ -296,18 +298,24 @@ def admissible() -> Finding:
                 for j in (-3, -2, -1, 1, 2, 3):
                     if abs(x + j * s.p1) <= s.reach1:
                         deepest = max(deepest, (y + j * s.p2 - tooth_pair.contact(x + j * s.p1)) / s.p2)
-    return Finding(deepest < 1e-9, f"at {note.SAMPLES} contacts of each figure, three tooth pairs before and after")
+    return Finding(
+        deepest < 1e-9, f"true at {note.SAMPLES} contacts of each figure, for three tooth pairs before and after"
+    )
 
 
 def real_meshing() -> Iterator[Row]:
     """Section III C."""
-    yield words("III C, concavity", "alpha_2(alpha_1) is slightly concave upward but at matching", "concave_upward()")
-    yield words("III C, admissible", "points where no other tooth pair would overlap: below the chord", "admissible()")
+    yield words(
+        "III C, concavity", "alpha_2(alpha_1) is slightly concave upward except at matching", "concave_upward()"
+    )
+    yield words(
+        "III C, admissible", "points at which no other tooth pair would overlap are below the chord", "admissible()"
+    )
     yield words(
         "III C, one couple",
-        "one couple at a time, joined by the next without a break",
+        "one tooth pair at a time is in contact, followed by the next without interruption",
         "shared_bounds()",
-        "only within the window of clearance",
+        "only within the clearance window",
     )
     yield words(
         "III C, back profiles",
@@ -327,7 +335,7 @@ def widths() -> Finding:
         if len({each.phase for each in pair.intervals}) == 1:
             first, last = ((at.x, at.y) for at in next(note.ends(next(n for n, p in figures().items() if p is pair))))
             worst = max(worst, abs((first[1] - last[1]) / (first[0] - last[0]) / s.ratio - 1))
-    return Finding(worst < 1e-9, "in all six figures; where it is one phase its chord has the slope z1/z2")
+    return Finding(worst < 1e-9, "in all six figures; if it is a single phase, its chord has the slope z1/z2")
 
 
 # ---------------------------------------------------------------------------------------------------- III D. collision
@@ -366,9 +374,9 @@ def towards_straddling() -> Finding:
     falls = all(b < a for each in (starts, ends) for a, b in pairwise(each))
     return Finding(
         falls,
-        "distance of the path from matching, in pitches: 48/96 at a = 1.01, 1.02, 1.025, 1.031: "
+        "distance of the path from the matching position, in pitches: 48/96 at a = 1.01, 1.02, 1.025, 1.031: "
         + ", ".join(f"{each:.3f}" for each in starts)
-        + " (dwell before it straddles); 96/72 at 1.01, 1.012, 1.014: "
+        + " (a dwell occurs before it straddles); 96/72 at 1.01, 1.012, 1.014: "
         + ", ".join(f"{each:.3f}" for each in ends),
     )
 
@@ -407,7 +415,11 @@ def collisions() -> Iterator[Row]:
     yield words("III D, z1/z2 > 1", "the meshing is entirely in approach", "entered(96, 72, '1.01', [A])")
     yield words("III D, z1/z2 < 1", "the meshing is entirely in recess", "entered(48, 96, '1.01', [R])")
     yield words("III D, z1/z2 = 1", "two sub-phases, approach and recess", "entered(96, 96, '1.01', [A, R])")
-    yield words("III D, z1/z2 = 1, backlash", "they join into one as it grows", "entered(96, 96, '1.025', ['astride'])")
+    yield words(
+        "III D, z1/z2 = 1, backlash",
+        "the sub-phases join as the backlash grows",
+        "entered(96, 96, '1.025', ['astride'])",
+    )
     yield words(
         "III D, straddling", "with more backlash the path tends to straddle both regions", "towards_straddling()"
     )
@@ -420,14 +432,14 @@ def collisions() -> Iterator[Row]:
     yield equation("Eq. (24), first form", "by O2Cr", "first_forms(R)")
     yield equation(
         "Eq. (25)",
-        "jump in recess (Fig. 3a): alpha_2 in the denominators without an index",
+        "jump in recess (Fig. 3a): alpha_2 has no index in the denominators",
         "[abs(note.eq_25(corrected) - note.jump('3a', R)) for corrected in (False, True)]",
         Corrected(),
-        "alpha_2i above, alpha_2e below",
+        "alpha_2i in the upper denominator, alpha_2e in the lower",
     )
     yield equation(
         "Eq. (26)",
-        "jump from recess into approach (Fig. 5a): -1 outside the fraction",
+        "jump from recess into approach (Fig. 5a): -1 is outside the fraction",
         "[abs(note.eq_26(corrected) - note.jump('5a', A)) for corrected in (False, True)]",
         Corrected(),
         "-1 in the denominator",
@@ -447,7 +459,9 @@ def collisions() -> Iterator[Row]:
 def pressure_angles() -> Finding:
     """Directions of the flanks in contact."""
     found = np.degrees(np.concatenate([c.lean for phase in (A, R) for c in contacts(phase)]))
-    return Finding(found.min() > 20, f"{found.min():.1f} to {found.max():.1f} deg in the figures, against 14.5 to 25")
+    return Finding(
+        found.min() > 20, f"{found.min():.1f} to {found.max():.1f} deg in the figures; modern gears have 14.5 to 25"
+    )
 
 
 def turned_force() -> Finding:
@@ -556,11 +570,13 @@ def power_loss() -> Iterator[Row]:
         "a choice of the note; links of a train may declare `bearing` friction and `drag`",
     )
     yield words(
-        "IV, pressure angle", "beta + alpha_1, beta - alpha_2: quite larger than in modern gears", "pressure_angles()"
+        "IV, pressure angle",
+        "beta + alpha_1 and beta - alpha_2 are much larger than in modern gears",
+        "pressure_angles()",
     )
     yield words(
         "IV, line of action",
-        "turned by the friction angle towards the driven wheel's centre in both phases",
+        "friction turns it towards the driven wheel's centre in both phases",
         "turned_force()",
         "towards it before the line of centres, away from it after",
     )
@@ -611,7 +627,7 @@ def efficiencies() -> Finding:
     c = contacts(R)[0]
     return Finding(
         bool(c.eta.max() == c.eta[c.x.argmax()] and c.eta.min() == c.eta[c.x.argmin()]),
-        f"{c.eta.max():.4f} nearest to it, {c.eta.min():.4f} farthest, {_to_centre(c).min() / c.R1:.4f} and "
+        f"efficiency {c.eta.max():.4f} nearest to it, {c.eta.min():.4f} farthest; {_to_centre(c).min() / c.R1:.4f} and "
         f"{_to_centre(c).max() / c.R1:.4f} R1 from C",
     )
 
@@ -629,8 +645,8 @@ def backlash() -> Finding:
     less = b.sizes.reach1 / a.sizes.reach1
     moved = abs(one.start - two.start) / a.sizes.p1
     text = (
-        f"ideal {2 * degrees(a.sizes.reach1):.2f} to {2 * degrees(b.sizes.reach1):.2f} deg; the real path moves by "
-        f"{moved:.3f} pitch"
+        f"ideal width {2 * degrees(a.sizes.reach1):.2f} to {2 * degrees(b.sizes.reach1):.2f} deg; the real path moves "
+        f"by {moved:.3f} pitch"
     )
     return Finding(less < 0.75 and moved < 0.15 and one.phase == two.phase == R, text)
 
@@ -642,7 +658,7 @@ def larger() -> Finding:
     means = {n: [figures()[n + side].efficiency_mean() for side in "ab"] for n in names}
     better = all(b < a for a, b in jumps.values()) and all(b > a for a, b in means.values())
     told = ", ".join(f"Fig. {n}: {a:.3f} to {b:.3f}" for n, (a, b) in jumps.items())
-    return Finding(better, f"maximum jump decreases, {told}; sliding efficiency increases in all")
+    return Finding(better, f"the maximum jump decreases ({told}); the sliding efficiency increases in all figures")
 
 
 def two_pitches() -> Finding:
@@ -661,7 +677,7 @@ def sub_phases() -> Finding:
         pair = transmission(96, 96, a)
         found[a] = len(pair.intervals) - sum(jump.kind == "matching" for jump in pair.jumps)
     text = ", ".join(f"{pieces} at {a}" for a, pieces in found.items())
-    return Finding(max(found.values()) <= 2, f"pieces of the path: {text}")
+    return Finding(max(found.values()) <= 2, f"intervals of the path: {text}")
 
 
 def narrowing() -> Finding:
@@ -671,7 +687,7 @@ def narrowing() -> Finding:
         a: next(each.width for each in pair.intervals if each.phase == R) / pair.period for a, pair in pairs.items()
     }
     text = ", ".join(f"{part:.3f} at {a}" for a, part in width.items())
-    return Finding(width["1.0111"] < 0.5 * width["1.001"], f"recess apart, in pitches: {text}")
+    return Finding(width["1.0111"] < 0.5 * width["1.001"], f"width of the recess sub-phase, in pitches: {text}")
 
 
 def best_of_figures() -> Finding:
@@ -687,7 +703,7 @@ def best_of_all() -> Finding:
     spent = {a: collision_energies(transmission(96, 96, a).speed_leaps(), 1.0, 1.0)[1] for a in ("1.025", "1.019273")}
     return Finding(
         lost["1.025"] <= lost["1.0117219"] and spent["1.025"] <= spent["1.019273"],
-        f"sliding takes {100 * lost['1.025']:.3f} %, at 1.0117219 {100 * lost['1.0117219']:.3f} %; impacts "
+        f"sliding loss {100 * lost['1.025']:.3f} %, at 1.0117219 {100 * lost['1.0117219']:.3f} %; impact loss "
         f"{spent['1.025']:.2e} J2 w1^2, at 1.019273 {spent['1.019273']:.2e}",
     )
 
@@ -723,23 +739,27 @@ def results() -> Iterator[Row]:
                     mesh(z1, z2, a, f"jumps.{at}.value"),
                     erratum=wrong,
                 )
-    yield words("Fig. 3", "active part in recess only", "entered(48, 96, '1.025', [R])")
-    yield words("V, Fig. 3, speeds", "the speed ratio decreases as meshing goes on", "falling()")
+    yield words("Fig. 3", "the active part is in recess only", "entered(48, 96, '1.025', [R])")
+    yield words("V, Fig. 3, speeds", "the speed ratio decreases as meshing proceeds", "falling()")
     yield words(
-        "V, Fig. 3, sliding", "near matching the contact is near C, and sliding efficiency high", "efficiencies()"
+        "V, Fig. 3, sliding", "near matching the contact is near C and the sliding efficiency is high", "efficiencies()"
     )
     yield words(
-        "V, Fig. 3 a and b", "more backlash: much less ideal width, no remarkable change of the real mesh", "backlash()"
+        "V, Fig. 3 a and b",
+        "more backlash reduces the ideal width greatly but hardly changes the real mesh",
+        "backlash()",
     )
-    yield words("V, larger clearances", "rather large ones do not worsen the mesh", "larger()")
-    yield words("Fig. 4 a", "in approach only", "entered(96, 72, '1.01', [A])")
-    yield words("Fig. 4 b", "astride the matching position", "entered(96, 72, '1.025', ['astride'])")
+    yield words("V, larger clearances", "rather large clearances do not worsen the mesh", "larger()")
+    yield words("Fig. 4 a", "the active part is in approach only", "entered(96, 72, '1.01', [A])")
+    yield words("Fig. 4 b", "the active part is astride the matching position", "entered(96, 72, '1.025', ['astride'])")
     yield words(
-        "Fig. 5 a, sub-phases", "widths sum to 360/z1, as far apart, outer ends 2 x 360/z1 apart", "two_pitches()"
+        "Fig. 5 a, sub-phases",
+        "widths sum to 360/z1; they are 360/z1 apart, their outer ends 2 x 360/z1",
+        "two_pitches()",
     )
     yield words(
         "V, sub-phases",
-        "two sub-phases, one pitch apart, until one is left",
+        "two sub-phases, one pitch apart, until only one remains",
         "sub_phases()",
         "one, two or three intervals of total width one pitch",
     )
@@ -747,25 +767,25 @@ def results() -> Iterator[Row]:
         "V, left sub-region",
         "its width decreases until it vanishes",
         "narrowing()",
-        "both keep half a pitch until a third piece, astride the matching position, replaces them",
+        "both remain half a pitch wide until a third interval, astride the matching position, replaces them",
     )
-    yield words("Fig. 5 b", "astride the matching position", "entered(96, 96, '1.025', ['astride'])")
+    yield words("Fig. 5 b", "the active part is astride the matching position", "entered(96, 96, '1.025', ['astride'])")
     yield words(
         "V, Fig. 5 b, efficiency",
-        "sliding efficiency has its highest average here, of the figures",
+        "of all figures, this one has the highest mean sliding efficiency",
         "best_of_figures()",
     )
     yield words(
         "V, best conditions",
         "1:1 at 1.025 has the minimum energy losses",
         "best_of_all()",
-        "friction takes the minimum at 1.0117219, impacts near 1.0193",
+        "friction losses are minimal at 1.0117219, impact losses near 1.0193",
     )
     yield words(
-        "V, standstill",
+        "V, dwell",
         "if the ideal region is smaller than 360/z1 the driven wheel dwells",
         "dwell()",
-        why="of equal wheels; unequal ones stand earlier",
+        why="true for equal wheels; with unequal wheels a dwell occurs earlier",
     )
 
 
@@ -782,16 +802,16 @@ def whole_train() -> Finding:
     """What the train of Pennestri et al. loses with such teeth, to each of three links."""
     train = geartrain.load("pennestri-2002-teeth")
     lost = {link: 1 - float(train.driven(link, "2").efficiency or 0) for link in ("5", "17", "19")}
-    text = ", ".join(f"to link {link} {100 * part:.1f} %" for link, part in lost.items())
+    text = ", ".join(f"{100 * part:.1f} % to link {link}" for link, part in lost.items())
     pairs = [100 * (1 - pair.efficiency_mean()) for pair in figures().values()]
     one = f"{min(pairs):.1f} to {max(pairs):.1f} %"
-    return Finding(max(lost.values()) <= 0.11, f"the figures' pairs {one}; the train `pennestri-2002-teeth`: {text}")
+    return Finding(max(lost.values()) <= 0.11, f"pairs of the figures {one}; train `pennestri-2002-teeth`: {text}")
 
 
 def conclusions() -> Iterator[Row]:
     """Abstract and section VI."""
-    yield words("Abstract, speed", "oscillation within 10 % of the mean", "oscillation()")
-    yield words("Abstract, efficiency", "rather high values", "best_of_figures()")
+    yield words("Abstract, speed", "the speed ratio oscillates within 10 % of its mean", "oscillation()")
+    yield words("Abstract, efficiency", "the efficiency has rather high values", "best_of_figures()")
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
@@ -802,7 +822,7 @@ def conclusions() -> Iterator[Row]:
         "VI, losses",
         "energy losses of the order of 10 % or less",
         "whole_train()",
-        "of a pair; a train of such pairs loses several times as much",
+        "true for a pair; a train of such pairs loses several times as much",
     )
 
 
@@ -815,7 +835,7 @@ def rows() -> tuple[Row, ...]:
 SOURCE = Source(
     "Sorge",
     "F. Sorge, A Note on the Mechanics of Ancient Gear Systems, University of Palermo",
-    "Equations are evaluated at 400 contacts of each pair of Figs. 3 to 5, with the angles of the library. "
+    "Equations are evaluated at 400 contacts of each pair of Figs. 3 to 5, at the angles that geartrain computes. "
     "Positions, normals, velocities and forces are plane vectors computed from these angles.",
     rows(),
 )

@@ -59,7 +59,10 @@ def loops() -> Finding:
     for loop in found.closure.loops if found.closure else ():
         turns = [solved[gear] > 0 for gear in loop.gears]
         halves.add((turns.count(True), turns.count(False)))
-    return Finding(found.moves and all(one == two for one, two in halves), f"it turns; loops of {_told(halves)}")
+    return Finding(
+        found.moves and all(one == two for one, two in halves),
+        f"it turns; numbers that turn either way in a loop: {_told(halves)}",
+    )
 
 
 def _told(halves: set[tuple[int, int]]) -> str:
@@ -70,7 +73,7 @@ def kinds() -> Finding:
     """Kinds of meshes of the 5-3 and of the 5-4-3."""
     rows = {row.solid: row for row in survey()}
     simple, other = rows[NOTE].mesh_kinds, rows["rhombicosidodecahedron"].mesh_kinds
-    return Finding(simple < other, f"{simple} kind of mesh against {other}")
+    return Finding(simple < other, f"{simple} kind of mesh instead of {other}")
 
 
 @lru_cache(maxsize=2)
@@ -88,7 +91,7 @@ def same_lines() -> Finding:
         float(np.abs(np.sort((own[a] @ own[b].T).ravel()) - np.sort((other[a] @ other[b].T).ravel())).max())
         for a, b in ((0, 0), (0, 1), (1, 1))
     )
-    return Finding(worst < 1e-12, "the same angles, all 32 by 32, to 1e-12")
+    return Finding(worst < 1e-12, "all 32 by 32 angles are equal to 1e-12")
 
 
 # --------------------------------------------------------------------------------------------- step 3: the decagon
@@ -166,7 +169,8 @@ def middle() -> Finding:
     cone = float(degrees(float(size_gears(gears()).cones[0, 0])))
     edge = degrees(atan(1 / 2))
     return Finding(
-        abs(cone - edge) < 1e-6, f"{cone:.3f} deg from the pentagon's axis, the middle of the edge {edge:.3f}"
+        abs(cone - edge) < 1e-6,
+        f"they touch {cone:.3f} deg from the pentagon's axis; the middle of the edge is at {edge:.3f}",
     )
 
 
@@ -186,14 +190,16 @@ def sines(which: int) -> float:
 def rule() -> Finding:
     """The condition on teeth here, and where it is another than the number of neighbours."""
     here, cube = (GearSphere(from_polyhedron(name, "faces")).rule for name in (NOTE, "cuboctahedron"))
-    return Finding(cube == "3 divides z3 and 4 divides z4", f"here {here}; of the cuboctahedron {cube}")
+    return Finding(cube == "3 divides z3 and 4 divides z4", f"here {here}; for the cuboctahedron {cube}")
 
 
 def fits(five: int, three: int) -> Finding:
     """Whether the teeth of a choice meet, and whether its wheels clear each other."""
     sphere, collisions = GearSphere(gears(five, three)), size_gears(gears(five, three)).collisions
     text = "tips collide" if collisions else "tips clear"
-    return Finding(bool(sphere.closes) and not collisions, f"{'closes' if sphere.closes else 'does not close'}; {text}")
+    return Finding(
+        bool(sphere.closes) and not collisions, f"all loops {'close' if sphere.closes else 'do not close'}; {text}"
+    )
 
 
 def diametral() -> float:
@@ -264,7 +270,7 @@ def first_steps() -> Iterator[Row]:
         "Step 1, half",
         "in a loop that turns, half of the gears turn clockwise",
         "loops()",
-        why="of the whole set 12 turn one way and 20 the other",
+        why="in the whole set, 12 turn one way and 20 the other",
     )
     yield Row(
         "Step 1, gridlock",
@@ -277,7 +283,7 @@ def first_steps() -> Iterator[Row]:
         "Step 1, middles",
         "gears interface at the middles of edges",
         "middle()",
-        "only with the irrational ratio 2.383963",
+        "true only for the irrational ratio 2.383963",
     )
     yield words(
         "Step 2", "faces and corners of the characteristic pentagons mark pentagons and triangles", "same_lines()"
@@ -328,7 +334,7 @@ def angles() -> Iterator[Row]:
         "Step 4, neighbours",
         "beta is an angle between neighbours that mesh",
         "triangles_mesh()",
-        "triangles meet in vertices only; the angle bounds their cones",
+        "triangles meet only at vertices; the angle limits their cones",
     )
 
 
@@ -341,19 +347,19 @@ def sizes() -> Iterator[Row]:
         "Step 5, multiples",
         "teeth are multiples of the number of neighbours, so that they mesh",
         "rule()",
-        "not the reason, although multiples of 5 and 3 are right here",
+        "this is not the reason, although multiples of 5 and 3 are correct here",
     )
-    yield words("Step 5, 5/3", "the ratio 5/3, with 20 and 12 teeth", "fits(20, 12)")
-    yield words("Step 5, 5/6", "could be chosen", "fits(5, 6)", "it collides")
-    yield words("Step 5, 10/3", "could be chosen", "fits(10, 3)", "it collides")
-    yield words("Step 5, 45/33", "could be chosen", "fits(45, 33)")
-    yield words("Step 5, overlap", "of a pair of 45/33 neither overlaps its neighbours", "window()")
+    yield words("Step 5, 5/3", "the ratio 5/3 is possible with 20 and 12 teeth", "fits(20, 12)")
+    yield words("Step 5, 5/6", "this ratio could be chosen", "fits(5, 6)", "tips collide")
+    yield words("Step 5, 10/3", "this ratio could be chosen", "fits(10, 3)", "tips collide")
+    yield words("Step 5, 45/33", "this ratio could be chosen", "fits(45, 33)")
+    yield words("Step 5, overlap", "the gears of a 45/33 pair do not overlap their neighbours", "window()")
     yield number(
         "Step 5, a",
         "angle a for 5/3 (deg)",
         "23.52241845",
         "cones.5",
-        why="by a closed form, (1) of [Gears on a sphere](sphere.md); the note had a solver",
+        why="geartrain uses a closed form, (1) of [Gears on a sphere](sphere.md); the note used a solver",
     )
     yield number("Step 5, radius 1", "R1 (inches)", "1.25", "radii.5")
     yield number("Step 5, radius 2", "R2 (inches)", "0.75", "radii.3")
@@ -362,7 +368,7 @@ def sizes() -> Iterator[Row]:
         "How to, more types",
         "more than two types are very difficult or impossible",
         "three_types()",
-        "exact with idlers; nearly exact without",
+        "three types are exact with idlers, and nearly exact without",
     )
     yield exact(
         "Step 6, pitch",
@@ -381,6 +387,6 @@ def sizes() -> Iterator[Row]:
 SOURCE = Source(
     "Sphere",
     "Anonymous, Spherical Configuration of Rounded Gears - A Derivation (a web log)",
-    "Lengths are measured on a dodecahedron of the library. The ratio 5/3 is realised by 20 and 12 teeth.",
+    "Lengths are measured on a dodecahedron that geartrain constructs. The ratio 5/3 is realised by 20 and 12 teeth.",
     tuple(row for part in (introduction, first_steps, angles, sizes) for row in part()),
 )

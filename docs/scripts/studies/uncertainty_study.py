@@ -55,7 +55,7 @@ def uncertainty(quick: bool = False) -> UncertaintyRecords:
 
 
 def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
-    yield f"{_TRAIN}, every wheel in doubt", partial(_counts, effort)
+    yield f"{_TRAIN}, every wheel uncertain", partial(_counts, effort)
     for errors in (PLACES, EVERY):
         for pair in _PAIRS[:1] if quick else _PAIRS:
             yield f"{pair[0]}/{pair[1]}, {errors}", partial(_pitches, Batch(*pair, errors, 1), effort)
@@ -71,7 +71,7 @@ def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
 def _counts(effort: Effort) -> list[RateRecord]:
     """Whether combinations fit, and all that their outputs do, against whole solutions one by one."""
     requested = Counted(_TRAIN, effort.combinations)
-    case = f"{_TRAIN}, {len(requested.question.uncertainties)} wheels in doubt"
+    case = f"{_TRAIN}, {len(requested.question.uncertainties)} uncertain wheels"
     (
         requested.decided(),
         requested.told(),

@@ -132,8 +132,6 @@ def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
     """Yield findings of rule P3: three axes whose distances violate the triangle inequality.
 
     The distances are multiples of one length, which may be unknown.
-
-    The distances are multiples of one length, which may be unknown.
     """
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}

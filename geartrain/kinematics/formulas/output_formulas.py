@@ -416,7 +416,7 @@ def find_formulas(
 
     state    a declared state, or None for a train without states
     free     wheel -> allowed tooth counts; all other wheels keep their declared count
-    inputs   speeds of the input links, instead of the declared ones
+    inputs   speeds of the input links, instead of the declared speeds
 
     Raises `QuestionError` for wheels or states that the train does not have, and for trains whose coupled part is too
     large; `DeclarationError` if a wheel that is not free has no count.

@@ -140,7 +140,7 @@ class LockedSubgraph(Result):
 
 @dataclass(frozen=True, slots=True)
 class Gridlock(Result):
-    """Locked parts of a train, without regard to brakes and inputs, and the meshes whose removal frees it.
+    """Locked parts of a train, ignoring brakes and inputs, and the meshes whose removal frees it.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""Places of axes and wheels, as declared or chosen so that meshing wheels touch and nothing collides.
+"""Positions of axes and wheels, as declared, or chosen so that meshing wheels touch and other wheels do not collide.
 
 `lay_out` in `train_layout` runs the steps below in this order, and each hands a record to the next.
 

@@ -1,4 +1,4 @@
-"""Geometry that a declaration gives for a layout: axes as lines, and the contacts of wheels."""
+"""Geometry that is declared for a layout: axes as lines, and contacts of wheels."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ WORM = Fraction(5)  # default pitch radius of a worm over its axial module
 
 @dataclass(frozen=True, slots=True)
 class AxisLine:
-    """An axis as declared."""
+    """Axis of a train as declared."""
 
     label: str
     direction: Vector
     """Unit vector along the axis."""
     group: int
-    """Number of its group of parallel axes."""
+    """Number of the axis's group of parallel axes."""
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
@@ -50,7 +50,7 @@ class AxisLine:
 
 @dataclass(frozen=True)
 class Parallels:
-    """A group of parallel axes that are planned and stacked together."""
+    """Group of parallel axes that are planned and stacked together."""
 
     lines: tuple[AxisLine, ...]
     up: Vector
@@ -73,7 +73,7 @@ class Parallels:
 
     @property
     def frame(self) -> str:
-        """Link that carries all others."""
+        """Link that carries all other links."""
         return self.lines[0].bearers[-1]
 
     def flat(self, vector: Vector) -> Point:
@@ -93,7 +93,7 @@ def upwards(direction: Vector) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class ContactSide:
-    """A gear pair from the side of one of its wheels: the wheel with its axis, and its mate with its own axis."""
+    """Gear pair from the side of one of its wheels: the wheel with its axis, and its mate with its axis."""
 
     wheel: str
     axis: str
@@ -103,7 +103,7 @@ class ContactSide:
 
 @dataclass(frozen=True, slots=True)
 class PitchContact:
-    """A gear pair: wheels with their axes, and their kind of contact."""
+    """Gear pair: wheels with their axes, and their kind of contact."""
 
     name: str
     wheels: tuple[str, str]
@@ -113,33 +113,34 @@ class PitchContact:
     `screw` (its first wheel is the worm) have other axes.
     """
     stretch: Fraction = Fraction(1)
-    """Centre distance that declared teeth require, as a factor of that of touching pitch circles."""
+    """Centre distance of the declared teeth divided by the centre distance at which pitch circles touch."""
     worm_sense: int = 0
-    """1 if positive angles of a worm and its wheel move the pitch point the same way, -1 if opposite ways.
+    """1 if positive angles of a worm and its wheel move the pitch point in the same direction, -1 if in opposite
+    directions.
 
     It is 0 for other pairs.
     """
 
     @property
     def parallel(self) -> bool:
-        """True if its axes are parallel, False if they intersect or are skew."""
+        """True if the axes are parallel, False if they intersect or are skew."""
         return self.kind in ("side", "ring")
 
     @property
     def sides(self) -> tuple[ContactSide, ContactSide]:
-        """The pair from the side of its first and of its second wheel."""
+        """Pair from the side of its first and of its second wheel."""
         (first, second), (axis, other) = self.wheels, self.axes
         return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Its axes in a fixed order, the same for all pairs between them."""
+        """Axes of the pair in a fixed order, which is the same for all pairs between these axes."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """A pin in a slot: links and axes of pin and slot, and the distance of the axes (mm) if it is declared."""
+    """Pin in a slot: links and axes of pin and slot, and the distance between the axes [mm] if it is declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]
@@ -149,13 +150,13 @@ class PinSlotTie:
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Its axes in a fixed order, the same for all pairs between them."""
+        """Axes of pin and slot in a fixed order, which is the same for all pairs between these axes."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class StrayMesh:
-    """A wheel that a pair has on another axis than earlier pairs."""
+    """Wheel that a pair has on another axis than earlier pairs have."""
 
     wheel: str
     pair: str
@@ -163,7 +164,7 @@ class StrayMesh:
 
 
 class DialEnds(NamedTuple):
-    """Ends at which an arbor extends beyond the stack to a dial, low and high."""
+    """Ends (low and high) at which an arbor extends beyond the stack to a dial."""
 
     low: bool = False
     high: bool = False
@@ -171,17 +172,17 @@ class DialEnds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeclaredGeometry:
-    """Axes by label; gear pairs and couplings in the order declared."""
+    """Declared geometry of a train: axes by label, and gear pairs and couplings in the order declared."""
 
     lines: Mapping[str, AxisLine]
     axis: Mapping[str, str]
-    """Axis of every wheel, wheels that mesh first."""
+    """Axis of every wheel; wheels that mesh are listed first."""
     contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
     """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
-    """Thickness of the wheels that declare one (mm)."""
+    """Thickness of the wheels for which it is declared [mm]."""
     strays: tuple[StrayMesh, ...]
     front: int
     """Side of z from which the train is viewed: 1 or -1."""
@@ -301,7 +302,9 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return centre distances of real teeth relative to touching pitch circles, by pair, if they are not 1."""
+    """Return by pair the centre distance of real teeth divided by the distance at which pitch circles touch, if the
+    ratio is not 1.
+    """
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:

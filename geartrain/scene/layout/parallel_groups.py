@@ -1,4 +1,5 @@
-"""Groups of parallel axes, placed one after the other: each is planned and stacked, subject to the axes already placed.
+"""Groups of parallel axes, placed one after the other. Each group is planned and stacked subject to the axes that are
+already placed.
 
 Stacks: wheels that mesh are at one height, or at fixed relative heights. A weighted union-find of heights groups them
 into stacks. A wheel on a crossing axis has a fixed height relative to its mate, and occupies space in its stack.
@@ -34,19 +35,19 @@ from geartrain.scene.layout.wheel_stacks import StackProblem, WheelStack
 _GAP = 0.4  # gap between levels over the median thickness
 
 Node = tuple[str, str]
-"""A wheel, ("wheel", name), or a crossing axis, ("axis", label)."""
+"""Wheel, ("wheel", name), or crossing axis, ("axis", label)."""
 
 
 @dataclass(frozen=True, slots=True)
 class HeightConstraint:
-    """A wheel whose height (mm) is determined by parts already placed."""
+    """Wheel whose height [mm] is determined by parts that are already placed."""
 
     wheel: str
     height: float
 
 
 class _HeightSets:
-    """Wheels and crossing axes with fixed relative heights: a weighted union-find."""
+    """Wheels and crossing axes with fixed relative heights, as a weighted union-find structure."""
 
     def __init__(self) -> None:
         self._above: dict[Node, tuple[Node, float]] = {}
@@ -60,7 +61,7 @@ class _HeightSets:
         return node, total
 
     def join(self, node: Node, other: Node, above: float) -> None:
-        """Put a node `above` another (mm), unless their relative height is already set."""
+        """Place a node at a distance `above` another [mm], unless their relative height is already known."""
         (root, height), (base, low) = self.find(node), self.find(other)
         # an existing relation is kept: contradictory heights become collisions, which are reported
         if root != base:
@@ -172,7 +173,7 @@ class _BlockBuilder:
         return found
 
     def _stack(self, node: Node) -> tuple[int, float]:
-        """Return the number of a node's stack, and its height in it."""
+        """Return the number of a node's stack, and the node's height in the stack."""
         root, height = self.heights.find(node)
         return self.number.setdefault(root, len(self.number)), height
 
@@ -257,7 +258,7 @@ class AxialSlots(NamedTuple):
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Return slots of the wheels that need them; the others of their level are omitted.
+    """Return the slots of the wheels that need slots; other wheels of their level are omitted.
 
     meshes   pairs of wheels of parallel axes
     overlap  whether two wheels at one height would collide
@@ -289,14 +290,14 @@ def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
 
 
 class _SlotSearch:
-    """Search for slots of one group of wheels; `tries` is the remaining number of trials."""
+    """Search for the slots of one group of wheels; `tries` is the remaining number of trials."""
 
     def __init__(self, meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> None:
         self.meshes, self.clashes = meshes, clashes
         self.tries = _TRIES
 
     def found(self) -> dict[str, AxialSlots]:
-        """Return slots by wheel; empty if there are not any, or none were found within the limit."""
+        """Return slots by wheel; empty if no assignment exists, or if none was found within the limit."""
         # iterative deepening: the first success has the minimum number of slots
         for count in range(2, len(self.meshes) + 1):
             spans = self._try(count)
@@ -361,7 +362,7 @@ _ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Places of all axes and wheels (mm)."""
+    """Positions of all axes and wheels [mm]."""
 
     geometry: SizedGeometry
     """Declared geometry, with the broadened wheels."""
@@ -371,13 +372,13 @@ class Arrangement:
     stacks: Sequence[WheelStack]
     """Stack of each group of parallels."""
     main: int
-    """Number of the group of parallels with most wheels."""
+    """Number of the group of parallel axes with the most wheels."""
     up: Vector
-    """Upward direction of that group."""
+    """Upward direction of the main group."""
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the places of all groups of parallels.
+    """Return the positions of all groups of parallel axes.
 
     The group with most wheels is placed first, then those that mesh with placed groups.
     """
@@ -411,14 +412,14 @@ def _order(geometry: SizedGeometry) -> list[int]:
 
 @dataclass(frozen=True, slots=True)
 class _DeterminedAxis:
-    """A new axis that meshes with a placed one: the pair from the new side, and a point of the axis."""
+    """New axis that meshes with a placed axis: the pair from the new side, and a point of the axis."""
 
     crossing: CrossingSide
     point: Vector
 
 
 class _Placing:
-    """Groups placed so far; `place` adds one.
+    """Groups that are placed so far; `place` adds a group.
 
     Broadened wheels change `geometry`, so that later groups and diagnostics use their final sizes.
     """
@@ -430,7 +431,7 @@ class _Placing:
         self.stacks: list[WheelStack] = []
 
     def place(self, parallels: Parallels) -> None:
-        """Plan some parallels, broaden wheels as the plan requires, and stack them."""
+        """Plan a group of parallel axes, broaden wheels as the plan requires, and stack the wheels."""
         held = list(self._determined_axes(parallels))
         fixed = self._fixed(parallels, held)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
@@ -456,7 +457,7 @@ class _Placing:
                 yield _DeterminedAxis(each, point)
 
     def _fixed(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> dict[str, Point]:
-        """Return points in plan of the axes that cannot move; if nothing fixes any, that of one axis."""
+        """Return points in plan of the axes that cannot move; if no axis is fixed, the point of one axis."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for new in held:
             fixed.setdefault(new.crossing.side.axis, parallels.flat(new.point))
@@ -488,7 +489,7 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Widen wheels that have mates one above the other."""
+        """Widen wheels whose mates are one above the other."""
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:

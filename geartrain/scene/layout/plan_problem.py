@@ -20,7 +20,9 @@ _CARRIED = 1.2  # from an axis to that of its carrier
 
 @dataclass(frozen=True, slots=True)
 class PlanDisc:
-    """A wheel in plan, out to the radius `outer` (mm), a ring from `inner` on. Wheels of one cluster share a level."""
+    """Wheel in plan, up to the radius `outer` [mm]; a ring from the radius `inner`. Wheels of one cluster share a
+    level.
+    """
 
     wheel: str
     cluster: int
@@ -30,14 +32,14 @@ class PlanDisc:
 
 @dataclass(frozen=True)
 class PlanProblem:
-    """Conditions on a plan."""
+    """Conditions on the plan of a group of parallel axes."""
 
     labels: Sequence[str]
     """Labels of the axes."""
     bearers: Mapping[str, str]
     """Link that carries each axis."""
     pivots: Mapping[str, str]
-    """Axes of carriers, which are placed before the axes that they carry."""
+    """Axes of carriers, which are placed before the axes that the carriers carry."""
     fixed: Mapping[str, Point]
     """Given points of axes."""
     distances: Mapping[tuple[str, str], float]
@@ -47,11 +49,11 @@ class PlanProblem:
     mates: frozenset[frozenset[str]]
     """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
-    """Pairs of axes that must be in a row, with its direction."""
+    """Pairs of axes that must be in a row, with the direction of the row."""
     sides: Mapping[str, Point] = field(default_factory=dict)
-    """Direction in which an axis has a wheel of a perpendicular axis, preferably on the outside of the plan."""
+    """Direction in which an axis meshes with a wheel of a perpendicular axis, preferably on the outside of the plan."""
     places: Mapping[str, int] = field(default_factory=dict)
-    """Axis -> number of places round its pivot at which its teeth mesh with both its mates."""
+    """Axis -> number of positions around its pivot at which its teeth mesh with both its mates."""
 
     def radius(self, label: str) -> float:
         """Return the radius of the widest wheel of an axis (mm)."""
@@ -97,7 +99,9 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return distances of pins without dimensions, and of carried axes that are not connected to their carrier's."""
+    """Return distances for pins without dimensions, and for carried axes that are not connected to their carrier's
+    axis.
+    """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -121,7 +125,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect one crossing axis, and so are in a row along it.
+    """Yield pairs of axes that intersect the same crossing axis, and are therefore in a row along it.
 
     A worm does not intersect its wheel's axis.
     """

@@ -67,7 +67,7 @@ class PlanClearance:
                 self.meet[both[0], both[1]] = self.meet[both[1], both[0]] = True
 
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
-        """Return the cost of each candidate place of an axis among the placed ones."""
+        """Return the cost of each candidate position of an axis among the placed axes."""
         near = self._within_reach(at, placed[self.still[at, placed]], candidates, points)
         apart = candidates[:, None, :] - points[near][None, :, :]
         far = np.hypot(apart[:, :, 0], apart[:, :, 1])
@@ -79,7 +79,7 @@ class PlanClearance:
         return np.asarray(cost, float)
 
     def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
-        """Return the axes that a candidate may overlap; all others cost nothing."""
+        """Return the axes that a candidate may overlap; other axes cause no cost."""
         low, high = candidates.min(axis=0), candidates.max(axis=0)
         spots = points[near]
         away = np.maximum(np.maximum(low - spots, spots - high), 0)
@@ -124,7 +124,7 @@ _NEAR = 60  # maximum number of axes on closed chains for which bounds are found
 
 
 class Bar(NamedTuple):
-    """Distance (mm) of two axes, given by index."""
+    """Distance between two axes [mm], which are given by index."""
 
     first: int
     second: int
@@ -140,7 +140,7 @@ class DistanceBound(NamedTuple):
 
 
 class _Rank(NamedTuple):
-    """Priority of an axis: the minimum is placed first.
+    """Priority of an axis: the axis with the minimum is placed first.
 
     An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars
     come first. The two counts are negative, so that the maximum comes first.
@@ -154,19 +154,19 @@ class _Rank(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """An axis to be placed, by index."""
+    """Axis to be placed, by index."""
 
     axis: int
     placed: Indices
     """Axes that are already placed."""
     tied: tuple[DistanceBound, ...]
-    """Placed axes at a given distance."""
+    """Placed axes at a given distance from the axis."""
     bounds: tuple[DistanceBound, ...]
-    """Placed axes to which a chain of axes still to be placed must reach."""
+    """Placed axes that must be reached by a chain of axes that are not placed yet."""
 
 
 class PlanOrder:
-    """Axes as joints of bars, by index.
+    """Order in which the axes are placed, as joints of bars.
 
     index    index of each axis
     radius   radius of the widest wheel of each axis (mm)
@@ -247,7 +247,7 @@ class PlanOrder:
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds from the shortest paths to placed axes over axes still to be placed.
+        """Return bounds from the shortest paths to placed axes, over axes that are not placed yet.
 
         The ends of a chain of bars are at most its length apart, and at least the longest bar minus the rest.
         """
@@ -319,7 +319,8 @@ def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: fl
 
 
 def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> Floats:
-    """Return points (n, 2) that minimise the squared errors of distances, starting from some points; `fixed` ones stay.
+    """Return points (n, 2) that minimise the squared errors of distances, from given initial points; `fixed` points do
+    not move.
 
     Gauss-Newton: the Jacobian of |p_b - p_a| has the unit vector from a to b at b, and its opposite at a. Steps are at
     most a tenth of the longest distance, because the linear model is inaccurate far from the solution.
@@ -362,13 +363,15 @@ def _distance_misses(points: Floats, bars: Sequence[Bar]) -> tuple[Floats, Float
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points of all axes at the given distances, else fitted by least squares; the result is deterministic."""
+    """Return points of all axes at the given distances, or fitted to them by least squares; the result is
+    deterministic.
+    """
     return _BeamSearch(problem).found()
 
 
 @dataclass(frozen=True)
 class _Plan:
-    """Points of all axes, of which some are placed, and their cost."""
+    """Points of the placed axes, and their cost."""
 
     points: Floats
     cost: float
@@ -376,7 +379,7 @@ class _Plan:
 
 @dataclass(frozen=True)
 class _Option:
-    """A plan and a place for the next axis. The new plan is made only if it is among the best."""
+    """Plan with a position for the next axis. The new plan is built only if it is among the best."""
 
     plan: _Plan
     place: Floats
@@ -410,7 +413,7 @@ class _BeamSearch:
         return {label: (float(fitted[at, 0]), float(fitted[at, 1])) for label, at in index.items()}
 
     def _options(self, step: PlanStep, plan: _Plan) -> list[_Option]:
-        """Return the best places of an axis in one plan."""
+        """Return the best positions of an axis in one plan."""
         candidates = self._candidates(step, plan.points)
         costs = _distance_cost(step, candidates, plan.points)
         costs += self.clearance.cost(step.axis, step.placed, candidates, plan.points)
@@ -423,7 +426,7 @@ class _BeamSearch:
         return [_Option(plan, candidates[at], round(plan.cost + float(costs[at]), 9)) for at in best]
 
     def _candidates(self, step: PlanStep, points: Floats) -> Floats:
-        """Return candidate places of an axis."""
+        """Return candidate positions of an axis."""
         row = self._in_row(step, points)
         if row:
             return np.array(row)
@@ -438,7 +441,9 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points in a row with a placed axis, at the required distance from another axis, or free."""
+        """Return points in a row with a placed axis, at the required distance from another axis, or at free
+        distances.
+        """
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:
@@ -459,7 +464,7 @@ class _BeamSearch:
         return []
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points outside of all placed axes, in eight directions."""
+        """Return points outside all placed axes, in eight directions."""
         if not len(step.placed):
             return [(0.0, 0.0)]
         radius = self.order.radius
@@ -470,7 +475,7 @@ class _BeamSearch:
         return [(x + far * cos(pi * at / 4), y + far * sin(pi * at / 4)) for at in range(8)]
 
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points of the circle about the first axis it is tied to.
+        """Return points on the circle about the first axis to which the axis is tied.
 
         They are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are evenly
         spaced from the first of them.

@@ -1,4 +1,4 @@
-"""Wheels of parallel axes that overlap in plan at any angles of the carriers that move them.
+"""Wheels of parallel axes that overlap in plan at some angles of the carriers that move them.
 
 Relative to the nearest link that carries both, each of two axes stays in an annulus about the axis of a carrier. The
 whole of both annuli is used, as if the angles of carriers were independent, which gives an interval of distances for
@@ -27,7 +27,7 @@ _SLACK = 1e-9  # relative to a radius: touching discs must not overlap by roundi
 
 
 class Disc(Protocol):
-    """A wheel in plan."""
+    """Wheel in plan."""
 
     @property
     def inner(self) -> float:
@@ -39,7 +39,7 @@ class Disc(Protocol):
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
-    """Return whether two wheels at one height collide if their axes are `near` to `far` (mm) apart."""
+    """Return True if two wheels at one height collide when their axes are `near` to `far` [mm] apart."""
     for ring, inside in ((disc, other), (other, disc)):
         if ring.inner and far + inside.outer <= ring.inner * (1 + _SLACK):
             return False
@@ -48,13 +48,13 @@ def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
 
 @dataclass(frozen=True)
 class SweptDistances:
-    """Minimum and maximum distance (mm) of every two of n parallel axes, shape (n, n), while carriers turn."""
+    """Minimum and maximum distance between every two of n parallel axes while carriers turn [mm], shape (n, n)."""
 
     near: Floats
     far: Floats
 
     def overlap(self, disc: Disc, axis: int, other: Disc, other_axis: int) -> bool:
-        """Return whether wheels of two axes, at one height, collide."""
+        """Return True if wheels of two axes at one height collide."""
         return overlap(disc, other, float(self.near[axis, other_axis]), float(self.far[axis, other_axis]))
 
 
@@ -110,16 +110,16 @@ def _fill(found: SweptDistances, members: Sequence[_Swept], places: Mapping[str,
 
 @dataclass(frozen=True, slots=True)
 class WheelBlock:
-    """A wheel in a stack (mm)."""
+    """Wheel in a stack [mm]."""
 
     wheel: str
     axis: int
     """Index of its axis. `link` is the link of its arbor."""
     link: str
     stack: int
-    """Number of its stack, a set of wheels with fixed relative heights because they mesh."""
+    """Number of the stack: a set of wheels with fixed relative heights because they mesh."""
     offset: float
-    """Height in its stack. `low` and `high` are the extents below and above it."""
+    """Height in the stack; `low` and `high` are the extents below and above this height."""
     low: float
     high: float
     inner: float
@@ -129,7 +129,7 @@ class WheelBlock:
     across: bool = False
     """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Ends of the trace in plan of a crossing wheel that stays in place, whose half width is `outer`; else None."""
+    """Ends of the trace in plan of a crossing wheel that does not move, with half width `outer`; otherwise None."""
 
 
 @dataclass(frozen=True)
@@ -137,9 +137,9 @@ class PlanOverlap:
     """Overlaps of wheels and arbors in plan."""
 
     clash: Flags
-    """Shape (blocks, blocks): pairs that must not be at the same height."""
+    """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Shape (links and pins, blocks): wheels that an arbor, or a pin, would pass through at their height."""
+    """Wheels through which an arbor or a pin would pass at their height, shape (links and pins, blocks)."""
 
 
 def find_plan_overlap(
@@ -186,7 +186,7 @@ def find_plan_overlap(
 
 
 def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
-    """Return blocks of other links that a pin may meet between its wheel and that of its slot."""
+    """Return blocks of other links that a pin may hit between its wheel and the slot's wheel."""
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])
     own = np.array([block.link in (pin.link, slot.link) for block in blocks])
@@ -194,7 +194,7 @@ def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, i
 
 
 def segment_distance(point: Point, start: Point, end: Point) -> float:
-    """Return the distance of a point from a segment."""
+    """Return the distance between a point and a segment."""
     u, v = end[0] - start[0], end[1] - start[1]
     x, y = point[0] - start[0], point[1] - start[1]
     square = u * u + v * v

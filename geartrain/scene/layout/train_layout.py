@@ -1,4 +1,4 @@
-"""Layout of a train: every axis and every wheel in space, in the pose in which all angles are zero.
+"""Layout of a train: positions of all axes and wheels in space, in the pose in which all angles are 0.
 
 Wheels are rotated on their arbors so that teeth of one mesh with tooth spaces of the other, in a breadth-first search
 over the gear pairs: the first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches
@@ -34,7 +34,7 @@ _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Return pairs whose pitch circles do not touch, with their gap (mm), negative for an overlap."""
+    """Return pairs whose pitch circles do not touch, with the gap [mm], negative for an overlap."""
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -72,7 +72,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
 def notices(
     train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """Yield all notices on a layout, those that prevent a build first.
+    """Yield all notices on a layout; notices that prevent a build are first.
 
     gaps     gaps of pairs whose pitch circles do not touch (mm)
     misses   phase errors of pairs whose teeth do not mesh (pitches)
@@ -170,10 +170,10 @@ class PitchPoint:
     first: PitchSide
     second: PitchSide
     sense: int
-    """1 if positive angles about both axes move the pitch point the same way, -1 if opposite ways."""
+    """1 if positive angles about both axes move the pitch point in the same direction, -1 if in opposite directions."""
 
     def seen_from(self, wheel: str) -> tuple[PitchSide, PitchSide]:
-        """Return the side of a wheel of the pair, and that of its mate."""
+        """Return the side of a wheel of the pair, and the side of its mate."""
         return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
 
 
@@ -190,12 +190,12 @@ class MeshAlignment:
 
 
 def reference(direction: Vector) -> Vector:
-    """Return the unit vector across an axis from which angles are measured: x if the axis is z."""
+    """Return the unit vector perpendicular to an axis from which angles are measured: x if the axis is z."""
     return frame(direction)[0]
 
 
 def align_meshes(found: Arrangement) -> MeshAlignment:
-    """Return the angles at which the wheels of a train mesh, as placed."""
+    """Return the angles at which the wheels of a train mesh in the layout."""
     return _aligned([_pitch_point(found, contact) for contact in found.geometry.declared.contacts])
 
 
@@ -252,7 +252,7 @@ def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
 
 
 def _past(side: PitchSide, turn: float) -> float:
-    """Return by how many pitches the first tooth is past the pitch point."""
+    """Return the distance of the first tooth past the pitch point [pitches]."""
     return (turn - side.angle) * side.teeth / (2 * pi)
 
 
@@ -478,7 +478,7 @@ def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, W
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seat of each wheel that has a cone; a wheel that also meshes about a parallel axis has none."""
+    """Return the seat of each wheel with a cone. A wheel that also meshes about a parallel axis has none."""
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}

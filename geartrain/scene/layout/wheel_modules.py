@@ -1,4 +1,4 @@
-"""Modules and sizes of wheels, as forced by the train, given by the declaration, or chosen.
+"""Modules and sizes of wheels, which are determined by the train, declared, or chosen.
 
 Wheels that mesh share a module, so each cluster of them has one. Two pairs between the same two axes force the ratio of
 their clusters' modules. These ratios are a weighted union-find in exact fractions. The scale of a group of clusters is
@@ -41,7 +41,7 @@ _MINIMUM = Fraction(1, 1000)  # minimum factor of a module in one step
 
 @dataclass(frozen=True, slots=True)
 class AxisDistance:
-    """Distance of two axes: `times` the module of `root`, or `times` mm if that is None."""
+    """Distance between two axes: `times` the module of `root`, or `times` mm if `root` is None."""
 
     axes: tuple[str, str]
     times: float
@@ -55,7 +55,7 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return modules of roots, those in `free` multiplied by simple factors until all chains can close."""
+    """Return modules of roots. The modules in `free` are multiplied by simple factors until all chains can close."""
     distances = _on_cycles(distances)
     found = dict(modules)
     if not free or len(distances) > _MOST:
@@ -112,12 +112,14 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return a short fraction near a factor, so that modules stay simple; it may be 0."""
+    """Return a short fraction near a factor, so that modules have simple values; it may be 0."""
     return Fraction(factor).limit_denominator(1000)
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without this distance (Dijkstra); empty without one."""
+    """Return the shortest path between the axes of a distance without using this distance (Dijkstra); empty if there is
+    no path.
+    """
     joined: dict[str, list[tuple[str, int]]] = {}
     for number, one in enumerate(distances):
         if number != at:
@@ -166,7 +168,7 @@ class WheelModules:
 
 
 def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
-    """Return modules of all wheels, exact if the declaration is, and the resulting distances of axes.
+    """Return the modules of all wheels, exact if the declaration is exact, and the resulting distances between axes.
 
     A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
     A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
@@ -175,7 +177,7 @@ def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
-    """Return the distance of the axes of a pair (mm), at which pitch circles touch or declared teeth mesh."""
+    """Return the distance between the axes of a pair [mm], at which pitch circles touch or declared teeth mesh."""
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
     return float(contact.stretch) * (abs(first - second) if contact.kind == "ring" else first + second)
 
@@ -224,7 +226,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root of each cluster, and the ratio of its module to that of the root."""
+        """Root of each cluster, and the ratio of its module to the module of the root."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -235,7 +237,7 @@ class _ModuleSearch:
         return [ratios.root(at) for at in self.clusters]
 
     def _join(self, ratios: RatioSets[int], first: PitchContact, second: PitchContact) -> None:
-        """Record the ratio of the modules of two pairs, which follows from their equal centre distance."""
+        """Record the ratio of the modules of two pairs, which follows from their equal centre distances."""
         ends = self.cluster[first.wheels[0]], self.cluster[second.wheels[0]]
         far, other = self.geometry.distance(first), self.geometry.distance(second)
         if far and other and not (ends[0] in self.given and ends[1] in self.given):
@@ -252,7 +254,7 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return modules of roots from declared modules, else by least squares from positions and offsets.
+        """Return modules of roots from declared modules, otherwise by least squares from positions and offsets.
 
         For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
         """
@@ -274,7 +276,9 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes from their declared points, else from the offset of a pin, else None."""
+        """Return the distance between two axes from their declared points, otherwise from the offset of a pin;
+        otherwise None.
+        """
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -322,7 +326,9 @@ class Seat:
     """Position of a wheel of a pair whose axes are not parallel."""
 
     far: float
-    """Distance (mm) from the point where the axes intersect, or are nearest, to its centre, along its axis."""
+    """Distance along the axis from the point where the axes intersect, or are nearest, to the centre of the
+    wheel [mm].
+    """
     cone: float
     """Half angle of its pitch cone (rad)."""
     out: Vector
@@ -361,12 +367,12 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
 
 
 def opposite(v: Vector) -> Vector:
-    """Return the opposite of a vector without components -0.0, which pictures would print."""
+    """Return the opposite of a vector, without components -0.0, which would be printed in pictures."""
     return minus((0.0, 0.0, 0.0), v)
 
 
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Return the unit vector from a worm's axis to its wheel's.
+    """Return the unit vector from the axis of a worm to the axis of its wheel.
 
     Without declared positions it is the side on which a right-hand worm reverses.
     """
@@ -392,7 +398,7 @@ class WheelSize:
     outer: float
     """Outer radius, including clearance."""
     slot: float = 0.0
-    """Height of its middle above that of the lowest slot, if its level is divided into slots."""
+    """Height of the middle of the wheel above the lowest slot, if its level is divided into slots."""
     plain: float = 0.0
     """Thickness before it was broadened to mesh with several mates."""
 
@@ -404,13 +410,13 @@ class WheelSize:
 
     @property
     def foot(self) -> float:
-        """Distance of its middle above that of a wheel in the lowest of its slots (mm)."""
+        """Distance of the middle of the wheel above the middle of a wheel in the lowest of its slots [mm]."""
         return (self.thickness - self.plain) / 2
 
 
 @dataclass(frozen=True, slots=True)
 class CrossingSide:
-    """A pair whose axes are not parallel, from the side of one of its wheels, with the seats of both."""
+    """Pair with non-parallel axes, from the side of one of its wheels, with the seats of both wheels."""
 
     contact: PitchContact
     side: ContactSide
@@ -420,7 +426,7 @@ class CrossingSide:
 
 @dataclass(frozen=True)
 class SizedGeometry:
-    """Declared geometry with sizes."""
+    """Declared geometry of a train, with the sizes of its wheels."""
 
     declared: DeclaredGeometry
     modules: WheelModules

@@ -13,13 +13,13 @@ from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
 LAND = 0.01  # metal under the roots, over the pitch radius
 CROWN = pi / 2 - 1e-6
-"""Cone half angle (rad) above which a cone is treated as the plane of a crown wheel, which contains the apex."""
+"""Cone half angle [rad] above which a wheel is treated as a crown wheel, whose plane contains the apex."""
 _BACK = 0.35  # metal behind the teeth, over the thickness
 _MOST_FACE = 0.45  # maximum face width over the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the size of the narrow end of a bevel wheel's teeth relative to the wide end.
+    """Return the ratio of the size of a bevel wheel's teeth at the narrow end to the size at the wide end.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def taper(cone: float, radius: float, thickness: float) -> float:
 
 
 def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> float:
-    """Return the distance (mm) of a point of a tooth from the plane of the pitch circle, positive towards the apex.
+    """Return the distance between a point of a tooth and the plane of the pitch circle [mm], positive towards the apex.
 
     depth   height above the pitch cone, along the back cone at the wide end (mm)
     scale   1 at the wide end, `taper` at the narrow end
@@ -49,7 +49,7 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 
 
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
-    """Return the position of the back of its body (mm), in the coordinate of `height_on_cone`.
+    """Return the position of the back of a bevel wheel's body [mm], in the coordinate of `height_on_cone`.
 
     root   height of the roots above the pitch cone (mm)
     """
@@ -58,7 +58,7 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the same as `reach` for a wheel whose teeth are not known, with usual heights for its module (mm)."""
+    """Return the extents of `reach` for a wheel whose teeth are not known, with usual heights for its module [mm]."""
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 
@@ -75,7 +75,7 @@ def reach(cone: float, radius: float, thickness: float, root: float, tip: float)
 
 
 def web(cone: float, radius: float, thickness: float, root: float) -> tuple[float, float]:
-    """Return the same as `reach` for the disc within the teeth."""
+    """Return the extents of `reach` for the disc within the teeth."""
     if not cone:
         return thickness / 2, thickness / 2
     front = height_on_cone(cone, radius, root - LAND * radius, taper(cone, radius, thickness))
@@ -83,5 +83,5 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return extents as positions along the direction of the axis, from the pitch circle, the lower first."""
+    """Return extents as positions along the direction of the axis from the pitch circle, in ascending order."""
     return (-towards, away) if facing > 0 else (-away, towards)

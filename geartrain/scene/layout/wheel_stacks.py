@@ -48,11 +48,11 @@ class StackProblem:
     ends: Mapping[str, DialEnds]
     """Ends of arbors that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
-    """Arbor -> the wheel that carries its axis."""
+    """Arbor -> wheel that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
     """Wheels with a pin and with its slot, in the order of the rows of `overlap.pierce` after those of arbors."""
     still: str = ""
-    """Fixed link. Several wheels of it on one axis form a fixed arbor."""
+    """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
     @property
     def count(self) -> int:
@@ -61,7 +61,7 @@ class StackProblem:
 
 
 def order_stacks(problem: StackProblem) -> Floats:
-    """Return a key for each stack, increasing upwards; stacks with one key share a level."""
+    """Return a key for each stack, increasing upwards. Stacks with equal keys share a level."""
     search = _OrderSearch(problem)
     return search.first_fit() if problem.count > _SEARCHED else search.local_search()
 
@@ -101,7 +101,7 @@ class _OrderSearch:
 
     @cached_property
     def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
-        """Stacks of fixed wheels by axis, if there are several, which are one piece."""
+        """Stacks of fixed wheels by axis, if there are several on an axis, which are then one piece."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:
@@ -114,7 +114,9 @@ class _OrderSearch:
 
     @cached_property
     def order(self) -> list[int]:
-        """Order from the stack with most arbors, each next one sharing most arbors with those before."""
+        """Order of the stacks: first the stack with the most arbors, then repeatedly the stack that shares the most
+        arbors with earlier stacks.
+        """
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
@@ -129,7 +131,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Place all stacks, then improve each again and move runs of levels until nothing improves."""
+        """Place all stacks, then improve each again and move runs of levels until the order does not improve."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
@@ -159,7 +161,9 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to its place of minimum cost, in a level (integer key) or between two (half-integer key)."""
+        """Move one stack to its position of minimum cost, in a level (integer key) or between two levels (half-integer
+        key).
+        """
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -176,7 +180,7 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return costs of several orders of the same stacks, one per row; stacks that are not placed yet are nan.
+        """Return the costs of several orders of the same stacks, one per row; stacks that are not placed yet are NaN.
 
         fixed_cost   cost of an arbor that interleaves with fixed wheels
         """
@@ -199,7 +203,7 @@ class _OrderSearch:
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
     def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """Return the number of pairs of coaxial arbors that interleave, so that neither can be a pipe."""
+        """Return the number of pairs of coaxial arbors that interleave, so that neither arbor can be a pipe."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -208,7 +212,8 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return how often arbors interleave with fixed wheels on their axis, so that these cannot be one piece.
+        """Return the number of times that arbors interleave with fixed wheels on their axis, so that these wheels
+        cannot be one piece.
 
         Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further
         one counts as half.
@@ -245,7 +250,7 @@ class _OrderSearch:
 
     @cached_property
     def _hubs(self) -> dict[int, dict[int, dict[int, None]]]:
-        """Stacks of each arbor, by axis, without rings."""
+        """Stacks of each arbor without rings, by axis."""
         hubs: dict[int, dict[int, dict[int, None]]] = {}
         for block in self.problem.blocks:
             if block.link in self.problem.arbors and not block.across and not block.inner:
@@ -266,7 +271,7 @@ class _OrderSearch:
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, stacks that they pass through at the same height, and the number of wheels of each."""
+        """Arbors, stacks through which they pass at the same height, and the number of wheels of each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.overlap.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -285,7 +290,9 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Return keys with each stack in the free level nearest to stacks on its arbors, else in a new top level."""
+        """Return keys with each stack in the free level nearest to other stacks on its arbors, or in a new
+        top level.
+        """
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -357,14 +364,14 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
 
 
 def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
-    """Return the maximum thickness of some blocks at the height of their stack."""
+    """Return the maximum thickness of a set of blocks at the height of their stack."""
     sizes = [blocks[at].low + blocks[at].high for at in which.tolist() if not blocks[at].offset]
     return max(sizes, default=0.0)
 
 
 @dataclass(frozen=True)
 class WheelStack:
-    """Wheels of some parallel axes, one above the other."""
+    """Wheels of a group of parallel axes, one above the other."""
 
     up: Vector
     """Direction of increasing heights."""
@@ -374,7 +381,7 @@ class WheelStack:
     swept: SweptDistances
     """Distances of the axes."""
     given: Mapping[int, float]
-    """Stack -> height (mm) that is determined by parts already placed."""
+    """Stack -> height [mm] that is determined by parts that are already placed."""
 
     def heights(self) -> dict[str, float]:
         """Return heights of upright wheels (mm).
@@ -409,7 +416,9 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels that they pass through, except for pins and slots, whose axes share one stud."""
+        """Yield arbors with the wheels through which they pass, except for pins and slots, whose axes share
+        one stud.
+        """
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

@@ -1,4 +1,4 @@
-"""Parts that make a mechanism of wheels: plates, pillars, arbors, pipes, studs, and their fits.
+"""Parts that connect the wheels of a mechanism: plates, pillars, arbors, pipes and studs, with their fits.
 
 The input is wheels as cut, their places, and the axes that the frame and the carriers carry. The output is a
 `FramePlan`: every part with its link, wheels moved along their axes to make space for plates, the hole of every wheel,

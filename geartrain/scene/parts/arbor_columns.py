@@ -1,4 +1,4 @@
-"""Members on one axis of the frame: an arbor from plate to plate, or a stud in one plate, and pipes round it.
+"""Parts on one axis of the frame: an arbor between the plates, or a stud in one plate, and pipes around it.
 
 A pipe covers the arbor inside it from its lowest wheel to its highest, so that no wheel of that arbor may be in this
 interval. Each pair with only one possible nesting is an edge of a graph. A topological order of the graph is the order
@@ -33,7 +33,7 @@ _WIDEST = 6.0  # mm: maximum default diameter
 
 
 class AxisBearing(StrEnum):
-    """Bearing of an axis."""
+    """Bearing of an axis in the plates of the frame."""
 
     THROUGH = "through"
     BACK_STUD = "stud in the back plate"
@@ -43,7 +43,7 @@ class AxisBearing(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class FramePlaces:
-    """Heights (mm) of the lower and upper face of both plates."""
+    """Heights of the lower and upper face of both plates [mm]."""
 
     back: tuple[float, float]
     front: tuple[float, float]
@@ -51,7 +51,7 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """An arbor or a pipe of a column: its link, its ends, the diameters inside (0: solid) and outside (mm)."""
+    """Arbor or pipe of a column: its link, its ends, and its inside (0 if solid) and outside diameter [mm]."""
 
     link: str
     low: float
@@ -64,21 +64,21 @@ class ColumnMember:
 
 @dataclass(frozen=True, slots=True)
 class AxisColumn:
-    """All members on an axis."""
+    """All arbors, pipes and studs on one axis."""
 
     axis: str
     at: Point
     bearing: AxisBearing
     core: float
-    """Diameter (mm) of the arbor or the stud in the middle, which extends from `low` to `high`."""
+    """Diameter of the central arbor or stud [mm], which extends from `low` to `high`."""
     pivot: float
     """Diameter (mm) of an arbor's pivots."""
     low: float
     high: float
     members: tuple[ColumnMember, ...]
-    """Members from the innermost; for a through arbor the first is the core."""
+    """Members from the innermost outwards. For a through arbor, the first member is the core."""
     hit: tuple[tuple[StackDisc, float], ...] = ()
-    """Obstructing discs of other axes, with the gap to them (mm, below `APART`)."""
+    """Obstructing discs of other axes, with their gaps (below `APART`) [mm]."""
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other."""
     on: str = ""
@@ -94,7 +94,7 @@ class AxisColumn:
         return self.bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD)
 
     def passes(self, plate: tuple[float, float]) -> bool:
-        """Return whether a member extends beyond both faces of a plate."""
+        """Return True if a member extends beyond both faces of a plate."""
         middle = sum(plate) / 2
         return any(each.low < middle < each.high for each in self.members)
 
@@ -106,7 +106,7 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """An axis with its discs, those of other axes, and the links that extend to dials."""
+    """Problem of one axis: its discs, the discs of other axes, and the links that extend to dials."""
 
     axis: str
     at: Point
@@ -123,27 +123,29 @@ class ColumnProblem:
     pivot: float | None = None
     """Diameter of its pivots (mm), if it is given."""
     head: float = SHAKE + HEAD
-    """Length of a stud beyond the parts that it bears (mm)."""
+    """Length of a stud beyond the parts on it [mm]."""
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes with the gaps to them, which do not depend on the places of plates."""
+        """Discs of other axes with their gaps, which do not depend on the positions of the plates."""
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
-        """Yield possible columns, in order of preference, with their obstacles."""
+        """Yield possible columns with their obstacles, in order of preference."""
         order, tangled = self._ordered(places)
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column with a bearing only in a bridge, between two collars."""
+        """Return the column with a single bearing, in a bridge, between two collars."""
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core, else with the thickest standard core that clears all wheels."""
+        """Return the column with the given core, or with the thickest standard core that has clearance to
+        all wheels.
+        """
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -186,12 +188,12 @@ class ColumnProblem:
 
     @cached_property
     def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Order of nesting without fixed wheels, which does not depend on the places of plates."""
+        """Order of nesting without fixed wheels, which does not depend on the positions of the plates."""
         return nested(self._turning_pieces)
 
     @cached_property
     def _turning_pieces(self) -> tuple[CoaxialLink, ...]:
-        """Pieces that turn."""
+        """Pieces of the column that turn."""
         found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
@@ -217,12 +219,12 @@ class ColumnProblem:
         return replace(held, hubs=held.hubs[:-1])
 
     def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
-        """Return both plates, first the one that is nearer to fixed wheels."""
+        """Return both plates, with the plate that is nearer to the fixed wheels first."""
         middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield ways to hold fixed wheels: as one piece, or as two, one of wheels with no obstacle before a plate.
+        """Yield ways to hold fixed wheels: as one piece, or as two pieces, one of them with no obstacle before a plate.
 
         hubs   heights of all turning discs on the axis
         """
@@ -268,7 +270,7 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core (mm), as given, else such that every pipe fits into its smallest wheel."""
+        """Return the diameter of the core [mm], as given, or such that every pipe fits into its smallest wheel."""
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
@@ -292,7 +294,7 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Return the ends of each piece; of pieces that bear hands, inner ones extend farther."""
+    """Return the ends of each piece. Among pieces that carry hands, inner pieces extend farther."""
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends
@@ -302,7 +304,7 @@ def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
 
 
 def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool:
-    """Return whether a height is between a disc and a plate."""
+    """Return True if a height is between a disc and a plate."""
     return min(disc.middle, plate[0]) < height < max(disc.middle, plate[1])
 
 
@@ -325,25 +327,27 @@ def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> 
 
 @dataclass(frozen=True, slots=True)
 class CoaxialLink:
-    """A piece of one link on an axis, with its ends (at a dial, or a plate)."""
+    """Piece of one link on an axis, with its ends at a dial or a plate."""
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which it holds discs or is held: those of its discs, and for fixed wheels that of the plate."""
+    """Heights at which the piece carries discs or is held: the heights of its discs, and for fixed wheels the height of
+    the plate.
+    """
     low: float
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on it. `ends` states whether it extends beyond the stack, below and above."""
+    """Discs on the piece. `ends` states whether it extends beyond the stack, below and above."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:
-        """Return whether a hub of the other piece is where this one would be a pipe round it."""
+        """Return True if a hub of the other piece is at a height at which this piece would be a pipe around it."""
         return any(self.low < height < self.high for height in other.hubs)
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return links from the innermost, each outside all before it, and two links that conflict, or None.
+    """Return links from the innermost, each outside all earlier links, and two links that conflict, or None.
 
     The order is a topological sort. If there is a cycle, the links are returned as given.
     """

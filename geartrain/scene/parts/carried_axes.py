@@ -1,4 +1,4 @@
-"""Additional parts of carriers and turning rings: a plate with studs, or a wheel used as one; a disc."""
+"""Additional parts of carriers and turning rings: a plate with studs, a wheel used as a plate, or a disc."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ _BLADE = 0.1  # mm: minimum metal between two holes, or round the foot of a stud
 
 @dataclass(frozen=True, slots=True)
 class TurningPlate:
-    """A plate to be inserted into a gap of the stack, with the axes that it bears."""
+    """Plate to be inserted into a gap of the stack, with the axes that it carries."""
 
     disc: StackDisc
-    """Cylinder that it sweeps, at the height of its gap."""
+    """Cylinder that the plate sweeps, at the height of its gap."""
     spots: tuple[str, ...] = ()
-    """Axes that it bears (carrier), or none (disc of a ring)."""
+    """Axes that the plate carries; empty for the disc of a ring."""
     ring: str = ""
-    """Name of the ring wheel that it holds."""
+    """Name of the ring wheel that the plate holds."""
     round: bool = False
-    """True if its outline is the full circle that it sweeps."""
+    """True if the outline is the full circle that the plate sweeps."""
     flange: bool = False
-    """True if it is the flange for brakes and clutches, on a shaft that carries nothing else."""
+    """True if the plate is a flange for brakes and clutches, on a shaft without wheels."""
 
 
 @dataclass(frozen=True, slots=True)
 class CarrierSeat:
-    """A way to bear the axes that a link carries, on one of its wheels, or on a separate plate."""
+    """Arrangement in which a link carries axes: on one of its wheels, or on a separate plate."""
 
     link: str
     seat: str
@@ -45,13 +45,13 @@ class CarrierSeat:
 
     @property
     def is_bearing(self) -> bool:
-        """False for the disc of a ring, for an arm, and for the flange of a shaft, which bear no axis."""
+        """False for the disc of a ring, for an arm, and for the flange of a shaft, which carry no axis."""
         return not any(plate.ring or plate.disc.apart or plate.flange for plate in self.plates)
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """An axis that a link carries. `through` are wheels of other links with holes for the parts on its arbor."""
+    """Axis that a link carries; `through` are wheels of other links with holes for the parts on its arbor."""
 
     label: str
     carrier: str
@@ -68,7 +68,7 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return ways to bear the carried axes, those on a wheel first."""
+    """Return the possible seats of the carried axes; seats on a wheel are first."""
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
@@ -107,7 +107,7 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """Return the columns of the axes that one carrier bears, in their order, relative to the carrier.
+    """Return the columns of the axes that one carrier carries, in order, relative to the carrier.
 
     With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
     farther one is on the end of the nearer, as one stud turned with a step.
@@ -128,7 +128,9 @@ def carried_columns(
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """Return the stud of the nearer axis without a head, and that of the other one, which starts at its end."""
+    """Return the stud of the nearer axis without a head, and the stud of the other axis, which starts at the end of the
+    first.
+    """
     up = max(each.high for each in far.members) > max(each.high for each in near.members)
     if up:
         end = max(each.high for each in near.members) + SHAKE / 2
@@ -140,7 +142,7 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """Return the distance of its nearest wheel from its seat (mm)."""
+    """Return the distance between a carried axis's seat and its nearest wheel [mm]."""
     return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
 
 
@@ -165,6 +167,8 @@ def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc relative to a turning carrier, on which the parts it carries are fixed and all others revolve."""
+    """Return a disc relative to a turning carrier, for which the parts that it carries are fixed and all other parts
+    revolve.
+    """
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

@@ -34,19 +34,19 @@ KIND = "wall"
 
 @dataclass(frozen=True, slots=True)
 class FlexibleCup:
-    """A flexible wheel and the link of its cup."""
+    """Flexible wheel with the link of its cup."""
 
     name: str
     """Name of the coupling that makes both turn equally."""
     link: str
-    """Link with the bottom of the cup. `slot` is the link with the wheel."""
+    """Link with the bottom of the cup; `slot` is the link with the wheel."""
     slot: str
     wheel: str
     """Name of the wheel."""
     at: Point
     """Position of the cup's axis in the stack (mm)."""
     reach: float
-    """Outside radius of the wall (mm). `wall` is its thickness (mm)."""
+    """Outside radius of the wall [mm]; `wall` is its thickness [mm]."""
     wall: float
 
     def part(self, plate: tuple[float, float], wheel: StackDisc) -> TurnedPart:
@@ -72,7 +72,7 @@ USUAL_ARBOR = 6.0
 """Default diameter of an arbor in an eccentric [mm]."""
 _THIN = 0.6  # mm: minimum wall of an eccentric beside its arbor
 ROOM = SHAKE / 2 + HEAD
-"""Axial space of a washer beside a wheel [mm]."""
+"""Axial space of a washer next to a wheel [mm]."""
 _POINTS = 1440  # points of the outline of a wave generator
 _OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
@@ -92,7 +92,7 @@ class Wave:
 
 @dataclass(frozen=True, slots=True)
 class Eccentric:
-    """An eccentric disc on the arbor of a link."""
+    """Eccentric disc on the arbor of a link."""
 
     name: str
     """Name of the eccentric."""
@@ -107,19 +107,19 @@ class Eccentric:
     radius: float
     """Radius of the disc (mm)."""
     wheels: tuple[str, ...]
-    """Wheels that turn on it."""
+    """Wheels that turn on the eccentric."""
     carried: str
-    """Label of the axis on which these turn."""
+    """Label of the axis about which these wheels turn."""
     middle: float = 0.0
     """Radius (mm) of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
     coupling: str = ""
     """Name of the coupling of parallel cranks that it implements; empty for other eccentrics."""
     wave: Wave | None = None
-    """Strain wave, if it is a wave generator and not a round disc."""
+    """Strain wave, if the eccentric is a wave generator; None for a round disc."""
 
     @property
     def offset(self) -> float:
-        """Distance from the arbor's axis to that of the disc (mm)."""
+        """Distance between the axis of the arbor and the axis of the disc [mm]."""
         return dist(self.at, self.centre)
 
     @property
@@ -145,11 +145,11 @@ class Eccentric:
         return Contour(points @ np.array([[c, s], [-s, c]]) + np.array(self.centre), np.zeros(_POINTS))
 
     def turning(self, discs: Iterable[StackDisc]) -> list[StackDisc]:
-        """Return the discs that turn on it."""
+        """Return the discs that turn on the eccentric."""
         return [disc for disc in discs if disc.name in self.wheels]
 
     def disc(self, discs: Iterable[StackDisc], carrier: Point | None) -> StackDisc:
-        """Return the cylinder that it sweeps in the stack, with its washers."""
+        """Return the cylinder that the eccentric sweeps in the stack, with its washers."""
         own = self.turning(discs)
         low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
         reach, high = self.rise + self.radius, high + (0.0 if self.wave is None else self.wave.length)
@@ -157,7 +157,7 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on either side of the wheels, on the same arbor; a flexible wheel is held by its wall."""
+        """Yield a washer on each side of the wheels, on the same arbor; a flexible wheel is held by its wall."""
         if self.wave is not None:
             return
         radius = max(self.radius, self.wall + _OVER)
@@ -184,7 +184,7 @@ def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
 
 
 def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
-    """Return the problem if an eccentric is too thin for an arbor of this diameter (mm); else None."""
+    """Return the problem that an eccentric is too thin for an arbor of this diameter [mm]; None if it is not."""
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None
@@ -195,7 +195,7 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
 
 
 def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:
-    """Yield wheels, with the central space for their eccentrics, then the eccentrics."""
+    """Yield wheels with the central holes for their eccentrics, then the eccentrics."""
     for disc in discs:
         own = [each for each in eccentrics if disc.name in each.wheels]
         yield replace(disc, inner=own[0].middle or own[0].radius) if own else disc
@@ -205,7 +205,7 @@ def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -
 
 
 def running_hole(eccentric: Eccentric, process: Process) -> float:
-    """Return the diameter (mm) of the hole in which it turns."""
+    """Return the diameter of the hole in which an eccentric turns [mm]."""
     return 2 * eccentric.radius + process.running
 
 
@@ -218,21 +218,21 @@ _HALF_THIN = 0.02  # mm: half the provisional thickness of a plate in a gap
 
 @dataclass(frozen=True, slots=True)
 class PinCircle:
-    """Pins that work in round holes, as declared."""
+    """Circle of pins in round holes, as declared."""
 
     name: str
     """Name of their coupling."""
     link: str
-    """Link that carries them. `slot` is the link with the holes."""
+    """Link that carries the pins; `slot` is the link with the holes."""
     slot: str
     radius: float
-    """Radius of their circle (mm). `pin` and `hole` are diameters (mm)."""
+    """Radius of the circle [mm]; `pin` and `hole` are diameters [mm]."""
     pin: float
     hole: float
 
     @property
     def reach(self) -> float:
-        """Radius of a plate that carries them (mm)."""
+        """Radius of a plate that carries the pins [mm]."""
         return self.radius + self.pin / 2 + _RIM
 
     @property
@@ -243,7 +243,7 @@ class PinCircle:
 
 @dataclass(frozen=True, slots=True)
 class StandingPins:
-    """Pins at their places in a plate."""
+    """Pins at their positions in a plate."""
 
     name: str
     """Name of the pins."""
@@ -254,13 +254,13 @@ class StandingPins:
     wheel: str
     """Wheel through which they extend, from the plate to its far face."""
     spots: tuple[Point, ...]
-    """Centres in the plane of the stack. `radius` is the radius of a pin (mm)."""
+    """Centres in the plane of the stack; `radius` is the radius of a pin [mm]."""
     radius: float
     joined: bool = False
-    """True if they are also fixed in the wheel, and do not work in its holes."""
+    """True if the pins are also fixed in the wheel, instead of moving in its holes."""
 
     def parts(self, plate: tuple[float, float], wheel: StackDisc, joint: str) -> Iterator[TurnedPart]:
-        """Yield all pins, from the far face of their plate to that of the wheel."""
+        """Yield all pins, from the far face of their plate to the far face of the wheel."""
         band = Band(min(plate[0], wheel.low), max(plate[1], wheel.high), self.radius)
         through = (self.seat, wheel.name) if self.joined else (self.seat,)
         for number, at in enumerate(self.spots, 1):
@@ -275,7 +275,7 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the plate of pins beside the disc in which they work, or of a cup.
+    """Return the plate of pins next to the disc in which they move, or next to a cup.
 
     It is above the disc, or on the side of the axes that its link carries.
     """

@@ -1,4 +1,4 @@
-"""Plan of plates, pillars, arbors, pipes and studs of a train, with their places in the stack.
+"""Plan of plates, pillars, arbors, pipes and studs of a train, with their positions in the stack.
 
 The two plates of the frame, and those of carriers, are tried in every gap between levels. For each axis the best
 bearing is selected, and the obstacles are counted. Of the places with the fewest obstacles, the one with the fewest
@@ -54,15 +54,16 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Heights of both plates in the stack as laid out, seats of carriers, and the columns of all axes."""
+    """Heights of both plates in the stack of the layout, seats of carriers, and columns of all axes."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
-    """1 if the train extends above the front plate, -1 if below the back one, 0 if neither."""
+    """1 if the train extends above the front plate, -1 if below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Obstacles on all axes, including crossing wheels that a plate would cut; then studs and arbors through a plate.
+    """Cost of the choice: obstacles on all axes, including crossing wheels that a plate would cut; then studs and
+    arbors through a plate.
     """
 
 
@@ -74,7 +75,7 @@ def best_places(
     blocked: Callable[[Sequence[CarrierSeat]], int],
     cut: Callable[[float], int],
 ) -> PlateChoice:
-    """Return the best places of the plates and seats of carriers, by branch and bound.
+    """Return the best positions of the plates and the best seats of carriers, by branch and bound.
 
     One plate is at an end of the stack; only if obstacles remain, both may be inside it.
 
@@ -132,7 +133,7 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """Return the number of obstacles of some columns."""
+    """Return the number of obstacles of a set of columns."""
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
@@ -144,7 +145,9 @@ def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle, else the first; the iterable is consumed only as far as needed."""
+    """Return the first column without an obstacle, or the first column; the iterable is read only as far as
+    necessary.
+    """
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -162,15 +165,15 @@ _DIAL = 6.0  # mm by which an arbor extends towards a dial
 
 @dataclass(frozen=True)
 class FramePlan:
-    """Places of all parts of a mechanism, with heights along the plates' normal; lengths in mm."""
+    """Positions of all parts of a mechanism, with heights along the plates' normal; lengths in mm."""
 
     stack: FrameStack
-    """Wheels as laid out."""
+    """Wheels at their positions in the layout."""
     process: Process
     thickness: float
     """Thickness of plates."""
     core: float | None
-    """Diameter of all arbors, if it is given."""
+    """Diameter of all arbors; None if it is not given."""
     ends: Mapping[str, tuple[bool, bool]]
     """Link -> whether it extends to a dial below and above the stack."""
 
@@ -186,7 +189,7 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Places of plates with the fewest obstacles, then the fewest studs.
+        """Positions of plates with the minimum number of obstacles, then of studs.
 
         If a link cannot reach its dial inside or outside of its obstacles, it gets an arm, connected to it by a bar,
         provided that this leaves fewer obstacles.
@@ -218,7 +221,9 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return diameters of the arbor on an axis and of its pivots (mm), as requested, else as its link declares."""
+        """Return the diameters of the arbor on an axis and of its pivots [mm], as requested, or as declared for its
+        link.
+        """
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -228,7 +233,7 @@ class FramePlan:
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Yield ways to seat each carrier and each turning ring."""
+        """Yield the possible seats of each carrier and each turning ring."""
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -264,7 +269,7 @@ class FramePlan:
         return [disc for disc in self.stack.wheel_discs if disc.link in same | {circle.slot}]
 
     def _cut(self, height: float) -> int:
-        """Return the number of crossing wheels among the axes at some height, where a plate would be."""
+        """Return the number of crossing wheels that a plate at a given height would cut."""
         points = [self.stack.flat(axis.point) for axis in self.stack.axes.values()]
         (left, low), (right, high) = ([end(each) for each in zip(*points, strict=True)] for end in (min, max))
         return sum(
@@ -286,7 +291,9 @@ class FramePlan:
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Return the number of obstacles on the axes that a carrier bears; heads of studs get their space later."""
+        """Return the number of obstacles on the axes that a carrier carries; space for the heads of studs is added
+        later.
+        """
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0
@@ -297,7 +304,7 @@ class FramePlan:
 
     @cached_property
     def turning(self) -> tuple[TurningPlate, ...]:
-        """Plates of carriers and discs of rings, at heights as laid out."""
+        """Plates of carriers and discs of rings, at the heights of the layout."""
         return tuple(plate for seat in self.choice.seats for plate in seat.plates)
 
     @cached_property
@@ -307,7 +314,7 @@ class FramePlan:
 
     @property
     def places(self) -> FramePlaces:
-        """Faces of both plates."""
+        """Heights of the faces of both plates."""
         return self.heights.places
 
     @cached_property
@@ -324,7 +331,7 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column of each axis of the frame, in a bridge if the plates cannot bear it."""
+        """Column of each axis of the frame, in a bridge if the plates cannot support the axis."""
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
         if self.bridge is None:
             return tuple(found)
@@ -337,7 +344,9 @@ class FramePlan:
 
     @cached_property
     def bridge(self) -> tuple[float, float] | None:
-        """Faces of a plate beyond all wheels on one side, if it bears an axis that the plates of the frame cannot."""
+        """Faces of a plate beyond all wheels on one side, if it supports an axis that the plates of the frame cannot
+        support.
+        """
         blocked = [axis for axis in self._built_axes(None) if best_column(axis.columns(self.places)).hit]
         low, high = (end(face for disc in self.discs for face in (disc.low, disc.high)) for end in (min, max))
         above = high + BEHIND, high + BEHIND + self.thickness
@@ -376,7 +385,7 @@ class FramePlan:
         return found
 
     def seat_of(self, carrier: str) -> str:
-        """Return the wheel or the plate on which a carrier bears its axes, or its pins."""
+        """Return the wheel or plate on which a carrier carries its axes, or its pins."""
         return next(seat.seat for seat in self.choice.seats if seat.link == carrier and seat.is_bearing)
 
     @property
@@ -388,7 +397,7 @@ class FramePlan:
 
     @cached_property
     def all_columns(self) -> tuple[AxisColumn, ...]:
-        """Columns of the frame, then those of carriers."""
+        """Columns of the frame, then columns of carriers."""
         return *self.columns, *self.carried.values()
 
     @cached_property
@@ -398,7 +407,9 @@ class FramePlan:
 
     @cached_property
     def cut(self) -> frozenset[str]:
-        """Pinions cut from the solid arbor, because there is too little material between their roots and the arbor."""
+        """Pinions that are cut from the solid arbor, because there is too little material between their roots and the
+        arbor.
+        """
         wheels = self.stack.layout.wheels
         return frozenset(
             disc.name
@@ -410,7 +421,7 @@ class FramePlan:
 
     @cached_property
     def bores(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel and turning plate; 0 if it is one piece with its arbor."""
+        """Diameter of the hole of each wheel and turning plate; 0 if it is in one piece with its arbor."""
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
@@ -426,7 +437,7 @@ class FramePlan:
 
     @cached_property
     def wheels_across(self) -> tuple[AcrossWheel, ...]:
-        """Wheels that are not upright, at their places as built."""
+        """Wheels that are not upright, at their positions as built."""
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
@@ -498,7 +509,7 @@ def arm_seats(
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
-    """Yield flanges, before or behind all wheels, on shafts that have nothing but brakes or clutches."""
+    """Yield flanges, before or behind all wheels, on shafts that only have brakes or clutches."""
     train = stack.train
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
@@ -524,14 +535,14 @@ class StackHeights:
     """Heights of all parts with plates inserted."""
 
     starts: tuple[float, ...]
-    """Lower face of each slab as laid out. `shifts` are the distances by which they move up (mm)."""
+    """Lower face of each slab in the layout; `shifts` are the distances by which the slabs move up [mm]."""
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
     """Faces of the turning plates, by name."""
 
     def shift(self, height: float) -> float:
-        """Return the distance by which a part at some height moves up (mm)."""
+        """Return the distance by which a part at a given height moves up [mm]."""
         return self.shifts[max(bisect_right(self.starts, height + 1e-6) - 1, 0)]
 
 

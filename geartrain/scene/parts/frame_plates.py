@@ -1,4 +1,4 @@
-"""Outlines of plates: those of the frame with pillars between them, turning ones, and posts that hold rings."""
+"""Outlines of the frame plates and their pillars, of rotating plates, and of the posts that support ring gears."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BLADE = 0.05  # mm: minimum web between holes
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """A round hole: its purpose, its centre in the stack, its diameter (mm)."""
+    """Round hole: its purpose, its centre in the stack, and its diameter [mm]."""
 
     name: str
     at: Point
@@ -38,10 +38,10 @@ class Hole:
 
 @dataclass(frozen=True, slots=True)
 class FlatPlate:
-    """A plate perpendicular to the axis of the stack."""
+    """Plate perpendicular to the axis of the stack."""
 
     link: str
-    """Link to which it belongs."""
+    """Link to which the plate belongs."""
     name: str
     """Name of the plate."""
     outline: Contour
@@ -53,7 +53,7 @@ class FlatPlate:
     high: float
     """Height of its upper face along the normal [mm]."""
     at: Point = (0.0, 0.0)
-    """Origin of its own coordinates [mm]."""
+    """Origin of the coordinates of the plate [mm]."""
     windows: tuple[Contour, ...] = ()
     """Windows for crossing wheels and for brackets [mm]."""
 
@@ -66,7 +66,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield holes that lighten a wide wave generator, between its lobes, at least six; `bore` is its hole (mm)."""
+    """Yield holes that lighten a wide wave generator, at least six, between its lobes; `bore` is its hole [mm]."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -87,7 +87,7 @@ class FramePlates:
     feet: tuple[TurnedPart, ...] = ()
     """Feet of dials, and the cock of a pendulum, each in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
-    """Mortises of brackets, within the outline of a plate, by the name of its side."""
+    """Mortises of brackets within the outline of a plate, by the side of the plate."""
     standing: tuple[StandingPins, ...] = ()
     """Pins fixed in plates."""
     barrel: Barrel | None = None
@@ -145,7 +145,7 @@ class FramePlates:
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)
 
     def plates(self) -> Iterator[FlatPlate]:
-        """Yield both plates of the frame, then the turning ones."""
+        """Yield both plates of the frame, then the turning plates."""
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
             mortises = self.mortises.get(side, ())
@@ -177,7 +177,7 @@ class FramePlates:
 
     @cached_property
     def sides(self) -> Mapping[str, tuple[float, float]]:
-        """Faces of the plates by their names. The front plate is the one towards the dials, or the viewer."""
+        """Faces of the plates by name. The front plate is the plate towards the dials or the viewer."""
         places, outside = self.plan.places, self.plan.choice.outside or self.plan.stack.layout.front
         names = ("back", "front") if outside > 0 else ("front", "back")
         return dict(zip(names, (places.back, places.front), strict=True))
@@ -205,7 +205,7 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """Return the hole in which an axis is borne, or through which it passes."""
+        """Return the hole in which an axis is supported, or through which it passes."""
         process = self.plan.process
         passing = [each for each in column.members if crosses(each, faces) or (each.fixed and _enters(each, faces))]
         if passing:
@@ -220,7 +220,9 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes beside the hub in a wheel or plate, for studs of the axes that it bears, and for posts."""
+        """Return the holes next to the hub of a wheel or plate, for the studs of the axes that it carries and for
+        posts.
+        """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
@@ -235,7 +237,7 @@ class FramePlates:
         return [] if member is None else [Hole("hub", next(at), self.plan.bores[seat])]
 
     def _disjoint(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
-        """Return the holes that intersect none before them."""
+        """Return the holes that do not intersect an earlier hole."""
         found: list[Hole] = []
         for hole in holes:
             if not any(_meet(hole, other) for other in (*taken, *found)):
@@ -299,7 +301,7 @@ class FramePlates:
 
     @cached_property
     def posts(self) -> tuple[TurnedPart, ...]:
-        """Posts that hold rings."""
+        """Posts that support rings."""
         return ring_posts(self.plan)
 
     def problems(self) -> Iterator[Problem]:

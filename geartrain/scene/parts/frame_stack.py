@@ -55,7 +55,7 @@ _RIM = 2.0  # modules of rim outside the teeth of a ring without a flat shape
 
 @dataclass(frozen=True, slots=True)
 class AcrossWheel:
-    """A wheel about an axis that is not upright: the heights between which it extends, and circles that contain it."""
+    """Wheel about an axis that is not upright: the heights between which it extends, and circles that contain it."""
 
     name: str
     low: float
@@ -67,7 +67,7 @@ class AcrossWheel:
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return its passage through a plate, if it intersects one."""
+        """Return the passage of the wheel through a plate, if it intersects the plate."""
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -77,13 +77,13 @@ class AcrossWheel:
         return Passage((x, y), (-v, u), sqrt((reach + _PASS) ** 2 - near**2), half + _PASS)
 
     def is_between(self, low: float, high: float) -> bool:
-        """Return whether some of it is between two heights."""
+        """Return True if a part of the wheel is between two heights."""
         return self.low < high and low < self.high
 
 
 @dataclass(frozen=True)
 class FrameStack:
-    """A train as placed, in plan view of its plates. `core` is the diameter of all arbors (mm), if it is given."""
+    """Train as placed, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is given."""
 
     train: GearTrain
     layout: Layout
@@ -97,7 +97,7 @@ class FrameStack:
 
     @cached_property
     def normal(self) -> Vector | None:
-        """Axis direction of most wheels that the frame carries; None if it carries none."""
+        """Axis direction of most wheels that the frame carries; None if it carries no wheel."""
         count: Counter[Vector] = Counter()
         for place in self.layout.wheels.values():
             axis = self.layout.axes[place.axis]
@@ -127,7 +127,7 @@ class FrameStack:
         }
 
     def is_upright(self, axis: AxisPlace) -> bool:
-        """Return whether an axis is perpendicular to the plates."""
+        """Return True if an axis is perpendicular to the plates."""
         return self.normal is not None and abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
 
     def flat(self, point: Vector) -> Point:
@@ -138,7 +138,7 @@ class FrameStack:
 
     @cached_property
     def carried(self) -> dict[str, CarriedAxis]:
-        """Axes that are borne by a carrier on an axis of the frame."""
+        """Axes that are carried by a carrier on an axis of the frame."""
         return {
             label: CarriedAxis(
                 label,
@@ -296,7 +296,7 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """Return the stack with space for heads of studs beside the wheels that carriers bear."""
+        """Return the stack with space for the heads of studs next to the wheels that carriers carry."""
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
@@ -340,7 +340,7 @@ def _moved(point: Vector, normal: Vector, by: float) -> Vector:
 
 
 def _upwards(direction: Vector) -> Vector:
-    """Return the sense of a direction in which the last nonzero coordinate is positive, rounded."""
+    """Return a direction with the sense in which its last non-zero coordinate is positive, rounded."""
     x, y, z = (round(each, 12) + 0.0 for each in direction)
     last = next((each for each in (z, y, x) if each), 1.0)
     return (x, y, z) if last > 0 else (0.0 - x, 0.0 - y, 0.0 - z)
@@ -362,7 +362,7 @@ class StackEccentrics:
     stack: FrameStack
 
     def found(self) -> Iterator[Eccentric]:
-        """Yield all eccentrics; those of one arbor are numbered from the second on."""
+        """Yield all eccentrics. Several eccentrics of one arbor are numbered, from the second."""
         count: Counter[str] = Counter()
         for each in self._each():
             count[each.name] += 1

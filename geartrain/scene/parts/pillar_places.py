@@ -1,4 +1,4 @@
-"""Places of pillars and posts.
+"""Positions of pillars and posts.
 
 Pillars are outside of all parts that turn between the plates, and surround all axes. Posts hold rings, in a plate of
 the frame or in the disc of a turning ring.
@@ -38,7 +38,8 @@ def pillar_places(
     suits: Callable[[Point], bool] = lambda _: True,
     even: bool = False,
 ) -> list[Point]:
-    """Return four places, else three or five, whose polygon contains all axes and has the shortest perimeter (mm).
+    """Return four, three or five positions whose polygon contains all axes and has the shortest perimeter [mm], in this
+    order of preference.
 
     In each direction from the middle of the axes the candidate is the innermost place with free space outwards.
     Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
@@ -60,7 +61,9 @@ def pillar_places(
 
 
 def _far_apart(tried: Floats, middle: Floats) -> Floats:
-    """Return five places: the farthest from the middle, then repeatedly the one farthest from those chosen."""
+    """Return five positions: the farthest from the middle, then repeatedly the position farthest from the chosen
+    positions.
+    """
     taken = [int(np.argmax(np.hypot(*(tried - middle).T)))]
     while len(taken) < _MOST:
         away = np.hypot(*(tried[:, None, :] - tried[None, taken, :]).transpose(2, 0, 1)).min(axis=1)
@@ -69,7 +72,7 @@ def _far_apart(tried: Floats, middle: Floats) -> Floats:
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
-    """Return the point of a ray beyond the last circle that it intersects."""
+    """Return the point of a ray beyond the last circle that the ray intersects."""
     along = np.array([cos(angle), sin(angle)])
     far = 0.0
     for centre, reach in blocked:
@@ -102,7 +105,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance (mm) of a point from some circles, negative inside one."""
+    """Return the minimum distance between a point and a set of circles [mm], negative inside a circle."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -110,7 +113,7 @@ def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
 
 
 TENON = 0.6
-"""Radius of the end in a plate relative to that of a pillar or a post."""
+"""Ratio of the radius of the end in a plate to the radius of a pillar or post."""
 _POSTS, _TRIED = 3, 72
 _POST_WIDEST = 2.0  # mm: maximum radius of a post
 _RIM_PART = 0.3  # radius of a post over the width of a ring's rim
@@ -138,7 +141,7 @@ def nearer_plate(plan: FramePlan, height: float) -> tuple[float, float]:
 def _posts(
     plan: FramePlan, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...]
 ) -> Iterator[TurnedPart]:
-    """Yield the posts of one ring; in a plate of the frame they are placed clear of other parts."""
+    """Yield the posts of one ring. In a plate of the frame they are placed with clearance to other parts."""
     wide = ring.outer - ring.root
     radius = min(_RIM_PART * wide, _POST_WIDEST)
     away = (ring.outer + ring.root) / 2
@@ -152,7 +155,7 @@ def _posts(
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced places on a rim, as far as possible from axes and from parts before the plate."""
+    """Return three equally spaced positions on a rim, as far as possible from axes and from parts before the plate."""
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]

@@ -13,7 +13,7 @@ from geartrain.errors import Problem, QuestionError, suggest
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A process for flat parts and the parts that turn in them; lengths in mm."""
+    """Manufacturing process of flat parts and of the parts that turn in them; lengths in mm."""
 
     name: str
     """Name: laser, cnc, fdm or hand."""
@@ -24,7 +24,7 @@ class Process:
     running: float
     """Diametral clearance of a running fit."""
     press: float
-    """Diametral clearance of a fixed joint; 0 means nominal sizes, fitted as described by `joint`."""
+    """Diametral clearance of a fixed joint; 0 for nominal sizes, which are fitted as described by `joint`."""
     backlash: float
     """Circumferential backlash at the pitch circle [modules]."""
     wall: float
@@ -45,11 +45,13 @@ PROCESSES = {
 """Processes by name."""
 
 USUAL = "hand"
-"""Default process: nominal sizes, a clockmaker's fits."""
+"""Default process: nominal sizes, with a clockmaker's fits."""
 
 
 def process_named(name: str | None) -> Process:
-    """Return the process with a name; the default one for None. Raise `QuestionError` for an unknown name."""
+    """Return the process with a given name, or the default process for None. Raise `QuestionError` for an
+    unknown name.
+    """
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         fix = suggest(wanted, PROCESSES)

@@ -45,7 +45,8 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return heights beside a wheel between which a drum on its arbor is clear of all other parts; None without space.
+    """Return heights next to a wheel between which a drum on its arbor has clearance to all other parts; None without
+    space.
 
     size   radius and length of the drum (mm); the length is reduced if necessary
     """
@@ -61,14 +62,14 @@ def free_beside(
 
 @dataclass(frozen=True)
 class _Obstacles:
-    """Obstacles of rings on an axis."""
+    """Obstacles to rings on an axis."""
 
     plan: FramePlan
     column: AxisColumn
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Discs and arbors of the train, relative to a possibly carried axis."""
+        """Discs and arbors of the train, relative to an axis that may be carried."""
         discs = *self.plan.discs, *self._rods()
         if self.column.axis in self.plan.carried:
             carrier = self.plan.stack.carried[self.column.axis].carrier
@@ -96,12 +97,12 @@ class _Obstacles:
 
     @cached_property
     def span(self) -> tuple[float, float]:
-        """Lowest and highest face of all discs, beyond which are dials."""
+        """Lowest and highest face of all discs; dials are beyond these heights."""
         faces = [face for disc in self.plan.discs for face in (disc.low, disc.high)]
         return min(faces), max(faces)
 
     def is_free(self, member: ColumnMember, low: float, high: float, radius: float) -> bool:
-        """Return whether a ring on a member between two heights is clear of all other parts."""
+        """Return True if a ring on a member between two heights has clearance to all other parts."""
         if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
             return False
         inner = [each for each in self.column.members if each is not member and each.low < high and low < each.high]
@@ -115,18 +116,18 @@ class _Obstacles:
 
 @dataclass(frozen=True)
 class _MemberSleeves:
-    """An arbor or a pipe with its wheels."""
+    """Arbor or pipe with its wheels."""
 
     around: _Obstacles
     member: ColumnMember
 
     @cached_property
     def discs(self) -> Sequence[StackDisc]:
-        """Discs on it, from the lowest."""
+        """Discs on the arbor or pipe, from the lowest."""
         return sorted(self.member.discs, key=lambda disc: disc.low)
 
     def all(self, fixed: str) -> Iterator[TurnedPart]:
-        """Yield spacers, then collets of wheels that touch none."""
+        """Yield spacers, then collets of wheels that no spacer touches."""
         held = {*self.around.plan.cut, fixed}
         for below, above in pairwise(self.discs):
             band = self._ring(below.high, above.low)
@@ -170,12 +171,12 @@ _LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """A drum fixed to a wheel, which it also holds on the arbor as a collet."""
+    """Drum fixed to a wheel, which it also fixes to the arbor as a collet."""
 
     link: str
-    """Link to which it belongs."""
+    """Link to which the barrel belongs."""
     wheel: str
-    """Wheel beside which it is."""
+    """Wheel next to which the barrel is."""
     at: Point
     """Position of its axis in the stack (mm)."""
     low: float
@@ -189,7 +190,7 @@ class Barrel:
 
     @property
     def part(self) -> TurnedPart:
-        """Turned part that it is."""
+        """Barrel as a turned part."""
         band = Band(self.low, self.high, self.radius, self.bore)
         return TurnedPart(self.link, f"{self.link} barrel", "barrel", self.at, (band,), f"pinned to {self.wheel}")
 

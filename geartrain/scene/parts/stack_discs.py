@@ -28,7 +28,7 @@ class StackDisc:
     name: str
     """Name of the wheel or plate."""
     link: str
-    """Link to which it belongs."""
+    """Link to which the wheel or plate belongs."""
     axis: str
     """Label of its axis."""
     at: Point
@@ -44,11 +44,11 @@ class StackDisc:
     root: float = 0.0
     """Root radius of its teeth."""
     hub: bool = True
-    """True if it is mounted on the arbor of its link; False for a ring."""
+    """True if the disc is mounted on the arbor of its link; False for a ring."""
     carrier: Point | None = None
-    """Position of the axis about which its own is carried, if any."""
+    """Position of the axis about which the disc's axis is carried; None if it is not carried."""
     apart: bool = False
-    """True for an arm that an eccentric bar connects to its link, past the parts between them."""
+    """True for an arm that is connected to its link by an eccentric bar, past the parts between them."""
 
     @property
     def middle(self) -> float:
@@ -56,7 +56,7 @@ class StackDisc:
         return (self.low + self.high) / 2
 
     def clearance_to(self, at: Point, radius: float) -> float:
-        """Return the minimum gap (mm) to a fixed column over all positions of a carried disc.
+        """Return the minimum gap to a fixed column in all positions of a carried disc [mm].
 
         It is negative for an overlap.
         """
@@ -96,7 +96,7 @@ def swept_circle(disc: StackDisc) -> tuple[Point, float]:
 
 
 def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[StackDisc]]:
-    """Return the discs of each link, in order, with those that are apart from it as separate pieces."""
+    """Return the discs of each link in order, with discs that are apart from the link as separate pieces."""
     found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
         found.setdefault((disc.link, disc.apart), []).append(disc)
@@ -118,7 +118,7 @@ class Passage:
     middle: Point
     """Centre, in the coordinates of the stack (mm)."""
     way: Point
-    """Unit vector along its length. `length` and `width` are half the sides (mm)."""
+    """Unit vector along the length; `length` and `width` are half the sides [mm]."""
     length: float
     width: float
 
@@ -131,13 +131,13 @@ class Passage:
 
     @property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles in a row that cover nearly all of it."""
+        """Circles in a row that cover nearly all of the passage."""
         (x, y), (u, v), count = self.middle, self.way, ceil(self.length / self.width)
         steps = [self.length * k / count for k in range(-count, count + 1)]
         return [((x + u * step, y + v * step), self.width) for step in steps]
 
     def is_clear_of(self, other: Passage) -> bool:
-        """Return whether a web of plate is left between two passages (separating axis theorem)."""
+        """Return True if a web of the plate is left between two passages (separating axis theorem)."""
         for u, v in (self.way, other.way):
             for x, y in ((u, v), (-v, u)):
                 spans = [[a * x + b * y for a, b in each.corners] for each in (self, other)]
@@ -146,14 +146,14 @@ class Passage:
         return False
 
     def meets(self, at: Point, radius: float) -> bool:
-        """Return whether it intersects a round hole."""
+        """Return True if the passage intersects a round hole."""
         x, y = at[0] - self.middle[0], at[1] - self.middle[1]
         along, aside = abs(x * self.way[0] + y * self.way[1]), abs(y * self.way[0] - x * self.way[1])
         return hypot(max(along - self.length, 0.0), max(aside - self.width, 0.0)) < radius
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and the windows within it; passages that would cut it in two are omitted."""
+    """Return a convex edge with notches, and the windows within it. Passages that would divide it are omitted."""
     windows = []
     for each in passages:
         x, y = each.way
@@ -175,7 +175,7 @@ def _contour(points: Floats) -> Contour:
 
 
 def _is_inside(line: Floats, point: Floats) -> bool:
-    """Return whether a closed line encloses a point (winding number) and leaves a web around it."""
+    """Return True if a closed line encloses a point (winding number) and leaves a web around it."""
     a, b = line - point, np.roll(line, -1, axis=0) - point
     turned = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)).sum()
     edge = b - a
@@ -202,7 +202,7 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Return the passages that intersect no hole and leave a web between each other.
+    """Return the passages that do not intersect a hole, and between which a web is left.
 
     holes   centres and radii (mm)
     """

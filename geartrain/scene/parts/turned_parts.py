@@ -1,4 +1,4 @@
-"""Arbors, pipes, studs and pillars: bodies of revolution, as bands of one radius, and the solids made of them."""
+"""Arbors, pipes, studs and pillars: bodies of revolution as bands of constant radius, and their solids."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _SAME = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """Part of a turned body between two heights along its axis, with outside and inside radius (mm)."""
+    """Part of a turned body between two heights along its axis, with outside and inside radius [mm]."""
 
     low: float
     high: float
@@ -43,10 +43,10 @@ class Band:
 
 @dataclass(frozen=True, slots=True)
 class TurnedPart:
-    """A body of revolution."""
+    """Turned part: a body of revolution."""
 
     link: str
-    """Link to which it belongs."""
+    """Link to which the part belongs."""
     name: str
     """Name of the part."""
     kind: str
@@ -57,15 +57,15 @@ class TurnedPart:
     at: Point
     """Position of its axis in the stack [mm]."""
     bands: tuple[Band, ...]
-    """Bands from the lowest; a gap between two is a pinion cut from the same piece."""
+    """Bands from the lowest. A gap between two bands is a pinion cut from the same piece."""
     joint: str = ""
-    """Part to which it is joined, and method."""
+    """Part to which it is joined, and method of joining."""
     through: tuple[str, ...] = ()
-    """Wheels and turning plates that have a hole for it."""
+    """Wheels and turning plates with a hole for the part."""
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Height of its lowest and its highest point [mm]."""
+        """Heights of the lowest and the highest point [mm]."""
         return self.bands[0].low, self.bands[-1].high
 
     @property
@@ -88,7 +88,7 @@ class TurnedPart:
         return found
 
     def solid(self) -> Solid:
-        """Return the surface as triangles, about its own axis along z."""
+        """Return the surface as triangles, with the axis of the part along z."""
         return joined(revolved(profile(section)) for section in self.sections())
 
 
@@ -136,7 +136,9 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield the arbor or stud, the pipes and the collars of an axis; `cut` are pinions cut from the same piece."""
+    """Yield the arbor or stud, the pipes and the collars of an axis; `cut` are pinions that are cut from the same
+    piece.
+    """
     members = column.members
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:
@@ -207,7 +209,7 @@ def _core(
 def _in_bridge(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor of uniform thickness, with a collar on either side of the plate."""
+    """Yield an arbor of uniform thickness, with a collar on each side of the plate."""
     radius = column.core / 2
     bands = without([Band(column.low, column.high, radius)], member, cut)
     yield TurnedPart(member.link, f"{member.link} arbor", "arbor", column.at, tuple(bands), _carries(member))
@@ -219,12 +221,14 @@ def _in_bridge(
 
 
 def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
-    """Return whether a member extends beyond both faces of a plate."""
+    """Return True if a member extends beyond both faces of a plate."""
     return member.low < plate[0] and plate[1] < member.high
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """Return a pin held in one plate, with a head that retains the turning parts, or with another stud on its end."""
+    """Return a pin that is held in one plate, with a head that retains the turning parts, or with another stud on its
+    end.
+    """
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high

@@ -1,4 +1,4 @@
-"""Wheels, plates and pins as bodies with sizes, to be cut, printed or viewed.
+"""Wheels, plates and pins as solid bodies for cutting, printing and viewing.
 
 solid_assembly       `SolidModel`: all solids of a train, each with its body and place
 built_scene          the scene of the viewer, with the parts as built

@@ -1,4 +1,4 @@
-"""Flat drawings to scale, with cut contours and marks; curves round holes; discs of pins and slots.
+"""Flat drawings to scale with cut contours and marks, curves around holes, and discs of pins and slots.
 
 Lengths are in mm, y upwards.
 """
@@ -48,7 +48,7 @@ class FlatDrawing:
     title: str
     """Title, in one line."""
     cut: tuple[Contour, ...]
-    """Closed curves to cut: the outer one first, then holes."""
+    """Closed curves to cut: first the outer curve, then holes."""
     pitch: tuple[Contour, ...] = ()
     """Curves that are not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
@@ -65,7 +65,7 @@ class FlatDrawing:
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour to within the margin; for many vertices these are the vertices."""
+    """Return points that bound a contour within the margin; for a contour with many vertices, its vertices."""
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
@@ -92,7 +92,7 @@ _PIN = 0.25  # diameter of a pin over its distance from the axis, at most 2 mm
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A flat part of a link: its drawing and its sheet thickness (mm)."""
+    """Flat part of a link, with its drawing and its sheet thickness [mm]."""
 
     link: str
     name: str
@@ -102,7 +102,7 @@ class Plate:
 
 @dataclass(frozen=True, slots=True)
 class Plates:
-    """Plates of a train, and notices on what could not be drawn."""
+    """Plates of a train, and notices on parts that could not be drawn."""
 
     plates: tuple[Plate, ...]
     notices: tuple[Problem, ...]
@@ -122,7 +122,7 @@ def coupling_discs(
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
-    """Return the offset curve of the convex hull of points at the distance `radius`: straight edges and arcs."""
+    """Return the curve at the distance `radius` around the convex hull of points: straight edges and arcs."""
     corners = _hull(points)
     if len(corners) == 1:
         return Contour.circle(radius, corners[0])
@@ -161,7 +161,9 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors across the normal, right and up for a viewer who looks against it; x and y for plus z."""
+    """Return two unit vectors perpendicular to the normal, right and up for a viewer who looks against it; x and y for
+    plus z.
+    """
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)

@@ -1,4 +1,4 @@
-"""Scene of a train as built, with its plates, arbors and dials, and with its hands on the ends of arbors."""
+"""Scene of a train as built, with plates, arbors and dials, and with hands on the ends of arbors."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def _hanging(model: SolidModel, hanging: HangingParts) -> Iterator[SceneHanger]:
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """Return a wheel with its slots, and with its hole for an eccentric; other holes are filled by parts."""
+    """Return a wheel with its slots and its hole for an eccentric; other holes are filled by parts."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
@@ -155,7 +155,7 @@ def _numbers(points: Floats) -> Iterator[float]:
 
 
 def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
-    """Return dials in the size of their plates, on the face that is read."""
+    """Return the dials in the size of their plates, on the face that is read."""
     faces = list(scene.dials)
     if model.plan is None:
         return tuple(faces)
@@ -177,7 +177,7 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
 
 
 def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials, with those that turn with a hand of another dial moved to the place of that hand."""
+    """Return the dials, with dials that turn with a hand of another dial moved to the position of that hand."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:
@@ -215,7 +215,7 @@ def _on_bracket(
 
 
 def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
-    """Yield limits of the radius of a dial (mm) from turned parts parallel to its axis, except coaxial ones."""
+    """Yield limits on the radius of a dial [mm] from turned parts parallel to its axis, except coaxial parts."""
     for part in parts:
         off = minus(part.place, face.centre)
         apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))

@@ -1,4 +1,4 @@
-"""Supports of axes that are not parallel to the frame's, and parts that hang on a train.
+"""Supports of axes that are not parallel to the frame's axes, and parts that hang on a train.
 
 A bracket is a plate perpendicular to an arbor and to the plates of the frame, which bears an end of the arbor.
 
@@ -56,7 +56,7 @@ _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
 
 @dataclass(frozen=True)
 class HangingParts:
-    """Hanging parts of a train that declares them, and that has a dial, which defines the downward direction."""
+    """Declared hanging parts of a train with a dial, which defines the downward direction."""
 
     scene: Scene
     declared: Train
@@ -152,7 +152,7 @@ class HangingParts:
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """Yield the turned parts of a hanging part, at rest relative to the frame (its index); a line is not made."""
+    """Yield the turned parts of a hanging part, at rest relative to the frame (its index); a line is not a solid."""
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)
@@ -178,7 +178,7 @@ GAP = 0.5
 """Axial clearance between the last wheel of an arbor and its support [mm]."""
 _ROOM = 1.5  # mm, the same for a bracket, including a web beside the wheel's window in the plate
 LAND = 2.0
-"""Width of metal round a bearing [mm]."""
+"""Width of the metal around a bearing [mm]."""
 _FLAT = 1e-6
 
 
@@ -187,10 +187,10 @@ class Bracket:
     """Support of one end of an arbor."""
 
     body: int
-    """Body of the arbor. `reach` is the position of the bracket's outer face along the arbor's direction (mm)."""
+    """Body of the arbor; `reach` is the position of the bracket's outer face along the arbor's direction [mm]."""
     reach: float
     side: str
-    """Side of the frame's plate to which it is fixed, through the `mortise` there."""
+    """Side of the frame plate to which the bracket is fixed, through the `mortise` there."""
     mortise: Passage
     part: SolidPart
 
@@ -212,7 +212,7 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point (mm); None if it has none."""
+    """Return the ends of a body's wheels along its direction, from its point [mm]; None if the body has no wheels."""
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -254,7 +254,7 @@ def _best_plate(
 
 
 def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
-    """Return the centre of a bracket, on the axis that it bears."""
+    """Return the centre of a bracket, on the axis that it supports."""
     return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
 
 
@@ -267,7 +267,9 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with the fewest wheels before it, then the nearest."""
+    """Return the bracket at one end of an arbor, on the plate with the minimum number of wheels before it, then the
+    nearest.
+    """
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
@@ -289,7 +291,7 @@ def _frame(scene: Scene, plan: FramePlan) -> int:
 
 
 def on_axis(body: SceneBody, along: float) -> Floats:
-    """Return the point of a body's axis at a position along it (mm)."""
+    """Return the point of a body's axis at a given position along it [mm]."""
     return np.asarray(np.array(body.point) + along * np.array(body.direction))
 
 
@@ -303,7 +305,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of the axis of one body. `reach` is the position along its direction to which its arbor extends (mm)."""
+    """Support of the axis of one body; `reach` is the position along its direction to which its arbor extends [mm]."""
 
     body: int
     reach: float
@@ -311,7 +313,7 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cage of every axis that is carried at an angle to that of its carrier.
+    """Return the cage of every axis that is carried at an angle to its carrier's axis.
 
     bores   diameters (mm) of arbors by axis
     """
@@ -415,7 +417,7 @@ class _CageBuilder:
         return min(faces, key=lambda each: abs(each - height), default=None)
 
     def _is_behind_a_plate(self, height: float, seat: float) -> bool:
-        """Return whether a plate of the frame is between two heights."""
+        """Return True if a plate of the frame is between two heights."""
         stack, places = self.plan.stack, self.plan.places
         if stack.normal is None or abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
             return False
@@ -424,7 +426,9 @@ class _CageBuilder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the middle of an arm next to the pinion, on the side with fewest obstructing coaxial wheels."""
+        """Return the middle of an arm next to the pinion, on the side with the minimum number of obstructing coaxial
+        wheels.
+        """
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -449,7 +453,9 @@ class _CageBuilder:
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the middle of an arm beyond all wheels, on the side with fewest wheels that obstruct the post."""
+        """Return the middle of an arm beyond all wheels, on the side with the minimum number of wheels that obstruct
+        the post.
+        """
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:
@@ -466,7 +472,7 @@ class _CageBuilder:
         return beyond(side) + side * (_PAST + _ARM / 2)
 
     def _arm(self, aside: Floats, away: float, level: float, post: float) -> SolidPart:
-        """Return the arm from the axis to a post; its hub runs on the member that passes through it."""
+        """Return the arm from the axis to a post; its hub turns on the member that passes through it."""
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)

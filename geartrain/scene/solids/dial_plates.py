@@ -69,7 +69,7 @@ class DialCircle:
 
 @dataclass(frozen=True, slots=True)
 class DialPlate:
-    """A plate with all dials of one side."""
+    """Plate with all dials of one side."""
 
     name: str
     """Name: "dial" and the names of the dials."""
@@ -80,7 +80,7 @@ class DialPlate:
     circles: tuple[DialCircle, ...]
     """Dials, by axis."""
     feet: tuple[TurnedPart, ...]
-    """Pins on which it is mounted before a plate of the frame."""
+    """Pins that support the plate before a plate of the frame."""
     right: Point
     """Unit vector to the right of its reader, in the coordinates of the stack."""
     up: Point
@@ -88,7 +88,7 @@ class DialPlate:
 
     @property
     def at(self) -> Point:
-        """Origin of its coordinates (mm): the centre of its first dial."""
+        """Origin of the coordinates of the plate [mm]: the centre of its first dial."""
         return self.circles[0].at
 
     @property
@@ -110,7 +110,7 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return a disc if it contains all, else the convex curve about all dials and feet."""
+        """Return a disc if it contains all dials and feet, otherwise the convex curve around them."""
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
             return Contour.circle(first.radius, place(first.at))
@@ -123,7 +123,9 @@ class DialPlate:
         return around([place(point) for point in (*rims, *(foot.at for foot in self.feet))], wide)
 
     def drawing(self) -> FlatDrawing:
-        """Return the drawing for its reader, zero marks at the top, with scales, numbers and names engraved."""
+        """Return the drawing as seen by the reader, with zero marks at the top and scales, numbers and
+        names engraved.
+        """
         title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, front view; "
         scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
         title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in scales.items())
@@ -137,7 +139,9 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return plates of all dials on the frame, perpendicular to its normal, that the arbor of a pointer reaches."""
+    """Return the plates of all dials on the frame that are perpendicular to its normal and that the arbor of a pointer
+    reaches.
+    """
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     assert stack.normal is not None
     groups: dict[int, dict[str, list[DialFace]]] = {}
@@ -212,7 +216,7 @@ _STEPS = 32  # samples from the centre of a dial to a foot, at which the edge be
 def dial_feet(
     plan: FramePlan, name: str, circles: Sequence[tuple[Point, float]], faces: tuple[float, float]
 ) -> list[TurnedPart]:
-    """Return feet of a plate of dials: up to four, far apart inside its dials, else outside of all turning parts.
+    """Return the feet of a plate of dials: up to four, far apart inside its dials, otherwise outside all turning parts.
 
     circles   centres and radii of its dials (mm)
     faces     heights of its faces (mm)
@@ -246,7 +250,7 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """Return the clearance (mm) from circles of a plate that extends straight from its dials to a foot."""
+    """Return the clearance [mm] between circles and a plate that extends straight from its dials to a foot."""
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):
@@ -263,7 +267,9 @@ def _tried(at: Point, radius: float) -> Iterator[Point]:
 
 
 def _apart(free: Sequence[Point]) -> list[Point]:
-    """Return the first place, then repeatedly the one farthest from those chosen (greedy dispersion)."""
+    """Return the first position, then repeatedly the position farthest from the chosen positions (greedy
+    dispersion).
+    """
     taken = list(free[:1])
     while len(taken) < min(_MOST, len(free)):
         spot = max(free, key=lambda each: min(dist(each, other) for other in taken))

@@ -1,4 +1,4 @@
-"""Manufacturing sizes of a train, and the train at these sizes."""
+"""Manufacturing sizes of a train, and the train with these sizes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _STOCK = (
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Minimum and maximum sizes (mm): curves are drawn to 0.001 mm, and arbors and plates are sized to match."""
+"""Minimum and maximum sizes [mm]. Curves are drawn to 0.001 mm, and arbors and plates are sized to match."""
 _SHEET = (1, 1e5)  # mm: limits of the sides of sheets
 _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
@@ -66,7 +66,7 @@ class ManufacturingSizes(Shown):
     """Width and height of the sheets on which flat parts are arranged [mm], above 0; None for no sheets."""
 
     def __post_init__(self) -> None:
-        """Raise `QuestionError` for a size out of range."""
+        """Raise `QuestionError` if a size is out of range."""
         process_named(self.process)
         problems = []
         if self.arms is not None and self.arms < 3:
@@ -84,7 +84,7 @@ class ManufacturingSizes(Shown):
 
 
 def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) -> list[Problem]:
-    """Return a problem for a size (mm) out of the range that can be made."""
+    """Return the problem that a size [mm] is out of the range that can be made."""
     low, high = bounds
     if low <= value <= high:
         return []
@@ -93,7 +93,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
 
 
 def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
-    """Return the train with the requested modules and backlash, as if it declared them.
+    """Return the train with the requested modules and backlash, as if they were declared.
 
     Without requests it is the same train.
 
@@ -154,7 +154,9 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """Return the declaration with the requested backlash, in modules, for every pair whose form declares none."""
+    """Return the declaration with the requested backlash, in modules, for every pair whose form does not declare a
+    backlash.
+    """
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
@@ -175,13 +177,13 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 
 
 def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
-    """Return the problem if a pair's form fixes its backlash; None if it can be chosen."""
+    """Return the problem that a pair's form fixes its backlash; None if the backlash can be chosen."""
     form = declared.form_of(gear)
     return None if form is None else form.own_backlash(gear.name)
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of the process, if one is named and no backlash is given."""
+    """Return the sizes with the backlash of the process, if a process is named and no backlash is given."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -197,7 +199,7 @@ def usual_module(layout: Layout) -> float:
 
 
 def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout:
-    """Return the layout with wheels of the requested thickness, else of standard sheets.
+    """Return the layout with wheels of the requested thickness, otherwise with the thickness of standard sheets.
 
     Levels are moved apart if wheels become thicker.
     """
@@ -235,7 +237,7 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return whether a flat wheel has the default thickness for its module, and is not broadened for several mates."""
+    """Return True if a flat wheel has the default thickness for its module, and is not broadened for several mates."""
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
@@ -246,7 +248,7 @@ def _is_upright(layout: Layout, place: WheelPlace) -> bool:
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the diameter (mm) of an arbor on each axis that no plate bears.
+    """Return the diameter of an arbor on each axis that is not supported by a plate [mm].
 
     It is as given, or a third of the root diameter of its smallest wheel, at most 6 mm.
     """

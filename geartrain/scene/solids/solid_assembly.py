@@ -1,4 +1,4 @@
-"""Parts of a train as solids, each on its body, in the pose in which all angles are zero."""
+"""Parts of a train as solids, each on its body, in the pose in which all angles are 0."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class SolidModel(Shown):
     """State of the train; by default the first."""
 
     def __post_init__(self) -> None:
-        """Unfold equal planets, because each is made."""
+        """Unfold equal planets, because each planet is made separately."""
         object.__setattr__(self, "train", self.train.unfolded)
 
     @cached_property
@@ -193,7 +193,7 @@ class SolidModel(Shown):
 
     @cached_property
     def _spread(self) -> Layout:
-        """Places before plates are inserted."""
+        """Positions before plates are inserted."""
         laid = self._laid if self.sized is self.train else lay_out(self.sized)
         return thick(self.sized.declaration, laid, self.making)
 
@@ -247,7 +247,7 @@ class _Parts:
                 yield from hanging_solids(each, hanging.frame)
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
-        """Return the solid of a wheel, from its flat shape if it has one."""
+        """Return the solid of a wheel, from its flat shape if there is one."""
         turn, place = wheel_frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
@@ -259,7 +259,9 @@ class _Parts:
         return replace(flat, drawn=wheel_solid(blank))
 
     def rods(self) -> Iterator[SolidPart]:
-        """Yield an arbor without bearings, as long as its wheels require, for every body whose axis no plate bears."""
+        """Yield for every body whose axis is not supported by a plate an arbor without bearings, as long as its wheels
+        require.
+        """
         frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
         borne = set[str]()
         if frame is not None:

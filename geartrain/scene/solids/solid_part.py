@@ -1,4 +1,4 @@
-"""One solid part of a train, and its place in the zero pose."""
+"""Solid part of a train, with its position in the zero pose."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class SolidPart(Shown):
 
 
 def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
-    """Return the axes of a wheel's own coordinates as columns, x through its first tooth, and its centre (mm)."""
+    """Return the axes of a wheel's own coordinates as columns, with x through its first tooth, and its centre [mm]."""
     along, reference = np.array(wheel.direction), np.array(wheel.reference)
     across = np.cross(along, reference)
     x = cos(wheel.turn) * reference + sin(wheel.turn) * across

@@ -1,4 +1,4 @@
-"""Pins, slots and bars, cut into wheels, fixed in plates, or as separate parts.
+"""Pins, slots and bars: cut into wheels, fixed in plates, or made as separate parts.
 
 A wheel whose root circle extends beyond the pin bears the pin; one that covers the whole path of the pin has the slot.
 Otherwise the slot is in a separate bar. Plates bear the pins of rings of pins, and those that work in holes of a disc.
@@ -44,7 +44,7 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """A pin in one wheel, and its slot in another.
+    """Pin in one wheel, and its slot in another wheel.
 
     The pin's wheel is None if no wheel carries the pins of round holes.
     """
@@ -99,7 +99,7 @@ def _apart(one: SceneWheel, other: SceneWheel, along: Floats) -> float:
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return the bar with the slot; without declared sizes, with a round hole in which the pin moves uniformly."""
+    """Return the bar with the slot; if no sizes are declared, with a round hole in which the pin moves uniformly."""
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
@@ -110,7 +110,7 @@ def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
 
 
 def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
-    """Return unit vectors along the slot outwards, across it, and along the axis, as columns in the zero pose."""
+    """Return unit vectors along the slot outwards, across the slot and along the axis, as columns in the zero pose."""
     along = np.array(scene.bodies[coupling.slot].direction)
     out = np.subtract(coupling.pin_at, coupling.slot_at)
     x = out / np.linalg.norm(out)
@@ -158,7 +158,7 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """Parts of all couplings of a scene; pins fixed in plates are parts of these."""
+    """Parts of all couplings of a scene, including pins that are fixed in plates."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
@@ -168,7 +168,7 @@ class CouplingParts:
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
+        """Yield pins, from their wheel to the slot's wheel, and bars for slots that are not cut into a wheel."""
         for coupling in self.scene.couplings:
             turn, axis = pin_axis(self.scene, coupling)
             along, cut = turn[:, 2], self.cut.get(coupling.id)
@@ -192,7 +192,7 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the interval from the far face of the pin's wheel to that of the slot's."""
+        """Return the interval from the far face of the pin's wheel to the far face of the slot's wheel."""
         ends = [
             float(wheel.centre @ along) + side * self._thick(wheel) / 2 for wheel in (pin, slot) for side in (-1, 1)
         ]
@@ -274,7 +274,7 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with rings without their pins, which are separate parts: a tooth is between two seats."""
+    """Return the scene with rings without their pins, which are separate parts; a tooth is then between two seats."""
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
@@ -328,7 +328,9 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost place with sufficient clearance relative to wheel and arm, else the clearest place."""
+    """Return the outermost position with sufficient clearance relative to wheel and arm, otherwise the position with
+    maximum clearance.
+    """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]

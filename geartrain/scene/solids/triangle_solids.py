@@ -37,7 +37,8 @@ _NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Return points (n, 2), the given ones in their order, and triangles (m, 3) of their indices, counter-clockwise.
+    """Return points (n, 2), starting with the given points in order, and triangles (m, 3) of their indices,
+    counter-clockwise.
 
     Polygons (k, 2) may have either orientation. They must not intersect themselves or each other.
     """
@@ -59,7 +60,7 @@ def area(polygon: Floats) -> float:
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible one.
+    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point.
 
     Only points to the right of the hole are considered.
     """
@@ -79,20 +80,20 @@ def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
 
 
 def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
-    """Return whether the segment from vertex k of the loop to a point starts inside."""
+    """Return True if the segment from vertex k of the loop to a point starts inside the loop."""
     before, here, after = points[loop[k - 1]], points[loop[k]], points[loop[(k + 1) % len(loop)]]
     left, right = _turn(here, after, to) > 0, _turn(before, here, to) > 0
     return bool(left and right if _turn(before, here, after) > 0 else left or right)
 
 
 def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return twice the signed area of the triangle a b c; arguments are broadcast."""
+    """Return twice the signed area of the triangle a b c, with broadcast arguments."""
     turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
     return turn
 
 
 def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
-    """Return triangles by ear clipping, the ear with the best aspect ratio first."""
+    """Return triangles by ear clipping; the ear with the best aspect ratio is clipped first."""
     corners = _Corners(points[loop])
     found: list[tuple[int, int, int]] = []
     while len(corners.left) > 3:
@@ -105,7 +106,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Remaining corners of a polygon. A cut changes two of them; all others keep their place in a heap."""
+    """Remaining corners of a polygon. A cut changes two of them; the other corners keep their position in a heap."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -120,7 +121,7 @@ class _Corners:
         heapify(self.heap)
 
     def find_ear(self) -> int:
-        """Return the ear with the best aspect ratio, else the flattest corner."""
+        """Return the ear with the best aspect ratio, or the flattest corner if no corner is an ear."""
         passed, ear = [], -1
         while self.heap:
             fat, at = heappop(self.heap)
@@ -138,7 +139,7 @@ class _Corners:
         return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
 
     def _empty(self, at: int) -> bool:
-        """Return whether no other point lies in the triangle of a convex corner."""
+        """Return True if no other point is in the triangle of a convex corner."""
         blocker = self.blocker[at]
         if blocker >= 0 and not isnan(self.fatness[blocker]):  # not cut off yet
             return False
@@ -240,7 +241,7 @@ def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float 
 
 
 def round_about(circle: Contour) -> Floats:
-    """Return a polygon circumscribed about a circle, so that a part with the size of the hole fits into it."""
+    """Return a polygon circumscribed about a circle, so that a part with the size of the circle fits into it."""
     centre = circle.points.mean(axis=0)
     radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
     turn = 2 * pi * np.arange(SIDES) / SIDES
@@ -248,14 +249,14 @@ def round_about(circle: Contour) -> Floats:
 
 
 def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
-    """Return a flat shape (n, 2) extruded by half the thickness to either side, with walls on its boundary edges."""
+    """Return a flat shape (n, 2) extruded by half the thickness to each side, with walls on its boundary edges."""
     return piled(
         [np.column_stack([points, np.full(len(points), z)]) for z in (-thickness / 2, thickness / 2)], triangles
     )
 
 
 def twisted(points: Floats, triangles: Integers, thickness: float, twist: float) -> Solid:
-    """Return a flat shape (n, 2) extruded by half the thickness to either side, with a `twist` of the top (rad)."""
+    """Return a flat shape (n, 2) extruded by half the thickness to each side, with the top rotated by `twist` [rad]."""
     x, y = points.T
     layers = []
     for height in np.linspace(-0.5, 0.5, 1 + max(1, ceil(abs(twist) / _SLICE))).tolist():
@@ -352,7 +353,8 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow one, and the disc within them.
+    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow end, and the disc within the
+    teeth.
 
     The surface has rows of points, from the bore at the back round the outside to the bore at the front.
     """
@@ -375,7 +377,7 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
 
 
 def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
-    """Return points (n, 3) of its outline on its back cone, scaled towards the apex, with the apex upwards."""
+    """Return points (n, 3) of a wheel's outline on its back cone, scaled towards the apex, with the apex upwards."""
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
     if wheel.cone > CROWN:
@@ -385,7 +387,9 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown's flanks at a radius, for mates of uniform tooth width that pass obliquely."""
+    """Return the angles of a crown wheel's flanks at a radius, for mates with teeth of constant width that pass
+    obliquely.
+    """
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
@@ -394,7 +398,7 @@ def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
 
 
 def _at_bore(row: Floats, bore: float) -> Floats:
-    """Return a row contracted to the bore, or to one point if there is none."""
+    """Return a row of points contracted to the bore, or to one point if the bore is 0."""
     angle = np.arctan2(row[:, 1], row[:, 0])
     if not bore:
         return np.array([[0.0, 0.0, row[:, 2].mean()]])

@@ -1,4 +1,4 @@
-"""Flat shape of every wheel: its teeth as cut for all its mates, the hole for its arbor, and its crossings.
+"""Flat shape of every wheel: teeth as cut for all its mates, hole for its arbor, and crossings.
 
 Crossings are windows that leave a rim, spokes and a hub, with all inner corners rounded.
 """
@@ -42,7 +42,7 @@ Point = tuple[float, float]
 def spoke_windows(
     root: float, module: float, bore: float, spokes: int, corner: float | None = None
 ) -> tuple[Contour, ...]:
-    """Return the windows between the spokes of a wheel, one hole each; empty if there is not enough space.
+    """Return the windows between the spokes of a wheel, each as one hole; empty if there is not enough space.
 
     A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
 
@@ -135,7 +135,7 @@ _THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A wheel to cut, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
+    """Wheel to cut, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
 
     wheel: str
     link: str
@@ -145,7 +145,7 @@ class Blank:
     form: str
     """Description of its tooth form."""
     contours: tuple[Contour, ...]
-    """Contours, the outer one first, then holes."""
+    """Contours: first the outer contour, then holes."""
     module: float
     pitch_radius: float
     tip_radius: float
@@ -167,14 +167,13 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Wheels that can be cut flat, by name, notices on the others, and the backlash of every pair that is cut."""
+    """Wheels that can be cut flat by name, notices on other wheels, and the backlash of every pair that is cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Reasons by wheel why it cannot be cut. `flat` are the wheels with planar teeth parallel to the axis, cut or not.
-    """
+    """Wheel -> reasons why it cannot be cut; `flat` are all wheels with planar teeth parallel to the axis."""
     flat: frozenset[str]
 
 
@@ -215,7 +214,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return a wheel without mates, with a notice.
+    """Return a wheel that has no mates, with a notice.
 
     An escape wheel has its teeth, and any other wheel is a disc of its pitch circle.
     """
@@ -251,7 +250,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return the blank with windows between its spokes, if there is space; a wheel that bears studs keeps its web."""
+    """Return the blank with windows between its spokes, if there is space. A wheel that carries studs keeps its web."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
@@ -263,7 +262,9 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with the hole for its arbor, if there is space, and holes for other parts that it bears."""
+    """Return the blank with the hole for its arbor, if there is space, and with holes for other parts that
+    it carries.
+    """
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":

@@ -61,6 +61,7 @@ def run(
 def _periods(texts: list[str]) -> dict[str, Fraction]:
     """Parse a mapping from name to period [revolutions of the first arbor]."""
     from geartrain.search.target_ratio import read_ratio
+    from geartrain.train import period_table
 
     found: dict[str, Fraction] = {}
     for text in texts:
@@ -69,6 +70,10 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
             raise option_error(_PLACE, f"'{text}' is not a name with a period", "write it as moon=29.53058853")
         if name.strip() in found:
             raise option_error(_PLACE, f"two periods are named '{name.strip()}'", "give each name once")
+        if (row := period_table().get(period.strip())) is not None and row.kind != "period":
+            why = "a period is a time, or a number of revolutions of the first arbor"
+            fix = f"write the period as a number, such as {name.strip()}=462/289"
+            raise option_error(_PLACE, f"'{period.strip()}' is a {row.kind}, not a period", fix, why)
         wanted = read_ratio(period)
         if wanted.sense:
             why = "the search chooses the sense of every arbor"

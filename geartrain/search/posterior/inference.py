@@ -89,7 +89,7 @@ def infer_counts(
     state : str, optional
         Name of a state; by default the observations of all states are used together.
     free : mapping of str to sequence of int, optional
-        Wheel -> possible counts, which replace the declared ones.
+        Wheel -> possible counts, which replace the declared counts.
     outputs : sequence of str
         Outputs used as evidence; default all.
     tolerance : Fraction, optional

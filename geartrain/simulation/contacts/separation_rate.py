@@ -71,7 +71,7 @@ def find_separation(
 
     Examples
     --------
-    A slot whose axis is 8 mm from that of a pin at 10 mm, with 100 g cm^2 and a drag of 1 N mm behind it:
+    A slot and a pin at 10 mm, with axes 8 mm apart; the slot drives 100 g cm^2 and a drag of 1 N mm:
 
     >>> import geartrain
     >>> train = geartrain.load('''

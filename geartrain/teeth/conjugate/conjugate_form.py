@@ -414,7 +414,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 def _refusal(kinds: tuple[str, str]) -> str:
     if "worm" in kinds:
-        return "the thread of a worm slides along the teeth of its wheel, so there are no rolling pitch surfaces"
+        return "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
     if set(kinds) >= {"bevel", "contrate"}:
         return "a bevel and a contrate wheel have no pair of pitch cones"
     return ""

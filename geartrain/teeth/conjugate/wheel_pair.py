@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, pi
+from math import cos, degrees, pi
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.results import Shown
@@ -123,8 +123,8 @@ class WheelPair(Shown):
             )
         if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
             raise refused(
-                f"a shaft angle of {self.shaft_angle:.6g} rad is out of range",
-                f"it must be from {_MINIMUM_ANGLE:g} rad to 180 deg minus {_MINIMUM_ANGLE:g} rad",
+                f"a shaft angle of {degrees(self.shaft_angle):.6g} deg is out of range",
+                "axes of bevel wheels meet at an angle between 0 and 180 deg",
                 "give an angle in this range, or declare a spur pair on parallel axes",
             )
 

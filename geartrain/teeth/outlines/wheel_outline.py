@@ -48,7 +48,7 @@ class BlankSizes:
     fillet: float | None = None
     """Radius of the root fillet [mm], 0 or more; by default 0.38 modules, or the largest possible radius."""
     bore: float | None = None
-    """Diameter of the central hole [mm]; by default there is no hole."""
+    """Diameter of the central hole [mm]; by default the wheel has no hole."""
     rim: float | None = None
     """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; by default two modules, or the
     diameter of a pin.

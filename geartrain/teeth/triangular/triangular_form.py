@@ -56,13 +56,13 @@ class Triangular(ToothForm):
 
     any_distance: ClassVar[bool] = True
 
-    form: Literal["triangular"] = Field(description="The name of this form")
+    form: Literal["triangular"] = Field(description="Name of the tooth form")
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(
         description="Half aperture angle of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
     clearance_factor: Figure | None = Field(
         None,
-        description="Centre distance divided by the one at which a tip touches the bottom of a space: above 1, or "
+        description="Centre distance divided by the distance at which a tip touches the bottom of a space: above 1, or "
         "below 1 with a ring",
     )
     excess: Figure | None = Field(
@@ -78,9 +78,9 @@ class Triangular(ToothForm):
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,
-        description="Rule for the tip radii, or the two radii, or one number: the ratio of the second radius to the "
-        "first divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or pitch_true with "
-        "a ring",
+        description="Rule for the tip radii, the two radii themselves, or one number: the ratio of the second radius "
+        "to the first divided by the ratio of their tooth numbers (1 is pitch_true). Default equal_depth, or "
+        "pitch_true with a ring",
     )
 
     @model_validator(mode="after")

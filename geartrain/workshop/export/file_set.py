@@ -203,7 +203,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """Return all files of the requested kinds, the smaller ones first, followed by a README that lists them.
+    """Return all files of the requested kinds, small files first, followed by a README that lists them.
 
     Parameters
     ----------

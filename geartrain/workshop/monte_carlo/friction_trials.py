@@ -100,9 +100,7 @@ class FrictionPlan(Shown):
 
     @cached_property
     def study(self) -> FrictionStudy | None:
-        """Computation that is common to all trials in which the same sides drive; None if there is no common
-        computation.
-        """
+        """Computation that is common to all trials in which the same sides drive; None if no computation is common."""
         from geartrain.dynamics.turn.train_turn import study_friction
 
         return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)

@@ -499,7 +499,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
         raise QuestionError(
             Problem(
                 "the convergence cannot be drawn",
-                "there are no estimates, or an estimate has no trial numbers or one that is not positive",
+                "the list of estimates is empty, or an estimate has no trial numbers or one that is not positive",
                 "give at least one estimate, with trial numbers of 1 or more",
             )
         )

@@ -31,7 +31,7 @@ class PossibleGear(Result):
     engaged: tuple[str, ...]
     """Closed shift elements, in the order of declaration."""
     ratio: Fraction | None
-    """Speed of the input over speed of the output; None if the output is at rest."""
+    """Speed of the input divided by speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
     """Declared states in which exactly these elements are closed."""
 
@@ -47,17 +47,17 @@ class GearSeries(Result):
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:
-        """Transmission ratio of each gear: speed of the input over speed of the output."""
+        """Transmission ratio of each gear: speed of the input divided by speed of the output."""
         return tuple(each.ratio for each in self.gears if each.ratio is not None)
 
     @property
     def steps(self) -> tuple[Fraction, ...]:
-        """Step of each gear: its ratio over the ratio of the next gear."""
+        """Step of each gear: its ratio divided by the ratio of the next gear."""
         return tuple(a / b for a, b in zip(self.ratios, self.ratios[1:], strict=False))
 
     @property
     def spread(self) -> Fraction:
-        """Spread of the series: ratio of the first gear over the ratio of the last."""
+        """Spread of the series: ratio of the first gear divided by the ratio of the last."""
         return self.ratios[0] / self.ratios[-1]
 
     @property
@@ -84,7 +84,7 @@ class GearSearch(Tabular, Result):
 
     MEANINGS: ClassVar = {
         "closed": "Engaged clutches and brakes.",
-        "ratio": "Speed of the input over speed of the output; empty if the output is at rest [1].",
+        "ratio": "Speed of the input divided by speed of the output; empty if the output is at rest [1].",
         "exact": "The ratio as a fraction [1].",
         "states": "Declared states that engage the same elements.",
     }

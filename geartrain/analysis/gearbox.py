@@ -51,29 +51,29 @@ class GearState(Result):
     verdict: Verdict
     """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
-    """Transmission ratio: speed of the input over speed of the output; None if one is at rest or undetermined."""
+    """Transmission ratio: speed of the input divided by speed of the output; None if one is at rest or undetermined."""
     step: Fraction | None
-    """Ratio of this state over the ratio of the next state; None if their senses differ or one has no ratio."""
+    """Ratio of this state divided by the ratio of the next state; None if their senses differ or one has no ratio."""
     driven_by: str
     """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if the
     input is at rest. Empty if no input turns; speeds are then the declared ones.
     """
     speeds: Mapping[str, Fraction]
-    """Link with a determined speed -> its speed over the speed of `driven_by`."""
+    """Link with a determined speed -> its speed divided by the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
-    """Open element -> slip speed over the speed of `driven_by`. The slip of a brake is the speed of its link,
-    and the slip of a clutch is the speed of its first link relative to its second.
+    """Open element -> slip speed divided by the speed of `driven_by`. The slip of a brake is the speed of its link, and
+    the slip of a clutch is the speed of its first link relative to its second.
     """
     torques: Mapping[str, Fraction | None]
-    """Closed element -> torque that it exerts on its (first) link, over the torque of the input; None if it is
+    """Closed element -> torque that it exerts on its (first) link, divided by the torque of the input; None if it is
     statically indeterminate.
     """
     efficiency: Fraction | float | None
-    """Output power over input power; None if the torques are not determined."""
+    """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
-    """Power that recirculates between gear sets, over input power; None if the torques are not determined."""
+    """Power that recirculates between gear sets, divided by input power; None if the torques are not determined."""
     inner: Fraction | None
-    """Power that recirculates within gear sets, over input power; it occurs if a carrier turns freely."""
+    """Power that recirculates within gear sets, divided by input power; it occurs if a carrier turns freely."""
 
 
 @dataclass(frozen=True)
@@ -110,11 +110,11 @@ class ShiftElement(Result):
     states: tuple[str, ...]
     """States in which the element is closed."""
     torque: Fraction | None
-    """Torque of maximum magnitude, over the torque of the input."""
+    """Torque of maximum magnitude, divided by the torque of the input."""
     torque_state: str
     """State in which `torque` occurs."""
     slip: Fraction | None
-    """Slip speed of maximum magnitude while the element is open, over the speed of the input."""
+    """Slip speed of maximum magnitude while the element is open, divided by the speed of the input."""
     slip_state: str
     """State in which `slip` occurs."""
 
@@ -131,11 +131,11 @@ class Gearbox(Tabular, Result):
     MEANINGS: ClassVar = {
         "state": "Name of the state.",
         "engaged": "Engaged clutches and brakes.",
-        "ratio": "Speed of the input over speed of the output [1].",
-        "step": "Ratio over the ratio of the next state [1].",
-        "efficiency": "Output power over input power [1].",
-        "recirculating": "Power that recirculates between gear sets, over input power [1].",
-        "speed of *": "Speed of the link over speed of the input [1].",
+        "ratio": "Speed of the input divided by speed of the output [1].",
+        "step": "Ratio divided by the ratio of the next state [1].",
+        "efficiency": "Output power divided by input power [1].",
+        "recirculating": "Power that recirculates between gear sets, divided by input power [1].",
+        "speed of *": "Speed of the link divided by speed of the input [1].",
     }
 
     PAGE = "report.gearbox_report:describe_gearbox"
@@ -163,8 +163,8 @@ class Gearbox(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each state: closed elements, ratio, step, efficiency, and link speeds over the input
-        speed.
+        """Table with a row for each state: closed elements, ratio, step, efficiency, and link speeds divided by the
+        input speed.
         """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
@@ -181,7 +181,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def spread(self) -> Fraction | None:
-        """Maximum over minimum ratio of the forward states; None without forward states."""
+        """Maximum divided by minimum ratio of the forward states; None without forward states."""
         ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
         return max(ratios) / min(ratios) if ratios else None
 
@@ -280,7 +280,7 @@ def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fr
 
 
 def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:
-    """Return the power recirculating between gear sets and within gear sets, each over input power."""
+    """Return the power recirculating between gear sets and within gear sets, each divided by input power."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None

@@ -143,7 +143,9 @@ class _GraphFacts:
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
-        """Return the speed of the circuit's first link over the speed of its second, both relative to the carrier."""
+        """Return the speed of the circuit's first link divided by the speed of its second, both relative to the
+        carrier.
+        """
         return self._circuits[name].ratio
 
     def axes(self, name: str) -> tuple[str, str]:

@@ -251,7 +251,7 @@ def file_name(text: str, ending: str) -> Path:
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction: a plain number, a percentage or ppm."""
+    """Parse the value of an option as an exact fraction: a number, a percentage or ppm."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity

@@ -45,7 +45,9 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
         fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise GearTrainError(Problem(f"{text} is out of range", "its square would overflow or underflow", fix, place))
     if minimum == "above 0" and found.value <= 0:
-        raise GearTrainError(Problem(f"{text} is not above 0", "", f"give a {dimension} above 0", place))
+        raise GearTrainError(
+            Problem(f"the value must be greater than 0, not {text}", "", f"give a {dimension} above 0", place)
+        )
     if minimum == "0" and found.value < 0:
         raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
     return found
@@ -69,9 +71,9 @@ def restitution(text: str) -> float:
 
 
 def input_rate(text: str) -> float:
-    """Parse an input speed and return it in rad/s; a plain number is in revolutions per second."""
+    """Parse an input speed and return it in rad/s; a number without a unit is in revolutions per second."""
     found = read_quantity("--rate", text, "speed", plain=True, minimum="above 0")
-    # a plain number is in turns per second, not in rad/s
+    # a number without a unit is in turns per second, not in rad/s
     return tau * float(found.value) if found.unit is None else found.si
 
 
@@ -95,7 +97,7 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
 
 
 def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, high: float = _MOST) -> float:
-    """Parse a plain number within a range; reject a number whose square would underflow. Raises `GearTrainError`."""
+    """Parse a number within a range; reject a number whose square would underflow. Raises `GearTrainError`."""
     found = float(exact(place, text, what, such_as, low, high))
     if found and abs(found) < 1 / _MOST:
         raise GearTrainError(

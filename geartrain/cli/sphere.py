@@ -46,7 +46,12 @@ def run(
         ),
     ] = "faces",
     teeth: Annotated[
-        str | None, typer.Option("--teeth", help="Tooth counts by kind of gear, such as 5=20,3=12.")
+        str | None,
+        typer.Option(
+            "--teeth",
+            help="Tooth count of each kind of gear, such as 5=20,3=12 (20 teeth on gears of five-sided faces, 12 on "
+            "those of triangles).",
+        ),
     ] = None,
     drop: Annotated[
         list[str] | None, typer.Option("--drop", help="Kind of gear, single gear or mesh to omit; may be repeated.")

@@ -142,8 +142,8 @@ def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], need
 def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
     """Return positions (n, 2) of items by stress majorization from a circle in the order of `arrange`.
 
-    The target distance of two items is the length of the shortest path between them (Gansner, Koren and North 2004,
-    Graph drawing by stress majorization, equation 3).
+    The target distance between two items is the length of the shortest path between them (Gansner, Koren and North
+    2004, Graph drawing by stress majorization, equation 3).
 
     lengths   length of each pair, its items in either order
     """
@@ -351,8 +351,8 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the positions of a column of callouts close to the points that they name, with the minimum number of
-    crossing lines.
+    """Return callouts and their heights in a column, close to the points that they label. Callouts with crossing leader
+    lines are swapped, and the order with the fewest crossings found is returned.
     """
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf

@@ -51,7 +51,7 @@ _MINIMUM, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: minimum width and height of a
 _NARROW, _EDGE = 5.0, 0.45  # inches: minimum width of a page, and margin at its right
 _GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
 _FINE = 8.5  # points: font size
-_UPRIGHT = 1.4  # height over width of a page beyond which states are arranged in columns
+_UPRIGHT = 1.4  # height divided by width of a page beyond which states are arranged in columns
 _LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 

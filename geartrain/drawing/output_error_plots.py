@@ -283,7 +283,7 @@ def _speed(panel: Any, trace: _Trace) -> None:
     turns, speed = _curve(panel, trace, trace.speed, trace.first[2])
     if (speed < 0).any():
         panel.fill_between(turns, speed, 0, where=speed < 0, color=RED, alpha=0.6, linewidth=0)
-    panel.set_ylabel(f"{trace.name}\nspeed over mean")
+    panel.set_ylabel(f"{trace.name}\nspeed divided by mean")
 
 
 def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
@@ -344,8 +344,8 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Torque, and losses as equivalent torque (power divided by the mean speed of the link) [N m, or plain number],
-        against turns of the input. Intervals in which the train locks are shaded.
+        Torque, and losses as equivalent torque (power divided by the mean speed of the link) [N m, or
+        number without a unit], against turns of the input. Intervals in which the train locks are shaded.
 
     Raises
     ------

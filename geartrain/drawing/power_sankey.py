@@ -38,7 +38,7 @@ _FINEST = 0.7  # points: minimum width of a band
 _MOST = 300  # maximum number of nodes
 _HEAD, _FOOT = 0.6, 0.45  # inches: margins above and below
 _MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, Path.CLOSEPOLY))
-_ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a quarter circle, over its radius
+_ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a quarter circle, divided by its radius
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:

@@ -45,7 +45,7 @@ from geartrain.drawing.style import (
 )
 from geartrain.kinematics.circuits import Circuit
 
-STEP = 0.62  # inches: minimum distance of two elements
+STEP = 0.62  # inches: minimum distance between two elements
 PLATE, STEM = 2.6, 1.6
 """Line widths of a plate and of its stem [pt]."""
 _HALF, _PLATE = 0.42, 0.11  # inches: half the height of an element, half a plate

@@ -183,7 +183,7 @@ def _pose_at(transmission: TriangularTransmission, alpha1: float | None) -> tupl
 
 
 _FEW = 40  # maximum sum of tooth counts of wheels that are drawn whole
-_SHAPE = 0.68  # height over width of the view of a few teeth
+_SHAPE = 0.68  # height divided by width of the view of a few teeth
 _COLORS = {DRIVER: ORANGE, DRIVEN: SKY}
 _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 

@@ -104,7 +104,7 @@ _LABELS = (
     "driven angle\n$\\alpha_2$ (deg)",
     "speed ratio\n$\\tau$",
     "sliding efficiency\n$\\eta$",
-    "arms of the force\n$b_i$ over pitch radius",
+    "arms of the force\n$b_i$ divided by pitch radius",
 )
 _EFFICIENCY = 2  # index of the panel of efficiency
 _DWELL_DASHES: Any = (0, (0.7, 0.7))  # dashes of a dwell
@@ -509,7 +509,7 @@ def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callab
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)
     yield r"flash temperature $\Theta$", lambda c: c.flash * unit**0.25
-    yield "sliding over pitch-line speed", lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d))
+    yield "sliding divided by pitch-line speed", lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d))
     yield r"power lost over $\mu\,(A+B)\,|X|$ times power", lambda c: c.rub / np.abs(c.X)
 
 

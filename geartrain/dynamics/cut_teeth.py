@@ -75,6 +75,6 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return 0 if a wheel and all its mates are spur wheels, else 1."""
+    """Return 0 for a spur wheel that meshes with no bevel wheel, else 1."""
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

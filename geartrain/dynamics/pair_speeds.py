@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def radians_per_second(train: Train, case: StateCase) -> float | None:
-    """Return the train's unit of speed in rad/s; None if its speeds are plain numbers.
+    """Return the train's unit of speed in rad/s; None if its speeds are numbers without a unit.
 
     Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
     have units.

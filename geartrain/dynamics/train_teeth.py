@@ -48,7 +48,7 @@ class ToothingPlace(Protocol):
 
     @property
     def module(self) -> float:
-        """Pitch diameter over tooth count [mm]."""
+        """Pitch diameter divided by tooth count [mm]."""
 
     @property
     def cone(self) -> float:

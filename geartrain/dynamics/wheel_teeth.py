@@ -53,7 +53,7 @@ class WheelTeeth:
         return max(self.root, self.pins.circle + self.pins.radius)
 
     def section(self) -> tuple[tuple[float, float], ...]:
-        """Return the points of one tooth or pin: radius over pitch radius [1], and angle [rad].
+        """Return the points of one tooth or pin: radius divided by pitch radius [1], and angle [rad].
 
         The section of a tooth extends from mid-space to mid-space; a pin is a closed circle. Arcs are replaced by
         chords.

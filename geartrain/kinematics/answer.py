@@ -125,7 +125,7 @@ class RowResiduals(TypedDict, total=False):
     """JSON keys of float speeds only: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
-    """Row label -> magnitude of the residual over the sum of the magnitudes of the terms of the row [1]."""
+    """Row label -> magnitude of the residual divided by the sum of the magnitudes of the terms of the row [1]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +166,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     place: str
     """File and line where the inputs of the state are declared; empty if the verdict is `determined` as expected."""
     unit: str
-    """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
+    """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for numbers without a unit."""
     verdict: Verdict
     """Verdict on the speeds: determined, or the reason why they are not determined."""
     speeds: Mapping[str, SpeedValue]
@@ -241,7 +241,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     def _meaning(self, column: str) -> str:
         text = self.MEANINGS[column]
-        return text if column == "link" else f"{text[:-1]} [{self.unit or 'plain number'}]."
+        return text if column == "link" else f"{text[:-1]} [{self.unit or 'number without a unit'}]."
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:

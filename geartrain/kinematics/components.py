@@ -91,7 +91,7 @@ class Components:
         """Return the ratio product of the loop that a circuit completes, (20) of docs/theory.md; 1 if the loop can
         turn.
 
-        It is the speed ratio of the circuit over the ratio along the search tree between the same two links.
+        It is the speed ratio of the circuit divided by the ratio along the search tree between the same two links.
         """
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]

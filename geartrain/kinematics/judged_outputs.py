@@ -394,7 +394,7 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Yield the effect of one tooth fewer and one tooth more of each uncertain wheel, by exact solution.
+    """Yield the exact change of each output when an uncertain wheel has one tooth fewer or one tooth more.
 
     solve_with   function that solves the train with other circuits, and returns the function for relative speeds
     """

@@ -60,7 +60,7 @@ class ChebyshevSeries:
 
     @property
     def tail(self) -> float:
-        """Maximum magnitude of the last four coefficients over the maximum of all, as a measure of convergence."""
+        """Maximum magnitude of the last four coefficients divided by the maximum of all, which measures convergence."""
         size = np.abs(self.coefficients)
         return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
 

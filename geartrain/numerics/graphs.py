@@ -84,7 +84,7 @@ class RatioSets(Generic[V]):
         self._above: dict[V, tuple[V, Fraction]] = {}
 
     def root(self, thing: V) -> tuple[V, Fraction]:
-        """Return the representative of a quantity's set, and the quantity over its representative."""
+        """Return the representative of a quantity's set, and the quantity divided by its representative."""
         way = []
         while (step := self._above.get(thing)) is not None:
             way.append((thing, step[1]))

@@ -120,8 +120,8 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm and plain
-    numbers.
+    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm and numbers
+    without a unit.
     """
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
@@ -138,7 +138,7 @@ def nearest_unit(unit: str, dimension: str) -> str:
     if re.search(r"\b(year|yr|month)s?\b", unit):
         return (
             "a calendar unit has several lengths: declare it for all speeds, such as "
-            "`unit: {per: year_tropical_J2000}`, and write plain numbers"
+            "`unit: {per: year_tropical_J2000}`, and write numbers without a unit"
         )
     spelt = {name.casefold(): name for name, meant in SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
@@ -324,7 +324,7 @@ class Quantity:
     value: Fraction
     """Number in the written unit, exact."""
     unit: str | None
-    """Unit as written; None for a plain number."""
+    """Unit as written; None for a number without a unit."""
     text: str
     """Text of the quantity as written."""
 
@@ -336,17 +336,17 @@ class Quantity:
 
     @property
     def dimension(self) -> str | None:
-        """Dimension, such as length, angle, time, speed or torque (see `UNITS`); None for a plain number."""
+        """Dimension, such as length, angle, time, speed or torque (see `UNITS`); None for a number without a unit."""
         return None if self.unit is None else scale(self.unit)[0]
 
     @property
     def base(self) -> Fraction:
-        """Value in base units (m, turn, s, turn/s, N m and others in `UNITS`); a plain number is unchanged."""
+        """Value in base units (m, turn, s, turn/s, N m and others in `UNITS`); a number without a unit is unchanged."""
         return self.value if self.unit is None else self.value * scale(self.unit)[1]
 
     @property
     def si(self) -> float:
-        """Value in SI units (m, rad, s, rad/s, N m and others); a plain number is unchanged."""
+        """Value in SI units (m, rad, s, rad/s, N m and others); a number without a unit is unchanged."""
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -364,7 +364,7 @@ class Quantity:
             length, angle, time, speed, velocity, torque, inertia, mass, density, pressure, torsional stiffness,
             stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
-            True to allow a plain number without unit; 0 is always allowed.
+            True to allow a number without a unit; 0 is always allowed.
 
         Raises
         ------
@@ -432,7 +432,7 @@ def in_unit(speed: Quantity, unit: str) -> Fraction:
 
 
 def millimetres(length: Quantity) -> Fraction:
-    """Return a length [mm], exact; a plain number is a length in mm.
+    """Return a length [mm], exact; a number without a unit is a length in mm.
 
     >>> millimetres(Quantity.parse("1.5 cm", "length", plain=True))
     Fraction(15, 1)
@@ -498,7 +498,9 @@ def above_zero(fix: str) -> AfterValidator:
 
     def check(given: Figure | Quantity) -> Figure | Quantity:
         if given.value <= 0:
-            raise PydanticCustomError("bound", "{text} is not above 0", {"text": given.text, "fix": fix})
+            raise PydanticCustomError(
+                "bound", "the value must be greater than 0, not {text}", {"text": given.text, "fix": fix}
+            )
         return given
 
     return AfterValidator(check)

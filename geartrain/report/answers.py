@@ -295,7 +295,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
     """Return a time as text: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
 
-    Return a plain number if the train has no unit of time.
+    Return a number without a unit if the train has no unit of time.
     """
     if declared.unit_days is None:
         return figure(units, 7)

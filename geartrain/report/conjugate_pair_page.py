@@ -92,10 +92,10 @@ def _path(design: PairDesign) -> Section:
 
 
 _LOADED = {
-    "loss": "mean loss over friction",
-    "stress": "maximum Hertz pressure over the root of tangential force",
+    "loss": "mean loss divided by friction",
+    "stress": "maximum Hertz pressure divided by the root of tangential force",
     "off_pitch": "the same more than a tenth of a pitch from the pitch point",
-    "heat": "maximum heat per area over friction times tangential force",
+    "heat": "maximum heat per area divided by friction times tangential force",
     "flash": "maximum flash temperature (proxy)",
 }
 
@@ -106,9 +106,9 @@ def _losses_and_stresses(found: DesignLosses) -> Section:
     loads = found.measures.one_pair, found.measures.shared
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
     free = [
-        ("maximum sliding over the pitch-line speed", cost(found.sliding)),
+        ("maximum sliding divided by the pitch-line speed", cost(found.sliding)),
         ("maximum sliding over the contact's speed along a flank", cost(found.specific_sliding)),
-        ("minimum speed along a dedendum over the pitch-line speed", cost(found.measures.slowest)),
+        ("minimum speed along a dedendum divided by the pitch-line speed", cost(found.measures.slowest)),
     ]
     text = (
         f"To first order in friction. One pair: {ONE_PAIR}; the loss is the mean along the path. Shared: {SHARED}; "
@@ -244,8 +244,8 @@ def _base(found: FormComparison) -> Section:
     rows += [(_header(name), *[cost(getattr(base, name))] * 2) for name in FREE]
     unit = "rad on the unit sphere" if found.path.pitch.bevel else "modules"
     text = (
-        f"Values of the 20 degree involute, lengths in {unit}: mean loss over friction; maximum Hertz pressure as the "
-        "root of curvature over cos psi; maximum heat over friction times tangential force."
+        f"Values of the 20 degree involute, lengths in {unit}: mean loss divided by friction; maximum Hertz pressure as "
+        "the root of curvature divided by cos psi; maximum heat divided by friction times tangential force."
     )
     return Section("The involute of 20 deg", (text,), (Table(("quantity", "one pair", "shared"), rows),))
 

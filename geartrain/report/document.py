@@ -305,7 +305,7 @@ def exact(value: Fraction | Real | None) -> str:
 
 
 def one_to(ratio: Fraction | Real | None) -> str:
-    """Return a ratio output over input as text: `1 : n`, or `n : 1` if the output is faster than the input."""
+    """Return a ratio output divided by input as text: `1 : n`, or `n : 1` if the output is faster than the input."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:

@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 _DIGITS = 5  # significant digits of ratios, torques and efficiencies
 _MOST = 12  # combinations of closed elements that are listed
 _RATIOS = (
-    "Ratio: input speed over output speed; step: ratio over that of the next state. Recirculating: power that "
-    "circulates between gear sets, over power in; within sets: power that circulates within a gear set."
+    "Ratio: input speed divided by output speed; step: ratio divided by that of the next state. Recirculating: power "
+    "that circulates between gear sets, divided by power in; within sets: power that circulates within a gear set."
 )
 _TORQUES = (
-    "Torques over the input torque, driven from the input: of a brake on the link it holds, of a clutch on the first "
-    "of the two links it locks. `open`: not determined by statics."
+    "Torques divided by the input torque, driven from the input: of a brake on the link it holds, of a clutch on the "
+    "first of the two links it locks. `open`: not determined by statics."
 )
 _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and speed of the input."
 

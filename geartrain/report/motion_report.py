@@ -377,10 +377,10 @@ def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
                 figure(tally.ratio, 9),
                 f"{degrees(tally.peak_to_peak):.6g}",
                 f"{degrees(tally.rms):.6g}",
-                f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (over the input's)"),
+                f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (divided by the input's)"),
             )
         )
-    return Table(("output", "mean speed", *_deviation_heads(deviation), "speed over its mean"), rows)
+    return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 
 
 def _deviation_heads(deviation: str) -> tuple[str, str]:
@@ -442,7 +442,7 @@ def _random_phases(run: MotionRun) -> Section:
         errors = (f"{degrees(low):.5g}..{degrees(high):.5g}" for low, high in _phase_range(sets) or ())
         lows, highs = zip(*(each.speeds for each in sets), strict=True)
         rows.append((tally.name, *errors, f"{min(lows):.5f}..{max(highs):.5f}"))
-    header = ("output", *_deviation_heads(run.motion._problem.deviation), "speed over its mean")
+    header = ("output", *_deviation_heads(run.motion._problem.deviation), "speed / mean speed")
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     return Section("Random phases", (text,), (Table(header, rows),))
 

@@ -410,7 +410,7 @@ def _collisions(transmission: TriangularTransmission) -> Section:
         for jump in transmission.jumps
     ]
     header = ("begins", "at alpha_1", "tau before", "tau after", "jump")
-    text = "Jump: 1 - before/after, the jump of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
+    text = "Jump: 1 - before/after, the jump of normal velocity divided by the driver's (Eqs. 22, 25, 26, 27)."
     return Section("Collisions", (text,), (Table(header, rows),))
 
 

@@ -38,7 +38,7 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
     header = ("output", *(label for label, _, _ in columns))
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
     summary = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
-    units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
+    units = dict.fromkeys(train.declaration.unit_name or "numbers without a unit" for train in trains)
     summary += [
         f"'{label}' is {answer.verdict.kind}: {answer.verdict.text}"
         for label, _, answer in columns

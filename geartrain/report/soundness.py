@@ -155,7 +155,9 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return the unit of a train's speeds in turns per second; None if speeds are plain numbers without a rate."""
+    """Return the unit of a train's speeds in turns per second; None if speeds are numbers without a unit without a
+    rate.
+    """
     if declared.unit_speed is not None:
         return declared.unit_speed
     case = declared.case(answer.state)

@@ -58,7 +58,7 @@ class DrivenFigures:
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power out over power in; None if it is not determined."""
+        """Power out divided by power in; None if it is not determined."""
         return self.way.torques.efficiency if self.verdict else None
 
     @property
@@ -84,7 +84,7 @@ class TorqueFigures(Result):
     drives: DrivenWays | None
     """Efficiencies in both directions; None if the train has not exactly one output."""
     watts_per_unit: float | None
-    """Watts per unit of power (torque unit times speed unit); None if torques or speeds are plain numbers."""
+    """Watts per unit of power (torque unit times speed unit); None if torques or speeds are numbers without a unit."""
     in_newton_metres: bool
     """True if torques are in N m, False if they are in the unit of the loads."""
     flow: PowerFlow
@@ -482,7 +482,7 @@ def _shares(found: TorqueCycle) -> Iterator[str]:
 
 def _efficiency(found: TorqueCycle) -> Iterator[str]:
     if found.efficiency:
-        yield f"Efficiency, energy out over energy in: {figure(found.efficiency, 10)}."
+        yield f"Efficiency, energy out divided by energy in: {figure(found.efficiency, 10)}."
     elif found.energy is not None and found.energy.net_in > 0:
         yield "No net energy is taken out: all energy put in is lost."
 

@@ -53,7 +53,7 @@ class TrainAnswers(Result):
 
     @property
     def unit(self) -> str:
-        """Unit of the speeds; "" for plain numbers."""
+        """Unit of the speeds; "" for numbers without a unit."""
         return self.train.declaration.unit_name
 
 

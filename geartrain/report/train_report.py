@@ -202,7 +202,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     seen = side if side in _SIDES else f"the {side}"
     clock = f"; positive is {declared.view.positive} seen from {seen}" if side else ""
     yield (
-        f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
+        f"Speeds are in {unit}" if unit else "Speeds are numbers without a unit"
     ) + f", absolute, about each link's own axis{clock}."
     yield f"Train '{declared.name}'" + (f", an extension of '{declared.extends}'." if declared.extends else ".")
     if declared.note:

@@ -90,13 +90,13 @@ Points = tuple[tuple[float, float], ...]
 FORM = "likeness"
 _PRESSURE = pi / 9
 _BACKLASH = 0.02  # circumferential backlash per tooth, in pitches
-_MINIMUM_ROOT = 0.2  # minimum root radius over the pitch radius: with few teeth little is left
-_ROOM = 0.92  # maximum half width of a tooth at the root, over half a pitch
+_MINIMUM_ROOT = 0.2  # minimum root radius divided by the pitch radius: with few teeth little is left
+_ROOM = 0.92  # maximum half width of a tooth at the root, divided by half a pitch
 _POINTS = 10  # points of a flank
 _PASSING = 0.12  # height (modules) per tooth of difference between ring and wheel
 _CROWN_BACKLASH = 0.06  # pitches: no rack meshes with a crown's flanks, so its teeth are thinner
 _STEP = pi / 18  # rad between points of a thread's section, as a worm has few threads
-_LAND = 0.08  # minimum half width of a tip, over half a pitch
+_LAND = 0.08  # minimum half width of a tip, divided by half a pitch
 
 
 def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
@@ -297,8 +297,8 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.approximations), []).append(wheel)
     for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
-        drawn = "drawn as for their first pairs" if of_first else "drawn approximately"
-        yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
+        drawn = "drawn with the teeth for the first pair of each" if of_first else "drawn approximately"
+        yield Problem(f"the wheels {names} are {drawn}: {what}", why, fix)
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
         if own.flexible and name not in bent:

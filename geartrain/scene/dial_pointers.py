@@ -139,14 +139,14 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
 Key = tuple[str, str, str]
 """Key of a dial: its name, the link on which it is mounted, and the axis of the pointer that is read on it."""
 
-_APART = 0.96  # maximum sum of the radii of two neighbours, over their distance
-_SPIRAL = 1.8  # radius of a spiral over that of a circle next to it
-_NESTED = 0.74  # radius over that of the dial around it
-_OUT, _BALL = 0.5, 0.07  # distance of a ball from the axis, and its radius, over the radius of its dial
-_LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes over the radius of the dial
+_APART = 0.96  # maximum sum of the radii of two neighbours, divided by their distance
+_SPIRAL = 1.8  # radius of a spiral divided by that of a circle next to it
+_NESTED = 0.74  # radius divided by that of the dial around it
+_OUT, _BALL = 0.5, 0.07  # distance of a ball from the axis, and its radius, divided by the radius of its dial
+_LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes divided by the radius of the dial
 _PARTS = 4000  # integer units of an engraving in a radius
-_MINIMUM = 0.3  # minimum width of a side for the size of its dials, over the train's width
-_GAP = 0.04  # gap between wheels and dials, and between dials, over the train's width
+_MINIMUM = 0.3  # minimum width of a side for the size of its dials, divided by the train's width
+_GAP = 0.04  # gap between wheels and dials, and between dials, divided by the train's width
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:

@@ -201,12 +201,12 @@ _MARKS = 400  # maximum number of divisions per turn of which each is drawn
 _SHORT, _LONG = 0.032, 0.05  # lengths of borders, and of those at numerals
 _TALL, _MINIMUM = 0.068, 0.03  # normal and minimum height of letters
 _BAND = 0.1  # from a rim to the middle of the text along it
-_FULL = 0.86  # maximum length of a name over that of its divisions
-_APART = 0.5  # gap between numerals over their height
+_FULL = 0.86  # maximum length of a name divided by that of its divisions
+_APART = 0.5  # gap between numerals divided by their height
 
 Kind = Literal["rim", "fine", "bold", "letters"]
 _WIDTHS: dict[Kind, float] = {"rim": 0.005, "fine": 0.003, "bold": 0.007}
-_PEN = 0.12  # line width over the height of letters
+_PEN = 0.12  # line width divided by the height of letters
 
 
 @dataclass(frozen=True, slots=True)

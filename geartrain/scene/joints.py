@@ -109,7 +109,7 @@ def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftEle
 
 # default ratio of offset to pin radius
 _LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0, "pins_in_holes": 0.1}
-_PART = 0.65  # default diameter of a hole over the distance of two pins
+_PART = 0.65  # default diameter of a hole divided by the distance between two pins
 _REACH = 10.0  # default pin radius (mm)
 _NONE = 1e-9  # mm: smaller distances are rounding errors
 

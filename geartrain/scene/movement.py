@@ -167,7 +167,7 @@ _DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table
 
 
 def step_of(step: Composed) -> ErrorStep:
-    """Return a step of a composition as plain numbers."""
+    """Return a step of a composition as built-in numbers."""
     return ErrorStep(
         bodies=step.links,
         known=step.known,

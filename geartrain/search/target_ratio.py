@@ -298,7 +298,7 @@ def _figure_of(term: _Term) -> Fraction:
 
 
 def _describe(term: _Term) -> str:
-    words = {"number": "a plain number", "things": "a count", "time": "a period"}
+    words = {"number": "a number without a unit", "things": "a count", "time": "a period"}
     return words.get(term.kind, f"a {term.kind}") + (f" ({_short(term.note)})" if term.note else "")
 
 

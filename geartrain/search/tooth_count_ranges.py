@@ -221,5 +221,5 @@ def _last(span: tuple[int, int]) -> int:
     return span[1]
 
 
-def _problem(what: str, why: str, better: str = "15:120, 30,36,48 or 12:40,48,60") -> QuestionError:
+def _problem(what: str, why: str, better: str = "'15:120', '30,36,48' or '12:40,48,60'") -> QuestionError:
     return QuestionError(Problem(what, why, f"write for example {better}"))

@@ -52,8 +52,8 @@ def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple
 
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Return the sum of (-1)^k z_k alpha_k / 2 pi over every loop [pitch], and its derivative by displacements of the
-    axes.
+    """Return the sum of (-1)^k z_k alpha_k / 2 pi over every loop [pitch], and its derivative with respect to
+    displacements of the axes.
 
     The angle alpha_k, 0 to 2 pi, at gear k is measured counterclockwise from its next to its previous contact.
     """
@@ -69,9 +69,11 @@ def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats
 
 
 def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Return the logarithm of the operating pitch of every mesh, and its derivative by displacements of the axes.
+    """Return the logarithm of the operating pitch of every mesh, and its derivative with respect to displacements of
+    the axes.
 
-    The derivative by the axis angle is d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i z_j cos S).
+    The derivative with respect to the axis angle is d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i
+    z_j cos S).
     """
     from scipy.sparse import diags_array
 
@@ -164,8 +166,8 @@ def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
     """Return whether the tangencies of cones about these axes are linearly dependent; False, without a test, above 600
     meshes.
 
-    The test computes the rank of the derivative of the angles by the axes and by one more unknown, the pitch, which
-    changes all cones.
+    The test computes the rank of the derivative of the angles with respect to the axes and one more unknown, the pitch,
+    which changes all cones.
     """
     if len(meshes) > _MOST_DENSE:
         return False

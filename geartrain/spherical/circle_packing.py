@@ -37,7 +37,7 @@ def angle_excess(u: Floats, i: Ints, j: Ints, target: Floats) -> Floats:
 
 
 def stiffness(u: Floats, i: Ints, j: Ints) -> Floats:
-    """Return the derivative of 2 atan(r_j/r_i) by u_j for each pair: 1 / cosh(u_j - u_i)."""
+    """Return the derivative of 2 atan(r_j/r_i) with respect to u_j for each pair: 1 / cosh(u_j - u_i)."""
     return np.asarray(1 / np.cosh(u[j] - u[i]), dtype=float)
 
 

@@ -122,7 +122,7 @@ def one_pitch(configuration: Configuration) -> float:
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
-    """Return operating cones, pitches and pressure angles of all meshes, by equation (1) of docs/sphere.md.
+    """Return the operating pitch cones, pitches and pressure angles of all meshes, by equation (1) of docs/sphere.md.
 
     All gears have a common base pitch, so that spherical involutes keep the ratio at any operating pitch
     (docs/sphere.md, section 4).

@@ -154,7 +154,8 @@ def moved(axes: Floats, steps: Floats) -> Floats:
 
 
 def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, csr_array]:
-    """Return the angle S between the axes of each pair [rad], and its derivative by the displacements of `moved`.
+    """Return the angle S between the axes of each pair [rad], and its derivative with respect to the displacements of
+    `moved`.
 
     The derivative is dS = -tau_ij . dn_i - tau_ji . dn_j, with tau_ij the unit tangent at i towards j. Columns 2 i and
     2 i + 1 belong to axis i.
@@ -167,7 +168,8 @@ def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, 
 
 
 def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
-    """Return the derivative of the azimuth psi of axis `to` about axis `at` by the displacements of `moved`.
+    """Return the derivative of the azimuth psi of axis `to` about axis `at` with respect to the displacements of
+    `moved`.
 
     The derivative is d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S. The frame at i is transported in
     parallel, so only differences of azimuths about one axis have a meaning.

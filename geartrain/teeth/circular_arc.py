@@ -139,13 +139,21 @@ class CircularArc(ToothForm):
         for name in ("addendum", "radius", "thickness"):
             for figure in getattr(self, name) or ():
                 if figure.value <= 0:
-                    raise bad("length", f"{name} {figure.text} is not above 0", "give a number of modules above 0")
+                    raise bad(
+                        "length",
+                        f"{name} must be greater than 0, not {figure.text}",
+                        "give a number of modules above 0",
+                    )
         if self.thickness is not None and self.backlash is not None:
             raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
         if self.backlash is not None and not self.backlash.value >= 0:
             raise bad("backlash", f"a backlash of {self.backlash.text} would jam the teeth", "give 0 or more")
         if self.centre_distance is not None and self.centre_distance.value <= 0:
-            raise bad("length", f"centre_distance {self.centre_distance.text} is not above 0", "give a length above 0")
+            raise bad(
+                "length",
+                f"centre_distance must be greater than 0, not {self.centre_distance.text}",
+                "give a length above 0",
+            )
         return self
 
     # ----------------------------------------------------------------------------------------------- teeth of a pair

@@ -25,7 +25,7 @@ from geartrain.numerics.quantity import Figure, Friction, parse_friction
 
 
 class CoulombFriction(BaseModel):
-    """Coulomb friction: friction force over normal force, independent of the sliding speed.
+    """Coulomb friction: friction force divided by normal force, independent of the sliding speed.
 
     A bare number is the coefficient `sliding`.
     """

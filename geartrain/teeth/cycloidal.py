@@ -48,7 +48,7 @@ class Cycloidal(ConjugateToothForm):
     )
     rolling_fraction: TwoFigures | None = Field(
         None,
-        description="Radius of the rolling circle over the pitch radius of the wheel whose dedendum it generates "
+        description="Radius of the rolling circle divided by the pitch radius of the wheel whose dedendum it generates "
         "(with a ring, of the pinion), one value, or a list of two (approach, recess); default 1/2, radial flanks",
     )
     arcs: TwoFigures | None = Field(
@@ -73,7 +73,11 @@ class Cycloidal(ConjugateToothForm):
             )
         for circle in (*(self.rolling or ()), *(self.rolling_fraction or ())):
             if circle.value <= 0:
-                raise bad("rolling", f"a rolling circle of {circle.text} is not above 0", "give a radius above 0")
+                raise bad(
+                    "rolling",
+                    f"the radius of a rolling circle must be greater than 0, not {circle.text}",
+                    "give a radius above 0",
+                )
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
             raise bad(
                 "rolling",
@@ -100,7 +104,9 @@ class Cycloidal(ConjugateToothForm):
         if "backlash" in self.model_fields_set:
             raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
         if (minimum := min(thickness, key=lambda each: each.value)).value <= 0:
-            raise bad("length", f"a thickness of {minimum.text} is not above 0", "give a number of modules above 0")
+            raise bad(
+                "length", f"a thickness must be greater than 0, not {minimum.text}", "give a number of modules above 0"
+            )
         if (both := sum(float(each.value) for each in thickness)) > pi:
             fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
             raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)

@@ -35,8 +35,8 @@ _RING_CLEARANCE = 0.1  # modules: clearance between the lobes and the ring behin
 _WORDS = (
     "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
     "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
-    "`deflection` of a pin is given. Max load: maximum load on one pin over the force on the disc's pitch circle, for "
-    "pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the "
+    "`deflection` of a pin is given. Max load: maximum load on one pin divided by the force on the disc's pitch circle, "
+    "for pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the "
     "pair is driven, and driven back."
 )
 _HEADER = (
@@ -77,7 +77,7 @@ class CycloidalDisc:
 
     @property
     def shortening(self) -> float:
-        """Pitch radius of the ring over the radius of the pin circle, below 1: docs/reducers.md (1)."""
+        """Pitch radius of the ring divided by the radius of the pin circle, below 1: docs/reducers.md (1)."""
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
@@ -114,7 +114,7 @@ class CycloidalDisc:
 
     def _centre_curvature(self, turn: Floats) -> Floats:
         """Return the curvature of the pin-centre curve [1/module], positive where it is convex."""
-        # first and second derivative of `centres` by the angle of the eccentric
+        # first and second derivative of `centres` with respect to the angle of the eccentric
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
         first = 1j * (R / z * slow - e * (z + 1) / z * fast)
@@ -152,7 +152,7 @@ class CycloidalDisc:
         return found
 
     def loads(self, phase: Floats) -> Floats:
-        """Return the forces on all pins over the tangential force at the disc's pitch circle, shape (pins, ...):
+        """Return the forces on all pins divided by the tangential force at the disc's pitch circle, shape (pins, ...):
         docs/reducers.md (5).
 
         phase   angle of one pin from the line of centres (rad)
@@ -197,8 +197,8 @@ class CycloidalDisc:
         return found
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
-        """Return the load-weighted mean sliding speed over the pitch-line speed, and the power loss over the friction
-        coefficient.
+        """Return the load-weighted mean sliding speed divided by the pitch-line speed, and the power loss divided by
+        the friction coefficient.
 
         phase   angle of one pin from the line of centres (rad)
         """
@@ -210,12 +210,12 @@ class CycloidalDisc:
 
     @cached_property
     def maximum_load(self) -> float:
-        """Maximum force on a pin over the tangential force at the disc's pitch circle."""
+        """Maximum force on a pin divided by the tangential force at the disc's pitch circle."""
         return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
 
     @property
     def loss(self) -> float:
-        """Mean power loss over a pitch, as a fraction of the power, over the friction coefficient."""
+        """Mean power loss over a pitch, as a fraction of the power, divided by the friction coefficient."""
         return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
@@ -377,11 +377,11 @@ class DiscFigures(PairFigures):
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
     shortening: float
-    """Pitch radius of the ring over the radius of the pin circle."""
+    """Pitch radius of the ring divided by the radius of the pin circle."""
     pin_radius: float
     """Radius of a pin [module]."""
     maximum_load: float
-    """Maximum force on a pin over the tangential force at the disc's pitch circle."""
+    """Maximum force on a pin divided by the tangential force at the disc's pitch circle."""
     bearing: tuple[int, int]
     """Minimum and maximum number of pins that carry load at the same time."""
 

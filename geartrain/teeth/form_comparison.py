@@ -46,7 +46,7 @@ class MeasuredForm(Result):
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
-    """Losses and loads over the values of the involute; None for teeth that cannot run."""
+    """Losses and loads divided by the values of the involute; None for teeth that cannot run."""
     faults: tuple[ToothFault, ...] = ()
     """Faults that prevent the teeth from running, of kind "refused" if the form rejects the wheels."""
 

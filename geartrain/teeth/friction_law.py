@@ -100,7 +100,7 @@ def _invalid(what: str, fix: str) -> PydanticCustomError:
 
 def _positive(value: Any) -> Any:
     if value.value <= 0:
-        raise _invalid(f"{value.text} is not above 0", "give a number above 0")
+        raise _invalid(f"the value must be greater than 0, not {value.text}", "give a number above 0")
     return value
 
 
@@ -226,7 +226,7 @@ class DokosFriction(FrictionLaw):
 
 
 class TabulatedFriction(FrictionLaw):
-    """Friction interpolated linearly between tabulated speeds and coefficients.
+    """Coefficient of friction, interpolated linearly in a table of speeds.
 
     Examples
     --------
@@ -325,7 +325,7 @@ class PairFriction(Shown):
     """Pitch-line speed [m/s]: one value, or one for each position."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
-        """Return the coefficient at sliding speeds over the pitch-line speed; NaN where `sliding` is NaN (no
+        """Return the coefficient at sliding speeds divided by the pitch-line speed; NaN where `sliding` is NaN (no
         contact).
         """
         import numpy as np

@@ -92,7 +92,11 @@ class Involute(ConjugateToothForm):
         for name in ("addendum", "dedendum"):
             for height in getattr(self, name):
                 if height.value <= 0:
-                    raise bad("height", f"{name} {height.text} is not above 0", "give a number of modules above 0")
+                    raise bad(
+                        "height",
+                        f"{name} must be greater than 0, not {height.text}",
+                        "give a number of modules above 0",
+                    )
         for name in ("shift", "addendum", "dedendum"):
             for length in getattr(self, name):
                 if abs(length.value) > _MOST_MODULES:

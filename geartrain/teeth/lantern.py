@@ -75,7 +75,7 @@ class Lantern(ConjugateToothForm):
         lengths = {"pin_diameter": self.pin_diameter, "pin_radius": self.pin_radius, "addendum": self.addendum}
         for name, length in lengths.items():
             if length is not None and length.value <= 0:
-                raise bad("length", f"{name} {length.text} is not above 0", "give a length above 0")
+                raise bad("length", f"{name} must be greater than 0, not {length.text}", "give a length above 0")
         if self.arcs is not None and self.addendum is not None:
             raise bad(
                 "arcs", "arcs and addendum are both given", "remove `arcs` or `addendum`: each determines the other"

@@ -57,7 +57,7 @@ class LeastFriction(ConjugateToothForm):
         None, description="Pitch-line speed for which the teeth are designed, required with friction_law"
     )
     margin: Figure | None = Field(
-        None, description="Minimum speed of the contact along a dedendum over the pitch-line speed; default 0.15"
+        None, description="Minimum speed of the contact along a dedendum divided by the pitch-line speed; default 0.15"
     )
     literal: bool = Field(
         False, description="Use the extremal printed in the source, on one side only, with falling pressure_angles"

@@ -132,4 +132,4 @@ class PairSize:
     distance: float
     """Centre distance [module]."""
     stretch: float
-    """Centre distance over the distance at which the pitch circles touch."""
+    """Centre distance divided by the distance at which the pitch circles touch."""

@@ -302,11 +302,11 @@ class PinFigures(Result):
     """Results of a pin in a slot."""
 
     pin_radius: float
-    """Distance of the pin from its axis [m, or the plain unit of the declaration]."""
+    """Distance of the pin from its axis [m, or the unit of the declared lengths]."""
     offset: float
-    """Distance between the two axes [m, or the plain unit of the declaration]."""
+    """Distance between the two axes [m, or the unit of the declared lengths]."""
     speed_ratio: SpeedRatio
-    """Speed ratio, driven side over driver."""
+    """Speed ratio, driven side divided by driver."""
     amplitude: float
     """Maximum transmission error [rad]."""
     transmission_error: TransmissionError
@@ -342,7 +342,7 @@ class PairFigures(Result):
     verdict: PairVerdict
     """Verdict on whether these teeth can run."""
     speed_ratio: SpeedRatio | None
-    """Speed ratio, driven over driver; None for teeth that cannot run."""
+    """Speed ratio, driven divided by driver; None for teeth that cannot run."""
     transmission_error: TransmissionError | None
     """Transmission error of the driven wheel; None for teeth that cannot run."""
     efficiency: SlidingEfficiency | None

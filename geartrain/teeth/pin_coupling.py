@@ -116,7 +116,7 @@ class _ParallelCoupling(_Coupling):
             length = getattr(self, name, None)
             if length is not None and length.value <= 0:
                 said = {"name": name, "text": length.text, "fix": "give a length above 0"}
-                raise PydanticCustomError("pin", "{name} {text} is not above 0", said)
+                raise PydanticCustomError("pin", "{name} must be greater than 0, not {text}", said)
         return self
 
     @property
@@ -186,7 +186,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
     if offset.value and (radius.unit is None) != (offset.unit is None):
         raise PydanticCustomError(
             "pin",
-            "pin_radius {radius} and offset {offset} mix a plain number and a length with a unit",
+            "pin_radius {radius} and offset {offset} mix a number without a unit and a length with a unit",
             {"radius": radius.text, "offset": offset.text, "fix": "give both with a unit, or both without"},
         )
     r, e = radius.base, offset.base
@@ -231,8 +231,8 @@ def pin_transmission(
 ) -> PinTransmission:
     """Return the transmission function of a pin in a slot with either side driving.
 
-    `offset` is the distance of the two axes, in the unit of `pin_radius`. Raises `RangeError` if the coupling cannot
-    turn; the place of the error is `driver` or `friction` if that value must be changed.
+    `offset` is the distance between the two axes, in the unit of `pin_radius`. Raises `RangeError` if the coupling
+    cannot turn; the place of the error is `driver` or `friction` if that value must be changed.
     """
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 

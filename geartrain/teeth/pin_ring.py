@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.pair_results import PairFigures
 
-_SHORTENING = 0.7  # default pitch radius of the ring over the radius of the pin circle
-_PIN_SPACING = 1.7  # default distance of two pins over the diameter of a pin
+_SHORTENING = 0.7  # default pitch radius of the ring divided by the radius of the pin circle
+_PIN_SPACING = 1.7  # default distance between two pins divided by the diameter of a pin
 
 
 class PinRing(ToothForm):
@@ -68,7 +68,7 @@ class PinRing(ToothForm):
         for name in ("pin_circle", "pin_diameter", "deflection"):
             length = getattr(self, name)
             if length is not None and length.value <= 0:
-                raise bad("length", f"{name} {length.text} is not above 0", "give a length above 0")
+                raise bad("length", f"{name} must be greater than 0, not {length.text}", "give a length above 0")
         if self.clearance.value < 0:
             raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "give 0 or more")
         return self
@@ -179,8 +179,9 @@ class PinRing(ToothForm):
 
         if z2 != z1 + 1:
             raise refused(
-                f"a disc of {z1} lobes does not roll in {z2} pins",
-                "the ring has one pin more than the disc has lobes: a turn of the eccentric moves the disc by one pin",
+                f"a disc with {z1} lobes does not mesh with {z2} pins",
+                "the ring must have one pin more than the disc has lobes, so that each turn of the eccentric advances "
+                "the disc by one pin pitch",
                 f"give the ring {z1 + 1} pins",
             )
         return DiscTransmission(self.disc(z1, module), friction, driver)

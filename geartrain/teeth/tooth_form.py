@@ -38,7 +38,7 @@ TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("n
 """Field type: one number for both wheels, or a list of two."""
 
 TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
-"""Field type: one length for both wheels, or a list of two; plain numbers are modules."""
+"""Field type: one length for both wheels, or a list of two; numbers without a unit are modules."""
 
 
 class ToothForm(BaseModel, ABC):

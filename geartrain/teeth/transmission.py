@@ -57,11 +57,11 @@ class ContactRubbing(NamedTuple):
     """
 
     sliding: Floats
-    """Sliding speed over pitch-line speed, 0 or more."""
+    """Sliding speed divided by pitch-line speed, 0 or more."""
     into: Floats
-    """Change of the input power of a contact per unit friction coefficient, over the power without friction."""
+    """Change of the input power of a contact per unit friction coefficient, divided by the power without friction."""
     out: Floats
-    """Change of the output power of a contact per unit friction coefficient, over the power without friction."""
+    """Change of the output power of a contact per unit friction coefficient, divided by the power without friction."""
 
 
 class TransmissionFunction(Shown, ABC):

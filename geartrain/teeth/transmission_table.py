@@ -36,7 +36,7 @@ _BLOCK = 8192  # angles evaluated at once: their arrays and the table fit into a
 _FEWEST, _MOST = 32, 1 << 16  # minimum and maximum number of cells
 _PATIENCE = 8  # an error not halved by this factor of cells is rounding error
 _THIN = 1e-12  # periods: in narrower cells the table is constant
-_SAFETY = 2.0  # stated uncertainty over the maximum error found
+_SAFETY = 2.0  # stated uncertainty divided by the maximum error found
 # degree 6 follows a function to rounding error in 32 to 512 cells: with a higher degree the fit itself has larger
 # rounding errors, with a lower degree the tables do not fit into the cache
 KERNEL_DEGREE = 6
@@ -93,7 +93,7 @@ class CellTable:
         return np.sort(np.concatenate((uniform, self.kinks)))
 
     def derivative(self) -> CellTable:
-        """Return the table of the derivative by the driver angle on the same cells.
+        """Return the table of the derivative with respect to the driver angle on the same cells.
 
         Its `uncertainty` is not updated and remains the uncertainty of the function.
         """

@@ -51,7 +51,7 @@ class UniformTemperature(ConjugateToothForm):
         "b, with a minimum pressure angle)",
     )
     heat: Figure | None = Field(
-        None, description="Heat per area over friction times tangential force; a smaller value makes taller teeth"
+        None, description="Heat per area divided by friction times tangential force; a smaller value makes taller teeth"
     )
     depth: Figure | None = Field(
         None, description="Working depth in modules, instead of heat; default as for the 20 deg involute"
@@ -71,7 +71,7 @@ class UniformTemperature(ConjugateToothForm):
             raise bad("heat", "heat and depth are both given", "remove `heat` or `depth`: each determines the other")
         for name, figure in (("heat", self.heat), ("depth", self.depth)):
             if figure is not None and figure.value <= 0:
-                raise bad(name, f"{name} {figure.text} is not above 0", "give a number above 0")
+                raise bad(name, f"{name} must be greater than 0, not {figure.text}", "give a number above 0")
         if self.minimum_angle is not None:
             if self.reading != "c":
                 raise bad(

@@ -50,7 +50,8 @@ class Epoch(Declared):
     scales.
 
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
-    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a plain text is read as the date.
+    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single text instead of a mapping is
+    the date.
 
     See Also
     --------
@@ -105,7 +106,7 @@ class Epoch(Declared):
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
-"""An epoch, or its date as a plain text."""
+"""An epoch, or its date as a single text."""
 
 
 # ---------------------------------------------------------------------------------------------------- friction in force
@@ -170,7 +171,7 @@ class Train(Declared):
     note: str | None = Field(None, description="Remark for readers")
     frame: Id = Field("frame", description="Fixed link, whose speed is 0")
     unit: SpeedUnit | None = Field(
-        None, description="Unit of all speeds; default plain numbers, or the unit of the inputs"
+        None, description="Unit of all speeds; default numbers without a unit, or the unit of the inputs"
     )
     links: ByName[Annotated[Link, Nothing]] = Field(description="All links with their wheels, by name")
     axes: ByName[Axis] = Field(
@@ -186,7 +187,7 @@ class Train(Declared):
     inputs: ByName[Speed] = Field(
         {},
         validate_default=True,
-        description="Prescribed speeds by link: plain numbers in `unit`, or with a unit such as `30 rpm`",
+        description="Prescribed speeds by link: numbers without a unit in `unit`, or with a unit such as `30 rpm`",
     )
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Required outputs of the train, by name"
@@ -482,7 +483,7 @@ class Train(Declared):
 
     @property
     def unit_speed(self) -> Fraction | None:
-        """Speed of 1 in the unit of the train [turn/s]; None for plain numbers, or if the unit is a length."""
+        """Speed of 1 in the unit of the train [turn/s]; None for numbers without a unit, or if the unit is a length."""
         if self.unit is not None:
             return None if self.unit_days is None else 1 / (self.unit_days * 86400)
         return Quantity(Fraction(1), self.input_unit, "1").base if self.input_unit else None
@@ -518,7 +519,7 @@ class Train(Declared):
 
     @property
     def unit_name(self) -> str:
-        """Name of the unit of speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
+        """Name of the unit of speeds, such as `turns per tropical year` or `rpm`; empty for numbers without a unit."""
         if self.unit is not None:
             row = period_table().get(self.unit.per)
             return f"turns per {(row.what if row else '') or str(self.unit.per).removeprefix('1 ')}"

@@ -110,7 +110,7 @@ def side(raw: object) -> object:
 
 
 def short_for(key: str) -> BeforeValidator:
-    """Return a validator that reads a plain value as `{key: value}`, and null as `{}`."""
+    """Return a validator that reads a value that is not a mapping as `{key: value}`, and null as `{}`."""
 
     def expand(raw: object) -> object:
         if raw is None:

@@ -1,8 +1,8 @@
 """Manufacture of wheels: their materials, and the errors of cutting and mounting by hand.
 
 Materials are a shipped table and the materials that a train declares. Errors are fixed, drawn from a distribution, or
-measured tooth by tooth. A plain number or a percentage is a fraction of the nominal value: a pitch deviation refers to
-the pitch, an aperture deviation to the aperture of the tooth, and a length to the tooth depth.
+measured tooth by tooth. A number without a unit or a percentage is a fraction of the nominal value: a pitch deviation
+refers to the pitch, an aperture deviation to the aperture of the tooth, and a length to the tooth depth.
 """
 
 from __future__ import annotations
@@ -138,7 +138,9 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
 class _DeclaredError(Declared):
-    """A fixed error, or one that is drawn for each tooth, wheel or pair. A plain value is fixed."""
+    """A fixed error, or one that is drawn for each tooth, wheel or pair. A single value instead of a mapping is
+    fixed.
+    """
 
     dimension: ClassVar[str]
 
@@ -167,7 +169,9 @@ class _DeclaredError(Declared):
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random. A plain value is fixed; a number is a fraction of the nominal value."""
+    """Error of an angle, fixed or random. A single value instead of a mapping is fixed; a number is a fraction of the
+    nominal value.
+    """
 
     dimension = "angle or fraction"
 
@@ -177,7 +181,9 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random. A plain value is fixed; a number is a fraction of the tooth depth."""
+    """Error of a length, fixed or random. A single value instead of a mapping is fixed; a number is a fraction of the
+    tooth depth.
+    """
 
     dimension = "length or fraction"
 
@@ -256,7 +262,7 @@ class Filing(Declared):
         if self.stroke.value <= 0:
             raise PydanticCustomError(
                 "error",
-                "a stroke of {text} is not above 0",
+                "a stroke must be greater than 0, not {text}",
                 {
                     "text": self.stroke.text,
                     "fix": "give a length above 0, such as 0.02 mm, or a fraction of the tooth depth",

@@ -84,8 +84,8 @@ FrictionTorque = Annotated[Torque, AfterValidator(_not_negative)]
 
 
 class BearingFriction(Declared):
-    """Friction torque of a bearing, independent of load and speed. In a declaration, a plain torque is read as
-    `sliding`.
+    """Friction torque of a bearing, independent of load and speed. In a declaration, a single torque instead of a
+    mapping sets `sliding`.
 
     See Also
     --------
@@ -107,7 +107,7 @@ class BearingFriction(Declared):
         if self.static is None:
             return self
         if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
-            what = "sliding {sliding} and static {static} mix a plain number and a torque with a unit"
+            what = "sliding {sliding} and static {static} mix a number without a unit and a torque with a unit"
             fix = "give both with a unit, or both without"
         elif self.static.base < self.sliding.base:
             what = "the static friction torque {static} is below the sliding friction torque {sliding}"
@@ -135,7 +135,7 @@ def _read_bearing(raw: object) -> object:
 
 
 DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_read_bearing)]
-"""Friction of a bearing, or its sliding torque as a plain value."""
+"""Friction of a bearing, or its sliding torque as a single value."""
 
 
 # --------------------------------------------------------------------------------------------------------- efficiencies
@@ -337,7 +337,7 @@ MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3 (bro
 
 
 class Wheel(Declared):
-    """Gear wheel of a link. In a declaration, a plain number is read as its tooth count.
+    """Gear wheel of a link. In a declaration, a single number instead of a mapping is its tooth count.
 
     Examples
     --------
@@ -370,7 +370,7 @@ class Wheel(Declared):
         None, description="Hand of helical teeth or of a worm's thread; a worm is right-handed by default"
     )
     module: Length | None = Field(
-        None, description="Module, pitch diameter over tooth count; for helical teeth the normal module"
+        None, description="Module, pitch diameter divided by tooth count; for helical teeth the normal module"
     )
     thickness: Thickness | None = Field(
         None, description="Thickness of the wheel along its axis; default from the train"
@@ -551,7 +551,7 @@ def _positive(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
             "share",
-            "a share of {text} is not above 0",
+            "a share must be greater than 0, not {text}",
             {"text": figure.text, "fix": "give a share above 0, or omit it if it is unknown"},
         )
     return figure

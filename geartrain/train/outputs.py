@@ -42,7 +42,8 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """Label of one or more consecutive divisions of a dial. In a declaration, a plain text is read as the label.
+    """Label of one or more consecutive divisions of a dial. In a declaration, a single text instead of a mapping is
+    the label.
 
     See Also
     --------
@@ -58,8 +59,8 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a plain
-    text is read as their style.
+    """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a single
+    text instead of a mapping is their style.
 
     See Also
     --------
@@ -239,7 +240,7 @@ def _period_above_zero(period: Quantity) -> Quantity:
     if period.value <= 0:
         raise PydanticCustomError(
             "target",
-            "a period of {text} is not above 0",
+            "a period must be greater than 0, not {text}",
             {"text": period.text, "fix": "give a period above 0, with `sense: retrograde` for retrograde motion"},
         )
     return period
@@ -267,8 +268,8 @@ def _not_negative(figure: Figure) -> Figure:
 
 
 class Target(Declared):
-    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a plain text is read
-    as a name.
+    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single text instead
+    of a mapping is a name.
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.
@@ -295,7 +296,7 @@ class Target(Declared):
     tolerance: Share | None = Field(
         None,
         description="Maximum relative error, above which `geartrain check` fails; for a speed of 0 the maximum "
-        "difference, as a plain number in the train's unit; default the error is only reported",
+        "difference, as a number in the train's unit; default the error is only reported",
     )
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
@@ -332,7 +333,10 @@ class Target(Declared):
             raise PydanticCustomError(
                 "target",
                 "a relative tolerance of {tolerance} is 0 for a speed of 0",
-                {"tolerance": tolerance.text, "fix": "give the maximum difference, a plain number in the train's unit"},
+                {
+                    "tolerance": tolerance.text,
+                    "fix": "give the maximum difference as a number in the train's unit",
+                },
             )
         return self
 
@@ -342,8 +346,8 @@ class Target(Declared):
 
 
 class Expect(Declared):
-    """Required mean speed of an output, exact or within a tolerance. In a declaration, a plain number is read as the
-    value.
+    """Required mean speed of an output, exact or within a tolerance. In a declaration, a single number instead of a
+    mapping is the value.
 
     Examples
     --------

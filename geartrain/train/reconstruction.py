@@ -118,11 +118,12 @@ class MeasuredGeometry(Declared):
     )
     distance: Spread = Field(
         Quantity.parse("3 %", "fraction", True),
-        description="Standard deviation of the logarithm of the sum of pitch radii over the distance of the axes",
+        description="Standard deviation of the logarithm of the sum of pitch radii divided by the distance between "
+        "the axes",
     )
     reach: Distance | None = Field(
         None,
-        description="Maximum difference between the sum of pitch radii and the distance of the axes; "
+        description="Maximum difference between the sum of pitch radii and the distance between the axes; "
         "default no limit, only its weight",
     )
     radius: Distance | None = Field(
@@ -136,7 +137,8 @@ class MeasuredGeometry(Declared):
 
 
 class Reconstruction(Declared):
-    """Rules for the reconstruction of a train from surviving parts; a declaration with these rules is not a train.
+    """Rules for reconstructing a train from surviving parts. A declaration with these rules describes the evidence, not
+    a complete train.
 
     Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
     pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).

@@ -32,12 +32,12 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
     if named is None:
         return
     if plain is not None:
-        why = f"'{plain[1]}' is a plain number and '{named[1]}' has a unit"
+        why = f"'{plain[1]}' is a number without a unit and '{named[1]}' has a unit"
         yield Problem("inputs mix units", why, "give all inputs a unit, or none", train.place(*plain[0]))
     if train.unit is not None and train.unit_days is None:
         what = f"the input '{named[1]}' does not match the unit of the train"
         why = f"the input is a speed per time, but `unit` is one turn per {train.unit.per}, which is not a time"
-        fix = "write all inputs as plain numbers, or give a time, such as `unit: {per: 1 h}`"
+        fix = "write all inputs as numbers without a unit, or give a time, such as `unit: {per: 1 h}`"
         yield Problem(what, why, fix, train.place(*named[0]))
 
 
@@ -162,7 +162,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
         )
     elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
         yield Problem(
-            f"the unit '{train.unit_quantity}' is not above 0",
+            f"a unit must be greater than 0, not '{train.unit_quantity}'",
             "a speed of 1 is one turn per this time or length",
             "give a time or a length above 0",
             train.place("unit"),
@@ -179,7 +179,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
                 (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:
         yield Problem(
-            "lengths mix plain numbers and units",
+            "lengths mix numbers without a unit and units",
             f"`{dotted(named[0])}` has a unit, this value has none",
             "give all lengths a unit, or none",
             train.place(*plain[0]),

@@ -233,7 +233,7 @@ class Escapement(Declared):
 
 
 class Clutch(Declared):
-    """Brake or clutch, declared by exactly one of `fixes` and `locks`.
+    """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
 
     See Also
     --------

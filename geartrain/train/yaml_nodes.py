@@ -111,7 +111,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
         why, fix = "a comma or a closing bracket is missing", "close every { with } and every [ with ]"
     else:
         fix = "check indentation, brackets, quotes and colons near this line"
-    return Problem("the YAML cannot be read here", why, fix, place)
+    return Problem("invalid YAML syntax", why, fix, place)
 
 
 class _Builder:

@@ -244,7 +244,7 @@ error: my.yaml:3: the line contains a tab
         "  a: {wheels",
         " a: {wheels",
         """\
-error: my.yaml:3: the YAML cannot be read here
+error: my.yaml:3: invalid YAML syntax
   why: a key and a colon are expected here, with the same indentation as the keys above
   fix: write `key: value`, and indent all keys of a mapping equally
 """,
@@ -253,7 +253,7 @@ error: my.yaml:3: the YAML cannot be read here
         "a: {wheels: {p: 20}}",
         "a {wheels: {p: 20}}",
         """\
-error: my.yaml:3: the YAML cannot be read here
+error: my.yaml:3: invalid YAML syntax
   why: a key and a colon are expected here, with the same indentation as the keys above
   fix: write `key: value`, and indent all keys of a mapping equally
 """,

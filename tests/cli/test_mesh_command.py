@@ -100,7 +100,7 @@ REFUSED = [
     ([48, 96, "-p", "clearance_factor=1.01", "--friction", -0.1], "0 or more"),
     ([48, 96, "-p", "clearance_factor=1.01", "--rate", "3 furlong"], "unknown unit"),
     ([48, 96, "-p", "centre_distance=40mm"], "cannot be related to the size of these wheels"),
-    ([48, 96, "-p", "centre_distance=40", "-p", "radii=10mm,20mm"], "mix plain numbers"),
+    ([48, 96, "-p", "centre_distance=40", "-p", "radii=10mm,20mm"], "mix numbers without a unit"),
     ([48, 96, "-p", "backlash=9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
     ([8, 64, "-p", "window=0.5"], "no clearance lets wheels of 8 and 64"),
     ([48, 96, "--vary", "clearence_factor=1:2:3"], "cannot be varied"),

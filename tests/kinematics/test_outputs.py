@@ -118,9 +118,9 @@ def test_what_stands_still_meets_a_speed_of_zero_exactly() -> None:
 @pytest.mark.parametrize(
     ("target", "said"),
     [
-        ("{period: 0 d}", "a period of 0 d is not above 0"),
-        ("{period: 0}", "a period of 0 is not above 0"),
-        ("{period: -27 d}", "a period of -27 d is not above 0"),
+        ("{period: 0 d}", "a period must be greater than 0, not 0 d"),
+        ("{period: 0}", "a period must be greater than 0, not 0"),
+        ("{period: -27 d}", "a period must be greater than 0, not -27 d"),
         ("{period: 27 d, turns: 0}", "0 turns is not a number above 0"),
         ("{name: month_synodic_J2000, turns: -4}", "-4 turns is not a number above 0"),
         ("{speed: 3, turns: 0}", "0 turns is not a number above 0"),
@@ -164,7 +164,7 @@ def test_a_pointer_that_stands_still_is_published_as_a_ratio_of_zero() -> None:
 
 @pytest.mark.parametrize("unit", ["0 d", "0", "-7 d", "0 ft", "-1 h", "0/3 d"])
 def test_a_unit_takes_some_time_or_way(unit: str) -> None:
-    with pytest.raises(GearTrainError, match=f"the unit '{unit}' is not above 0"):
+    with pytest.raises(GearTrainError, match=f"a unit must be greater than 0, not '{unit}'"):
         lunar("{speed: 1}", unit=unit)
 
 

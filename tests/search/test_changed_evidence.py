@@ -78,7 +78,7 @@ outputs: {p: {of: new, expect: 1}}
 reconstruct: {add: {wheels: 1, teeth: [10, 16]}, geometry: {reach: 1 mm}}
 """)
     first, *others = counts(evidence)
-    assert first == "if the distances of axes exclude no meshes"
+    assert first == "if the distances between axes exclude no meshes"
     assert not any("do not mesh" in change for change in others)
     assert counts(evidence)[first] == (0, 1)
 

@@ -460,9 +460,12 @@ def test_places_of_axes_would_single_it_out() -> None:
 MISTAKES = {
     "a radius of no wheel": (EVIDENCE.replace("{x: 31 mm}", "{y: 31 mm}"), "'y'"),
     "a radius and a module": (EVIDENCE.replace("{x: 31 mm}", "{v: 15 mm}"), "'v' has a module and a pitch radius"),
-    "no reach": (EVIDENCE.replace("reach: 1 mm", "reach: 0 mm"), "not above 0"),
-    "a spread of nothing": (EVIDENCE.replace("5 %", "0 %"), "not above 0"),
-    "a module of nothing": (EVIDENCE.replace("module: 1 mm}}}", "module: 0 mm}}}"), "module of 'p' is not above 0"),
+    "no reach": (EVIDENCE.replace("reach: 1 mm", "reach: 0 mm"), "must be greater than 0"),
+    "a spread of nothing": (EVIDENCE.replace("5 %", "0 %"), "must be greater than 0"),
+    "a module of nothing": (
+        EVIDENCE.replace("module: 1 mm}}}", "module: 0 mm}}}"),
+        "module of 'p' must be greater than 0",
+    ),
     "a mesh that cannot be": (EVIDENCE + "gears: [{pair: [v, x]}]\n", "the known mesh 'v~x' is impossible"),
 }
 

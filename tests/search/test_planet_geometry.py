@@ -409,7 +409,7 @@ def test_positions_may_be_as_far_off_as_profile_shift_bridges() -> None:
 
 
 def test_closure_without_positions_is_refused() -> None:
-    with pytest.raises(QuestionError, match="no loop of 'train' have known positions"):
+    with pytest.raises(QuestionError, match="no loop of 'train' has known axis positions"):
         rules_of(epicyclic(*SIMPLE, 3), closure=True)
     with pytest.raises(QuestionError, match="no loop"):
         rules_of(load("planetary").declaration, closure=True)

@@ -155,7 +155,7 @@ def test_a_declaration_written_out_is_read_back_as_it_was() -> None:
         (("planetary-24-18-60", "-o", "x.fmu"), "the train has no rate"),
         (("moon-triangular", "-o", "x.fmu", "--rate", "1"), "inertia"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--bore", "2mm"), "--bore does not apply"),
-        ((TRAIN, "-o", "x.fmu", "--rate", "1", "--time-step", "0s"), "0s is not above 0"),
+        ((TRAIN, "-o", "x.fmu", "--rate", "1", "--time-step", "0s"), "the value must be greater than 0, not 0s"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--restitution", "2"), "'2' is not a valid restitution"),
         ((TRAIN, "-o", "x.dot", "--rate", "1"), "--rate applies only"),
     ],

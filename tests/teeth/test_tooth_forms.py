@@ -612,7 +612,7 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
     ("given", "words"),
     [
         ({"form": "involute", "pressure_angle": "90 deg"}, "outside 0 to 90"),
-        ({"form": "involute", "addendum": "0"}, "not above 0"),
+        ({"form": "involute", "addendum": "0"}, "must be greater than 0"),
         ({"form": "involute", "backlash": "-1"}, "would jam"),
         ({"form": "uniform_stress", "pressure_angle": "45 deg"}, "outside 0 to 45"),
         ({"form": "uniform_stress", "arcs": [0, 0]}, "are out of range"),
@@ -629,7 +629,7 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
         ({"form": "cycloidal", "rolling": "2", "rolling_fraction": "0.5"}, "both given"),
         ({"form": "cycloidal", "rolling_fraction": "1"}, "zero height"),
         ({"form": "cycloidal", "arcs": [0.5, 0.5], "addendum": "1"}, "both given"),
-        ({"form": "lantern", "pin_diameter": "0"}, "not above 0"),
+        ({"form": "lantern", "pin_diameter": "0"}, "must be greater than 0"),
     ],
 )
 def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str, Any], words: str) -> None:

@@ -104,7 +104,7 @@ MISTAKES = {
     "a second document": (SOUND + "---\nlinks: {}\n", 13, ["a second document"]),
     "a missing anchor": (changed("p: 20", "p: *twenty"), 3, ["twenty"]),
     "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
-    "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["the YAML cannot be read here"]),
+    "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["invalid YAML syntax"]),
     "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["the line contains a tab"]),
 }  # fmt: skip
 

@@ -136,7 +136,11 @@ MISTAKES = {
     ),
     "no such arbor": (changed("{expect", "{of: bb, expect"), 10, ["no link 'bb'", "did you mean 'b'?"]),
     "a link called new": (changed("  b:\n", "  new:\n"), 4, ["a surviving link is called 'new'"]),
-    "no such factor": (changed("  add:", "  cost: {wheel: 0}\n  add:"), 12, ["0 is not above 0"]),
+    "no such factor": (
+        changed("  add:", "  cost: {wheel: 0}\n  add:"),
+        12,
+        ["the value must be greater than 0, not 0"],
+    ),
     "given to the frame": (changed("  add:", "  given: [{pair: [a, frame]}]\n  add:"), 12, ["lock an arbor"]),
     "given of nothing": (changed("  add:", "  given: [{pair: [a, c]}]\n  add:"), 12, ["no link 'c'"]),
     "a lock": (SOUND + "locks: [[a, b]]\n", 13, ["`locks` is not supported"]),

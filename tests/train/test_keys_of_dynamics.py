@@ -146,10 +146,10 @@ SLIPS = {
     "friction: {slidign: 0.2}": "did you mean 'sliding'",
     "friction: {static: 0.2, kinetic: 0.1, speed: 1 m/s}": "add `law:`",
     "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "0.5 is below the sliding friction torque 1",
-    "links: {a: {bearing: {sliding: 1, static: 2 N m}}}": "mix a plain number and a torque with a unit",
+    "links: {a: {bearing: {sliding: 1, static: 2 N m}}}": "mix a number without a unit and a torque with a unit",
     "links: {a: {drag: 1 N m}}": "is a torque, but a torsional damping is required",
     "restitution: 1.01": "a restitution of 1.01 is out of range",
-    "stiffness: 0 N/m": "0 N/m is not above 0",
+    "stiffness: 0 N/m": "the value must be greater than 0, not 0 N/m",
     "density: 8.7": "'8.7' has no unit",
     "drive: {}": "a drive needs exactly one kind; found: nothing",
     "drive: {rate: 1, torque: 2 N m}": "found: rate and torque",
@@ -190,7 +190,7 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
     assert found.restitution_of(found.couplings[0]) == 0.2
     assert "a clearance of -1 mm is negative" in refusal(train.format(text.format("-1 mm")))
     assert "passes the slot's axis" in refusal(train.format(text.format("16 mm")))
-    assert "lengths mix plain numbers and units" in refusal(train.format(text.format("1")))
+    assert "lengths mix numbers without a unit and units" in refusal(train.format(text.format("1")))
 
 
 def test_editors_are_told_of_every_key() -> None:

@@ -71,7 +71,7 @@ class FedBackTransmission:
         return self._solved(S)[0]
 
     def speed(self, S: Floats) -> Floats:
-        """Return the speed of the driven side over the speed of the driver, including feedback."""
+        """Return the speed of the driven side divided by the speed of the driver, including feedback."""
         return self._solved(S)[1]
 
     def _solved(self, S: Floats) -> tuple[Floats, Floats]:
@@ -125,7 +125,7 @@ class ComposedSources(NamedTuple):
     start: Floats
     """Forward angle of the driver at position 0 of the input [rad]."""
     mean: Floats
-    """Mean speed of the driver over the input speed."""
+    """Mean speed of the driver divided by the input speed."""
     row: Ints
     """Rows of driver and carrier, shape (sources, 2); -1 for links without error."""
     sign: Floats

@@ -68,7 +68,7 @@ class PairErrorSource:
 
     @property
     def mean(self) -> float:
-        """Mean forward speed of the driver over the speed of the input [1]."""
+        """Mean forward speed of the driver divided by the speed of the input [1]."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)
 
 

@@ -53,8 +53,8 @@ class CoupledErrors:
     """Change of the forward angle of driver m per unit of the error of pair n's driven side [rad/rad]."""
 
     def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
-        """Return the errors of the driven sides [rad] and their derivatives by the driver angles [1], signed, shape
-        (pairs, n).
+        """Return the errors of the driven sides [rad] and their derivatives with respect to the driver angles [1],
+        signed, shape (pairs, n).
         """
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, transmission in enumerate(self.transmissions):
@@ -76,7 +76,7 @@ def solve_coupled_errors(
     these errors.
 
     base      driver angles [rad], shape (pairs, n)
-    turning   driver speeds over the speed of the input [1], by pair
+    turning   driver speeds divided by the speed of the input [1], by pair
 
     Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
     """

@@ -111,7 +111,7 @@ class StepSearch:
 
     @cached_property
     def step(self) -> float:
-        """Maximum width of a narrow step [revolutions], which is narrow for every transmission function."""
+        """Maximum width [revolutions] at which a step counts as narrow for every transmission function."""
         return min(kinks.step for kinks in self._kink_searches)
 
     @cached_property

@@ -89,8 +89,8 @@ class PairKinks:
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """Return the change of the driver's forward angle due to errors [rad], and its speed over the speed of the
-        input [1].
+        """Return the change of the driver's forward angle due to errors [rad], and its speed divided by the speed of
+        the input [1].
         """
         if not len(turns):
             return np.zeros(0), np.zeros(0)
@@ -202,8 +202,8 @@ class KinkSearch:
 
     @cached_property
     def step(self) -> float:
-        """Maximum width of a step [revolutions] that is narrow for every transmission function; infinite if every
-        error is constant.
+        """Maximum width of a narrow step [revolutions]: a quarter of the mean period of the fastest transmission
+        function; infinite if every error is constant.
         """
         fastest = max((float(pair.source.cycles) for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf

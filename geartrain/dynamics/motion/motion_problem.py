@@ -64,18 +64,18 @@ class MotionProblem:
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
-        """Return the exact mean speed of a link over the speed of the driving link."""
+        """Return the exact mean speed of a link divided by the speed of the driving link."""
         return self.speeds[link] / self.speeds[self.driving_link]
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
-        """Return the mean speed of a link relative to another, about the axis of the first, over the speed of the
+        """Return the mean speed of a link relative to another, about the axis of the first, divided by the speed of the
         driving link.
         """
         return relative_speed(link, base, self.ratio, self.signs)
 
     def relative(self, link: str, carrier: str) -> Fraction:
-        """Return the mean speed of a link relative to its carrier, about the reference direction, over the speed of the
-        driving link.
+        """Return the mean speed of a link relative to its carrier, about the reference direction, divided by the speed
+        of the driving link.
         """
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 

@@ -200,8 +200,8 @@ class MotionRun(Tabular, Pictured):
 
     MEANINGS: ClassVar = {
         "output": "Output or link.",
-        "mean speed": "Mean speed over that of the input [1].",
-        "exact": "Mean speed over that of the input, as a fraction [1].",
+        "mean speed": "Mean speed divided by that of the input [1].",
+        "exact": "Mean speed divided by that of the input, as a fraction [1].",
         "error p-p (rad)": "Maximum less minimum of the transmission error [rad].",
         "error rms (rad)": "Root mean square of the transmission error about its mean [rad].",
         "slowest": "Minimum of the speed less its mean, over the speed of the input [1].",

@@ -229,7 +229,7 @@ class RateBounds:
         return Interval(np.stack([each.low for each in found]), np.stack([each.high for each in found]))
 
     def _turning(self, at: int, links: dict[int, Interval], still: Interval) -> Interval:
-        """Return bounds on the speed of a source's driver over the speed of the input [1]."""
+        """Return bounds on the speed of a source's driver divided by the speed of the input [1]."""
         source = self._sources[at]
         turning = Interval(still.low + source.mean, still.high + source.mean)
         for link, sign in self.composition.turned_by(source):

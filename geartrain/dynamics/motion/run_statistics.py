@@ -35,17 +35,17 @@ def mean_speed(name: str, ratio: Fraction) -> float:
 
 
 class SpeedSpan(NamedTuple):
-    """Minimum and maximum speed over the mean speed, and the mean speed over the speed of the input.
+    """Minimum and maximum speed divided by the mean speed, and the mean speed divided by the speed of the input.
 
     If the mean is 0, minimum and maximum are relative to the speed of the input.
     """
 
     min: float
-    """Minimum speed over the mean speed, or over the speed of the input if the mean is 0."""
+    """Minimum speed divided by the mean speed, or by the speed of the input if the mean is 0."""
     max: float
-    """Maximum speed over the mean speed, or over the speed of the input if the mean is 0."""
+    """Maximum speed divided by the mean speed, or by the speed of the input if the mean is 0."""
     mean: float
-    """Mean speed over the speed of the input."""
+    """Mean speed divided by the speed of the input."""
 
 
 @dataclass
@@ -205,8 +205,8 @@ def count_extremes(
 ) -> None:
     """Include the extremes between sampled positions in the statistics, with bounds on their uncertainty.
 
-    step, peaks    distance of the sampled positions [revolutions], and the sampled extremes; the search is limited to
-                   their neighbourhood if the run is too long to be searched completely
+    step, peaks    distance between the sampled positions [revolutions], and the sampled extremes; the search is limited
+                   to their neighbourhood if the run is too long to be searched completely
     """
     low, high = sorted((0.0, turns))
     search.over(low, high)

@@ -236,7 +236,7 @@ class LoadCase:
         return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
-        """Return the friction torque of a link's bearing [N m, or plain number]."""
+        """Return the friction torque of a link's bearing [N m, or number without a unit]."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)

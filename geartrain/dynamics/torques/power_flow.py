@@ -276,7 +276,7 @@ class PowerFlow(Result):
 
 
 def find_power_flow(found: Torques) -> PowerFlow:
-    """Compute the power streams between shafts and pairs from computed torques.
+    """Compute the power flow between shafts and gear pairs from computed torques.
 
     Parameters
     ----------
@@ -344,8 +344,8 @@ def has_torque_units(train: Train, state: str | None) -> bool:
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
-    """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are plain
-    numbers.
+    """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are numbers
+    without a unit.
 
     Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
     have units.

@@ -20,7 +20,7 @@ class LinkTorque(Result):
     KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "requested")
 
     torque: Fraction
-    """External torque on the link [N m, or plain number]."""
+    """External torque on the link [N m, or number without a unit]."""
     power: Fraction | None
     """Power that the torque puts into the train [torque times the train's unit of speed]; None if the speed is
     undetermined.
@@ -43,7 +43,7 @@ class HoldingTorque(Result):
     links: tuple[str, ...]
     """Braked link, or the two links that are locked together."""
     torques: tuple[Fraction, ...] | None
-    """Torque on each of the links about its own axis [N m, or plain number]; None if undetermined."""
+    """Torque on each of the links about its own axis [N m, or number without a unit]; None if undetermined."""
     clutch: str | None = None
     """Name of the brake or clutch; empty if no clutch is declared for it."""
     cause: tuple[str, ...] = ()
@@ -59,12 +59,12 @@ class HoldingTorque(Result):
 
     @property
     def by_link(self) -> Mapping[str, Fraction] | None:
-        """Link -> torque [N m, or plain number]; None if undetermined."""
+        """Link -> torque [N m, or number without a unit]; None if undetermined."""
         return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
 
 
 class MemberTorques(NamedTuple):
-    """Torques on the members of a gear pair or coupling [N m, or plain number]."""
+    """Torques on the members of a gear pair or coupling [N m, or number without a unit]."""
 
     first: Fraction
     """Torque on the first link of the pair."""
@@ -87,11 +87,11 @@ class BearingTorque(NamedTuple):
     carrier: str
     """Link that carries the bearing."""
     torque: Fraction
-    """Torque on the link about its own axis [N m, or plain number]; 0 if the bearing is at rest or its speed is
-    undetermined.
+    """Torque on the link about its own axis [N m, or number without a unit]; 0 if the bearing is at rest or its speed
+    is undetermined.
     """
     reaction: Fraction
-    """Torque on the carrier about its own axis [N m, or plain number]; 0 if the carrier is the frame."""
+    """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
     """Lost power, 0 or more [unit of torque times the train's unit of speed]."""
 
@@ -120,7 +120,7 @@ class PairTorque(Result):
     links: tuple[str, str, str]
     """First link, second link, carrier."""
     torques: tuple[Fraction, Fraction, Fraction]
-    """Torques on the three links, each about its own axis [N m, or plain number]."""
+    """Torques on the three links, each about its own axis [N m, or number without a unit]."""
     multiplier: Fraction
     """Multiplier x of the pair's Willis equation."""
     rolling: Fraction | None
@@ -142,7 +142,7 @@ class PairTorque(Result):
 
     @property
     def on_members(self) -> MemberTorques:
-        """Torques on first link, second link and carrier [N m, or plain number]."""
+        """Torques on first link, second link and carrier [N m, or number without a unit]."""
         return MemberTorques(*self.torques)
 
     @cached_property
@@ -266,8 +266,8 @@ class DrivenWay(NamedTuple):
 class Torques(FrozenFields, Tabular, TrainResult):
     """Torques and powers of a train in one state, exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m if loads have units, otherwise plain numbers. Powers are torques times the train's unit of speed,
-    positive into the train.
+    Torques are in N m if loads have units, otherwise numbers without a unit. Powers are torques times the train's unit
+    of speed, positive into the train.
 
     Examples
     --------
@@ -315,7 +315,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     requested: tuple[str, ...] = ()
     """Links whose torque was computed from the balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """Link -> external torque [N m, or plain number]: loads, requested torques, brakes."""
+    """Link -> external torque [N m, or number without a unit]: loads, requested torques, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
     """Link -> speed, for links whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
@@ -335,10 +335,10 @@ class Torques(FrozenFields, Tabular, TrainResult):
     def _units(self) -> Mapping[str, str]:
         """Units of torque, speed and power, as declared."""
         declared = self._declaration
-        torque, speed = "N m, or the plain unit of the loads", "unit of the train"
+        torque, speed = "N m, or the unit of the loads", "unit of the train"
         if declared is not None:
-            torque = "N m" if declared.has_torque_units(self.state) else "plain number"
-            speed = declared.unit_name or "plain number"
+            torque = "N m" if declared.has_torque_units(self.state) else "numbers without a unit"
+            speed = declared.unit_name or "numbers without a unit"
         return {"torque": torque, "speed": speed, "power": f"{torque} x {speed}"}
 
     def _summary(self) -> str:

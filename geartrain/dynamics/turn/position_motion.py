@@ -138,7 +138,7 @@ class PositionMotion:
 
     @cached_property
     def means(self) -> Floats:
-        """Mean speed of each link over the speed of the input."""
+        """Mean speed of each link divided by the speed of the input."""
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:

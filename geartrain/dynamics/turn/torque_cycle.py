@@ -24,7 +24,9 @@ class TorqueExtreme(NamedTuple):
     """
 
     torque: float
-    """Torque at the requested link [N m, or plain number], positive if it drives in the link's mean sense of rotation.
+    """Torque at the requested link [N m, or number without a unit], positive if it drives in the link's mean sense of
+    rotation.
+
     """
     turns: float
     """Revolutions of the input from the start of the run."""
@@ -64,7 +66,7 @@ class PlaceInRun(NamedTuple):
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
-    """Energies over a run [J, or plain torque times rad].
+    """Energies over a run [J; if torques are declared without a unit, that torque unit times rad].
 
     Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
 
@@ -130,7 +132,7 @@ class PairCycle(Result):
     kind: str
     """Kind of the part: `mesh`, `pin` or `bearing`."""
     loss: float
-    """Lost energy [J, or plain torque times rad]."""
+    """Lost energy [J, or torque without a unit times rad]."""
     passed: float
     """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it is equal to the
     loss.
@@ -141,7 +143,7 @@ class PairCycle(Result):
     If the run is an integer number of periods, a change between its end and its start is included.
     """
     maximum: float = 0.0
-    """Maximum magnitude of the torque on the driven side [N m, or plain number]; 0 for a bearing."""
+    """Maximum magnitude of the torque on the driven side [N m, or number without a unit]; 0 for a bearing."""
 
 
 @dataclass(frozen=True)
@@ -203,7 +205,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     link: str = ""
     """Link whose torque is computed."""
     newton_metres: bool = True
-    """True if torques are in N m, False if they are plain numbers."""
+    """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0
     """Length of the run [revolutions of the input]."""
     period: float | None = None
@@ -213,25 +215,27 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     for each side.
     """
     torque: Floats | None = None
-    """Torque at the link in the solution with minimum loss [N m, or plain number], shape (n,).
+    """Torque at the link in the solution with minimum loss [N m, or number without a unit], shape (n,).
 
     It is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed is
     0.
     """
     highest: Floats | None = None
-    """Torque at the link in the solution with maximum loss [N m, or plain number], shape (n,)."""
+    """Torque at the link in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
     standing: Floats | None = None
-    """Breakaway torque at each position, with static friction in every contact [N m, or plain number], shape (n,)."""
+    """Breakaway torque at each position, with static friction in every contact [N m, or number without a unit], shape
+    (n,).
+    """
     speeds: LabelledArray | None = None
     """Speeds of links divided by the input speed, axes (link, position)."""
     powers: LabelledArray | None = None
     """Power of each external torque divided by the input speed, positive into the train, axes (link, position) [N m, or
-    plain number].
+    number without a unit].
     """
     losses: LabelledArray | None = None
-    """Lost power divided by the input speed, axes (part, position) [N m, or plain number]."""
+    """Lost power divided by the input speed, axes (part, position) [N m, or number without a unit]."""
     mean: float | None = None
-    """Mean torque over the run [N m, or plain number]; None if the train locks."""
+    """Mean torque over the run [N m, or number without a unit]; None if the train locks."""
     maximum: TorqueExtreme | None = None
     """Maximum torque over all solutions at all positions; None if the train locks."""
     minimum: TorqueExtreme | None = None
@@ -268,7 +272,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     def _meaning(self, column: str) -> str:
         text = super()._meaning(column).split(" [")[0].rstrip(".")
-        return f"{text} [{'turn' if column == 'turns' else self.unit or 'plain number'}]."
+        return f"{text} [{'turn' if column == 'turns' else self.unit or 'number without a unit'}]."
 
     def _summary(self) -> str:
         figures: list[str] = [self.verdict.kind]
@@ -289,12 +293,12 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def unit(self) -> str:
-        """Unit of torques: `N m`, or empty for plain numbers."""
+        """Unit of torques: `N m`, or empty for numbers without a unit."""
         return "N m" if self.newton_metres else ""
 
     @property
     def maximum_torque(self) -> float | None:
-        """Maximum torque [N m, or plain number]; None if the train locks."""
+        """Maximum torque [N m, or number without a unit]; None if the train locks."""
         return None if self.maximum is None else self.maximum.torque
 
     @property
@@ -304,7 +308,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def minimum_torque(self) -> float | None:
-        """Minimum torque [N m, or plain number], negative if the loads drive; None if the train locks."""
+        """Minimum torque [N m, or number without a unit], negative if the loads drive; None if the train locks."""
         return None if self.minimum is None else self.minimum.torque
 
     @property
@@ -360,7 +364,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         Returns
         -------
         float
-            Torque at the requested link [N m, or plain number]; NaN where the train is locked.
+            Torque at the requested link [N m, or number without a unit]; NaN where the train is locked.
         """
         import numpy as np
 

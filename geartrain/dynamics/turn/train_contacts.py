@@ -62,7 +62,7 @@ class DriverState(NamedTuple):
     S: Floats
     """Forward angle of the driver [rad]; empty if no property of the pair depends on it."""
     turning: Floats
-    """Forward speed of the driver relative to the carrier, over the speed of the input [1]."""
+    """Forward speed of the driver relative to the carrier, divided by the speed of the input [1]."""
 
 
 class ContactLosses(ABC):
@@ -140,7 +140,8 @@ class ToothFriction(ContactLosses):
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.
 
-    Its arguments are the sliding speed over the pitch-line speed, and the driver's speed over the speed of the input.
+    Its arguments are the sliding speed divided by the pitch-line speed, and the driver's speed divided by the speed of
+    the input.
     """
     static: float
     """Coefficient of static friction."""
@@ -225,7 +226,7 @@ class PairContact:
     """
     sense: int
     ratio: float
-    """Magnitude of the constant speed ratio, driven over driver; used if `source` is None."""
+    """Magnitude of the constant speed ratio, driven divided by driver; used if `source` is None."""
     losses: ContactLosses
     source: PairErrorSource | None = None
     """Source of the transmission error; None for a pair with constant ratio, whose position has no effect."""
@@ -385,7 +386,7 @@ def dragging_links(setting: LoadCase) -> tuple[str, ...]:
 
 
 def _radians_per_second(setting: LoadCase) -> float | None:
-    """Return the magnitude of the input speed [rad/s]; None if speeds or torques are plain numbers."""
+    """Return the magnitude of the input speed [rad/s]; None if speeds or torques are numbers without a unit."""
     unit = radians_per_second(setting.train, setting.case)
     driving_speed = next((speed for speed in setting.case.inputs.values() if speed), None)
     if unit is None or driving_speed is None or not has_torque_units(setting.train, setting.case.state):

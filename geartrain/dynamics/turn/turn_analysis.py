@@ -309,9 +309,9 @@ class _RunResults:
         return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Return the energies over the run [J, or plain torque times rad]."""
+        """Return the energies over the run [J, or torque without a unit times rad]."""
         found, requested = self.run.found, len(self.run.train.requested)
-        # powers are over the speed of the input, so the integral is over its angle in radians
+        # powers are divided by the speed of the input, so the integral is over its angle in radians
         weights = self.run.cells.weights * 2 * np.pi
         driving, loading = found.powers[:requested], found.powers[requested:]
 

@@ -246,7 +246,9 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at some positions; the last axis has length n. Powers and losses are over the speed of the input."""
+    """Torques at some positions; the last axis has length n. Powers and losses are divided by the speed of the
+    input.
+    """
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
@@ -262,7 +264,9 @@ class PositionTorques(NamedTuple):
     highest: Floats
     """Unknown torque on each requested link in the solution with maximum loss, shape (requested, n)."""
     speeds: Floats
-    """Speeds of the links with external torques, about their own axes, over the speed of the input, shape (outside, n).
+    """Speeds of the links with external torques, about their own axes, divided by the speed of the input, shape (outside,
+    n).
+
     """
     powers: Floats
     """Power of each external torque, positive into the train, shape (outside, n)."""
@@ -273,9 +277,9 @@ class PositionTorques(NamedTuple):
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
     turning: Floats
-    """Forward speed of each pair's driver over the speed of the input, shape (pairs, n)."""
+    """Forward speed of each pair's driver divided by the speed of the input, shape (pairs, n)."""
     slipping: Floats
-    """Speed of each bearing over the speed of the input, shape (bearings, n)."""
+    """Speed of each bearing divided by the speed of the input, shape (bearings, n)."""
     kinks: Floats
     """Values whose signs change where the torques have kinks but no transmission function has one, shape (kinks, n)."""
 

@@ -280,7 +280,7 @@ _EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rou
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: the distance of skew axes differs from the sum of the pitch radii m z/(2
+    """Yield findings of rule K4: the distance between skew axes differs from the sum of the pitch radii m z/(2
     cos(helix)).
     """
     axes = Axes(train, tree)
@@ -304,7 +304,7 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
         f"pair '{pair.name}': axes '{first}' and '{second}' are {sum(radii) + off:.6g} mm apart, "
         f"but the pair needs {sum(radii):.6g} mm"
     )
-    why = f"the pitch radii are {sides} mm, and their sum is the distance of the axes"
+    why = f"the pitch radii are {sides} mm, and their sum is the distance between the axes"
     fix = f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles"
     return BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", Problem(what, why, fix, pair.place))
 

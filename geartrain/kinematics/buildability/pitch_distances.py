@@ -1,9 +1,9 @@
 """Checks of modules and centre distances: wheels in mesh need one module, and axes the distances of their wheels.
 
-Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance of two axes
-is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions and
-offsets give some of them in mm. These statements are stored in a weighted union-find structure with exact fractions; a
-statement on a quantity that is already known is compared with it.
+Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance between two
+axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
+and offsets give some of them in mm. These statements are stored in a weighted union-find structure with exact
+fractions; a statement on a quantity that is already known is compared with it.
 """
 
 from __future__ import annotations
@@ -313,7 +313,7 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return the distance of two axes as a root quantity and a factor; distances with the same root are
+        """Return the distance between two axes as a root quantity and a factor; distances with the same root are
         comparable.
         """
         return self.sizes.root(("axes", *axes))
@@ -377,7 +377,7 @@ class PitchDistances:
             apart = self.sizes.ratio(node, _MM)
             if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
                 what = f"axes {_named(axes)} are {_mm(apart)} apart, and the offset of '{circuit.id}' is {_mm(offset)}"
-                why = "the offset of a pin is the distance of the two axes"
+                why = "the offset of a pin is the distance between the two axes"
                 place = self.train.place("couplings", at[circuit.id])
                 yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
             # the offset determines the distance if no positions are declared
@@ -386,7 +386,7 @@ class PitchDistances:
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Record the distance of two parallel axes if positions of both are declared."""
+        """Record the distance between two parallel axes if positions of both are declared."""
         declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
         if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
@@ -486,7 +486,7 @@ class PitchDistances:
         wants = [self._length(each, module) for each in (other.distance * scale, pair.distance)]
         shared = set(pair.wheels) & set(other.wheels)
         what = (
-            f"pairs '{other.name}' and '{pair.name}' need different distances of axes {_named(pair.axis_pair)}: "
+            f"pairs '{other.name}' and '{pair.name}' need different distances between axes {_named(pair.axis_pair)}: "
             f"{wants[0]} and {wants[1]}"
         )
         if not is_error:

@@ -212,7 +212,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     )
 
 
-_MEET = 1e-3  # relative to the distance of two declared points: closer axes intersect, because positions are rounded
+_MEET = 1e-3  # relative to the distance between two declared points: closer axes intersect, as positions are rounded
 
 
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
@@ -267,7 +267,9 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """Return the distance of two non-parallel axes [m], 0 if they intersect; None if a position is not declared."""
+    """Return the distance between two non-parallel axes [m], 0 if they intersect; None if a position is not
+    declared.
+    """
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None

@@ -37,7 +37,9 @@ _Residues = dict[int, int]
 
 @dataclass(frozen=True, slots=True)
 class SymbolicValue:
-    """Rational function: a numerator over the product of the determinants of some blocks, each to the first power."""
+    """Rational function: a numerator divided by the product of the determinants of some blocks, each to the first
+    power.
+    """
 
     numerator: Laurent
     blocks: frozenset[int] = frozenset()
@@ -204,7 +206,7 @@ def _over_blocks(
     used: frozenset[int],
     width: int,
 ) -> Laurent:
-    """Return the numerator of a linear form over the product of the determinants of the blocks `used`."""
+    """Return the numerator of a linear form divided by the product of the determinants of the blocks `used`."""
     total = Laurent.constant(0, width)
     for column, entry in form.items():
         value = SymbolicValue(Laurent.constant(1, width)) if column == GIVEN else values.get(column)
@@ -290,7 +292,7 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of link `to` of a circuit over the speed of its other link, both relative to their
+        """Return the speed of link `to` of a circuit divided by the speed of its other link, both relative to their
         carrier.
         """
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)

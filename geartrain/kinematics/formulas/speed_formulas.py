@@ -31,7 +31,7 @@ class InputShare(Result):
     speed: Fraction
     """Declared speed of the input [unit of the train]."""
     ratio: ClosedForm
-    """Speed of the output over speed of the input, with all other inputs at rest."""
+    """Speed of the output divided by speed of the input, with all other inputs at rest."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class OutputFormula(Result):
 
     @property
     def ratio(self) -> ClosedForm:
-        """Speed of the output over speed of the input, for an output that depends on exactly one input.
+        """Speed of the output divided by speed of the input, for an output that depends on exactly one input.
 
         Raises
         ------

@@ -35,7 +35,7 @@ class GainGraph:
     ends: Sequence[tuple[int, int]]
     """Two nodes of each mesh; several meshes may connect the same nodes."""
     gains: Mapping[int, Gain]
-    """Mesh -> gain, if it is not 1: speed of its second node over speed of its first."""
+    """Mesh -> gain, if it is not 1: speed of its second node divided by speed of its first."""
     firm: frozenset[int] = frozenset()
     """Meshes that cannot be disengaged, such as pins in slots."""
 

@@ -200,7 +200,7 @@ def _inconsistent_meshes(network: GainGraph, order: Sequence[int]) -> list[int]:
     are first.
     """
     up = list(range(network.size))
-    gain: list[Gain] = [1] * network.size  # speed over that of the parent node
+    gain: list[Gain] = [1] * network.size  # speed divided by that of the parent node
     refused = []
     for mesh in (*network.firm, *(mesh for mesh in order if mesh not in network.firm)):
         first, second = network.ends[mesh]

@@ -109,7 +109,9 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 
 @collector_paused()
 def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
-    """Compute the mobility of the train without prescriptions by exact rank: (16), (17) of docs/theory.md."""
+    """Compute the mobility of the train, ignoring prescribed speeds, from the exact rank of its equations; see (16) and
+    (17) of docs/theory.md.
+    """
     parts = reduced.components
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
     shared: list[str] = []

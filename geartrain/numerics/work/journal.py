@@ -257,7 +257,9 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem that an existing journal has another `question` and therefore belongs to another run."""
+    """Return the problem to report if an existing journal contains a different `question` and therefore belongs to
+    another run.
+    """
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]

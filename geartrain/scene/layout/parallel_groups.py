@@ -32,7 +32,7 @@ from geartrain.scene.layout.wheel_stacks import StackProblem, WheelStack
 # --------------------------------------------------------------------------------------------------------- stack blocks
 
 
-_GAP = 0.4  # gap between levels over the median thickness
+_GAP = 0.4  # gap between levels divided by the median thickness
 
 Node = tuple[str, str]
 """Wheel, ("wheel", name), or crossing axis, ("axis", label)."""
@@ -365,7 +365,7 @@ class Arrangement:
     """Positions of all axes and wheels [mm]."""
 
     geometry: SizedGeometry
-    """Declared geometry, with the broadened wheels."""
+    """Declared geometry; wheels whose mates are at different heights have been widened."""
     points: Mapping[str, Vector]
     """Points of axes by label. `centres` are the centres of wheels by name."""
     centres: Mapping[str, Vector]

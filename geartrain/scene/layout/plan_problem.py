@@ -12,7 +12,7 @@ from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, Parallels, Point
 from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry
 
-# Default distances over radii of the wheels, chosen for legible pictures
+# Default distances divided by radii of the wheels, chosen for legible pictures
 _ENCLOSED = 0.12  # from the axis of a slot to that of a pin whose circle encloses it
 _TIED = 1.6  # for other pins and slots
 _CARRIED = 1.2  # from an axis to that of its carrier
@@ -43,13 +43,13 @@ class PlanProblem:
     fixed: Mapping[str, Point]
     """Given points of axes."""
     distances: Mapping[tuple[str, str], float]
-    """Required distances of pairs of axes (mm)."""
+    """Required distances between pairs of axes (mm)."""
     discs: Mapping[str, Sequence[PlanDisc]]
     """Upright wheels of each axis."""
     mates: frozenset[frozenset[str]]
     """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
-    """Pairs of axes that must be in a row, with the direction of the row."""
+    """Pairs of axes that must lie on a line, with the direction of the line as a unit vector."""
     sides: Mapping[str, Point] = field(default_factory=dict)
     """Direction in which an axis meshes with a wheel of a perpendicular axis, preferably on the outside of the plan."""
     places: Mapping[str, int] = field(default_factory=dict)
@@ -125,7 +125,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect the same crossing axis, and are therefore in a row along it.
+    """Yield pairs of axes that intersect the same crossing axis, and therefore lie on a line along it.
 
     A worm does not intersect its wheel's axis.
     """

@@ -41,9 +41,9 @@ class PlanClearance:
 
     Axes that carriers move relative to each other are separated by levels instead.
 
-    still    (axes, axes): True if the distance of two is constant
+    still    (axes, axes): True if the distance between two is constant
     radius   radius of the widest wheel of each axis (mm), without rings
-    need     (axes, axes): minimum distances of axes whose wheels share a level and do not mesh (mm)
+    need     (axes, axes): minimum distances between axes whose wheels share a level and do not mesh (mm)
     meet     (axes, axes): True if wheels of two mesh
     """
 
@@ -88,7 +88,7 @@ class PlanClearance:
 
 
 def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[frozenset[str]]) -> Floats:
-    """Return minimum distances of axes whose wheels share a level and do not mesh; 0 without a requirement."""
+    """Return minimum distances between axes whose wheels share a level and do not mesh; 0 without a requirement."""
     mates = _mates(pairs)
     need = np.zeros((len(discs), len(discs)))
     clusters: dict[int, list[tuple[int, PlanDisc]]] = {}
@@ -280,7 +280,7 @@ _BEAM = ((60, 12), (200, 4))  # (maximum number of axes, width of the beam)
 _MISS = 1e4  # cost per mm of error of a distance
 _FAR = 0.15  # cost per mm from the middle of the placed axes
 _SIDE = 0.3  # gain per mm towards the side of a crossing wheel
-_ROW = 1.2  # default distance of two axes in a row over the sum of their radii
+_ROW = 1.2  # default distance between two axes on a line divided by the sum of their radii
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
@@ -441,7 +441,7 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points in a row with a placed axis, at the required distance from another axis, or at free
+        """Return points on a line with a placed axis, at the required distance from another axis, or at free
         distances.
         """
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())

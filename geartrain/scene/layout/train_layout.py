@@ -28,7 +28,7 @@ from geartrain.scene.layout.wheel_stacks import WheelStack
 # --------------------------------------------------------------------------------------------------- layout diagnostics
 
 
-_TOUCH = 1e-9  # gap over the pitch radii below which pitch circles touch
+_TOUCH = 1e-9  # gap divided by the pitch radii below which pitch circles touch
 _MEET = 1e-6  # the same for axes that are not parallel, whose declared directions are rounded
 _SHOWN = 6
 
@@ -102,9 +102,9 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
     return Problem(
         f"the pitch circles of '{first}' and '{second}' "
         + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
-        f"pair '{contact.name}' requires a distance of axes '{axis}' and '{other}' that other pairs, declared "
-        "positions, modules or offsets do not allow",
-        "change a tooth count, a position or a module; the motion does not depend on the distance",
+        f"the centre distance that pair '{contact.name}' requires between axes '{axis}' and '{other}' is incompatible "
+        "with other pairs, declared positions, modules or offsets",
+        "change a tooth count, a position or a module; speeds are not affected",
         place,
     )
 

@@ -11,11 +11,11 @@ from math import pi, sin, tan
 
 from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
-LAND = 0.01  # metal under the roots, over the pitch radius
+LAND = 0.01  # metal under the roots, divided by the pitch radius
 CROWN = pi / 2 - 1e-6
 """Cone half angle [rad] above which a wheel is treated as a crown wheel, whose plane contains the apex."""
-_BACK = 0.35  # metal behind the teeth, over the thickness
-_MOST_FACE = 0.45  # maximum face width over the cone distance
+_BACK = 0.35  # metal behind the teeth, divided by the thickness
+_MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:

@@ -379,7 +379,7 @@ class WheelStack:
     gap: float
     """Gap between levels (mm)."""
     swept: SweptDistances
-    """Distances of the axes."""
+    """Distances between the axes."""
     given: Mapping[int, float]
     """Stack -> height [mm] that is determined by parts that are already placed."""
 

@@ -28,7 +28,7 @@ _MINIMUM = 0.8  # mm: minimum diameter of an arbor
 USUAL = 2 / 3
 """Diameter of an arbor relative to the root radius of its smallest wheel."""
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: diameters of arbors that are tried to avoid obstacles
-_PIVOT = 0.55  # diameter of a pivot over that of its arbor, which leaves a shoulder
+_PIVOT = 0.55  # diameter of a pivot divided by that of its arbor, which leaves a shoulder
 _WIDEST = 6.0  # mm: maximum default diameter
 
 

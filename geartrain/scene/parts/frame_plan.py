@@ -480,7 +480,7 @@ class FramePlan:
 # ------------------------------------------------------------------------------------------------------ seats of shafts
 
 _ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm from the middle of the outermost gaps: arms are nearer to the wheels
-_PART = 0.4  # radius of a flange over that of the widest disc on its axis
+_PART = 0.4  # radius of a flange divided by that of the widest disc on its axis
 _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 
 

@@ -23,7 +23,7 @@ from geartrain.teeth.outlines.contour import Contour
 _PILLAR_MOST, _PILLAR_MINIMUM = 4.0, 1.5  # mm: radius of a pillar
 _PILLAR_PART = 0.025  # over the diagonal of all turning parts between the plates: 10 mm in diameter at 200 mm
 _LAND = 3.0  # mm: width of plate round a hole
-_WIDE = 6.0  # minimum radius of a wave generator with windows, over its bore
+_WIDE = 6.0  # minimum radius of a wave generator with windows, divided by its bore
 _BLADE = 0.05  # mm: minimum web between holes
 
 

@@ -116,7 +116,7 @@ TENON = 0.6
 """Ratio of the radius of the end in a plate to the radius of a pillar or post."""
 _POSTS, _TRIED = 3, 72
 _POST_WIDEST = 2.0  # mm: maximum radius of a post
-_RIM_PART = 0.3  # radius of a post over the width of a ring's rim
+_RIM_PART = 0.3  # radius of a post divided by the width of a ring's rim
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:

@@ -87,7 +87,7 @@ Point = tuple[float, float]
 _DISC = 3.0  # mm: thickness of discs of pins and slots
 _LAND = 3.0  # mm: width of plate round a hole
 _PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
-_PIN = 0.25  # diameter of a pin over its distance from the axis, at most 2 mm
+_PIN = 0.25  # diameter of a pin divided by its distance from the axis, at most 2 mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,19 +180,19 @@ def _discs(
 ) -> Iterator[Plate]:
     for coupling in couplings:
         if isinstance(coupling, Parallel):
-            what = f"the mechanism of '{coupling.name}' is not made"
+            what = f"the mechanism of '{coupling.name}' is not modelled"
             why = "the parts that keep its two links parallel are not declared"
             notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
             continue
         if isinstance(coupling, PinsInHoles):
             lacking = "pins" if coupling.name in holed else "pins and holes"
-            what = f"the {lacking} of '{coupling.name}' are not made"
-            why = "they are made only if their sizes are declared, and both links have sufficiently large wheels"
-            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; else add them by hand"
+            what = f"the {lacking} of '{coupling.name}' are not modelled"
+            why = "they are modelled only if their sizes are declared and both links have sufficiently large wheels"
+            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; otherwise add them by hand"
             notices.append(Problem(what, why, fix))
             continue
         if coupling.pin_radius is None or coupling.offset is None:
-            what = f"pin and slot of '{coupling.name}' are not drawn"
+            what = f"pin and slot of '{coupling.name}' are not modelled"
             notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
             continue
         yield _disc(coupling, coupling.pin, diameters, slotted=False)

@@ -33,7 +33,7 @@ _DIGITS = 4  # decimals of lengths in mm
 _HAND = 1.0  # mm of an arbor's end inside a hand
 _LAID = 0.2  # mm from a bracket to the face of a dial on it
 _CLEAR = 1.0  # mm from the edge of such a dial to other arbors
-_EDGE = 1.08  # radius of its edge over that of the engraving
+_EDGE = 1.08  # radius of its edge divided by that of the engraving
 _SAME = 1e-6
 
 

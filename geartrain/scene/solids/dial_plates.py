@@ -32,7 +32,7 @@ THICKNESS = 1.5
 _AWAY = 2.0  # mm from turning parts to a dial
 _ROOM = 0.5  # mm of clearance round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
-_SCALE, _LETTER = 0.965, 0.055  # radius of the scale, and height of letters, over the radius of a dial
+_SCALE, _LETTER = 0.965, 0.055  # radius of the scale, and height of letters, divided by the radius of a dial
 _SMALLEST = 1.2  # mm: minimum height of letters
 _LAND = 1.0  # mm: width of plate round the end of a foot
 _SIDES = 48  # points of a circle for a convex hull
@@ -208,7 +208,13 @@ FOOT_RADIUS = 1.5  # mm; its ends in the plates are thinner
 _TENON = 0.6
 _GAP = 0.5  # mm of clearance between a foot and turning parts
 _FEET, _MOST, _WAYS = 3, 4, 48
-_SHARES = (0.92, 0.8, 0.65, 0.5, 0.35)  # candidate distances of a foot from the centre, over the radius of the dial
+_SHARES = (
+    0.92,
+    0.8,
+    0.65,
+    0.5,
+    0.35,
+)  # candidate distances of a foot from the centre, divided by the radius of the dial
 _EDGE = 1.0  # mm: width of dial round the end of a foot
 _STEPS = 32  # samples from the centre of a dial to a foot, at which the edge between them is tested
 

@@ -32,8 +32,8 @@ RIM, HUB = 2.25, 1.125
 
 Clockmakers use rims of 2 to 2.5 modules, and hubs of 2 to 2.5 diameters of the arbor.
 """
-_SPOKE = 1.0  # width of a spoke over the depth of the rim
-_WINDOW = 1.0  # minimum radial size of a window over the depth of the rim
+_SPOKE = 1.0  # width of a spoke divided by the depth of the rim
+_WINDOW = 1.0  # minimum radial size of a window divided by the depth of the rim
 _CORNER = 0.5  # default radius of corners in modules
 
 Point = tuple[float, float]
@@ -129,7 +129,7 @@ def _turned(contour: Contour, angle: float) -> Contour:
 # --------------------------------------------------------------------------------------------------------------- blanks
 
 
-_LAND = 0.8  # maximum bore over the root diameter
+_LAND = 0.8  # maximum bore divided by the root diameter
 _THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 

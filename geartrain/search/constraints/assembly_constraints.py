@@ -127,7 +127,7 @@ class _ConstraintBuilder:
         # measure: m for lengths, plain for numbers, empty if not declared
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
-            declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
+            declared = "a length" if measure == "m" else "a number without a unit" if measure else "not declared"
             raise QuestionError(
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
@@ -414,7 +414,9 @@ class DeclaredPositions:
                 )
 
     def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """Return whether the module of a mesh and the positions of its axes are both lengths, or both plain numbers."""
+        """Return whether the module of a mesh and the positions of its axes are both lengths, or both numbers without a
+        unit.
+        """
         if not mesh.measure or mesh.module is None:
             return False
         places = [self.fitting.train.axes[label].position for label in mesh.axes]
@@ -430,7 +432,9 @@ class DeclaredPositions:
             yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
-        """Return the distance between the two axes of a mesh [m, or plain number]; 0 if a position is not declared."""
+        """Return the distance between the two axes of a mesh [m, or number without a unit]; 0 if a position is not
+        declared.
+        """
         axes = self.fitting.train.axes
         ends = [axes[label].position for label in mesh.axes if label in axes]
         if len(ends) < 2 or ends[0] is None or ends[1] is None:
@@ -478,8 +482,8 @@ class DeclaredPositions:
 
 def _no_positions(train: Train) -> Problem:
     return Problem(
-        f"the axes of no loop of '{train.name}' have known positions",
-        "phase closure requires the positions of the axes of a loop",
+        f"no loop of '{train.name}' has known axis positions",
+        "phase closure requires the positions of all axes of a loop",
         "declare `axes` with positions, or omit phase closure",
         train.place("axes"),
     )

@@ -60,7 +60,7 @@ class ConstraintOptions:
     maximum_teeth: int | None = None
     """Maximum tooth count of every varied wheel, inclusive; worms are exempt."""
     largest_radius: Quantity | None = None
-    """Maximum pitch radius of every varied wheel: a length, or a plain number of modules; worms are exempt."""
+    """Maximum pitch radius of every varied wheel: a length, or a number of modules; worms are exempt."""
     different: bool = False
     """Requirement that no varied wheel has the same tooth count as another wheel, except equal planets."""
     hunting: bool = False

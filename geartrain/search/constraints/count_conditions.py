@@ -277,7 +277,9 @@ def teeth_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or plain number]."""
+    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or number without a
+    unit].
+    """
     assert mesh.module is not None
     return teeth_of(mesh).times(mesh.module)
 

@@ -119,7 +119,7 @@ def members(bits: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class PairRatios:
-    """Table of the distinct ratios (driven over driver) of two wheels, ascending."""
+    """Table of the distinct ratios (driven divided by driver) of two wheels, ascending."""
 
     counts: tuple[int, ...]
     """Admissible tooth counts, ascending."""
@@ -243,7 +243,7 @@ def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, r
 
 
 Edge = tuple[int, int, int, int]
-"""Gear pair: index of the driving arbor, index of the driven arbor, ratio driven over driver in lowest terms."""
+"""Gear pair: index of the driving arbor, index of the driven arbor, ratio driven divided by driver in lowest terms."""
 Meshes = tuple[tuple[int, int], ...]
 """Tooth counts (driver, driven) of each gear pair."""
 

@@ -127,8 +127,9 @@ def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
         raise RangeError(
             Problem(
                 f"the lists of {len(top)} and {len(beneath)} tooth counts are too long",
-                f"lists with gaps are scanned, or searched as at most {_MOST_BOXES} pairs of ranges",
-                "give one range for each wheel, such as 12:1000000",
+                f"lists with gaps are limited to {_MOST_SCANNED:,} counts (the shorter list), or to {_MOST_BOXES} pairs "
+                "of contiguous ranges",
+                "give one contiguous range for each wheel, such as 12:1000000",
             )
         )
     return [_Box(CountRuns((p,)), CountRuns((q,))) for p, q in product(top.spans, beneath.spans)]

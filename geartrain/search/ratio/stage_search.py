@@ -39,7 +39,8 @@ _QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more 
 
 @dataclass(frozen=True, slots=True)
 class StageFindings(Tabular, Result):
-    """Solutions of a search for a ratio by stages of gear pairs, as pairs of multisets of tooth counts.
+    """Results of a search for gear pairs in series with a given ratio; each solution is a pair of multisets of tooth
+    counts (numerator, denominator).
 
     See Also
     --------
@@ -50,7 +51,7 @@ class StageFindings(Tabular, Result):
     MEANINGS: ClassVar = {
         "top": "Tooth counts of the numerator.",
         "beneath": "Tooth counts of the denominator.",
-        "ratio": "Product of the numerator counts over product of the denominator counts [1].",
+        "ratio": "Product of the numerator counts divided by product of the denominator counts [1].",
         "value": "Ratio as a float [1].",
         "error": "Ratio over the requested ratio, minus 1 [1].",
         "stages": "Stages of the best pairing.",

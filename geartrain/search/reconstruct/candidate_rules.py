@@ -232,7 +232,7 @@ def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
             yield BrokenRule("ring", (), what, None)
     if problem.geometry.reach is not None and not candidate_likelihood(candidate, problem.geometry):
         what = "radii of meshing wheels do not fit the distance of their axes"
-        yield BrokenRule("distance", (), what, "if the distances of axes exclude no meshes")
+        yield BrokenRule("distance", (), what, "if the distances between axes exclude no meshes")
 
 
 def _pair(one: str | None, other: str | None) -> frozenset[str | None]:

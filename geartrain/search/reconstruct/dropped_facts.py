@@ -107,7 +107,7 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
             yield f"without the fact {said}", replace(problem, **left)
     if measured:
         left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
-        yield "if the distances of axes exclude no meshes", replace(problem, **left)
+        yield "if the distances between axes exclude no meshes", replace(problem, **left)
     yield from _senses(problem)
     for at, dial in enumerate(problem.dials):
         where = "is lost" if dial.place == NEW else f"is {dial.place}"

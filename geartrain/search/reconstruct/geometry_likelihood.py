@@ -7,7 +7,7 @@ itself supported with stiffness k has stiffness k/(1 + k). A measured radius wit
 stiffness (s*radius/error)^2.
 
 A mesh of two axes with known positions contributes exp(-(f/s')^2 / 2), where f is the logarithm of the sum of the pitch
-radii over the distance of the axes. Misfits of modules and of distances are treated as independent.
+radii divided by the distance between the axes. Misfits of modules and of distances are treated as independent.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import NamedTuple
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, SurvivingGeometry
 
 # Feasibility of the positions of arbors without known position, between arbors with known positions. A chain of such
-# arbors between two known ones is a polygon, whose sides are the distance of the two and the axis distances of the
+# arbors between two known ones is a polygon, whose sides are the distance between the two and the axis distances of the
 # meshes, each within bounds. The polygon can be closed in the plane if and only if no side must be longer than the sum
 # of the maxima of the others. Each chain is tested separately, so this condition is necessary but not sufficient where
 # three chains meet.
@@ -224,7 +224,9 @@ def _size(wheel: PlacedWheel) -> tuple[str | None, int]:
 
 
 def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
-    """Return the squared logarithm of the sum of pitch radii over the axis distance; 0 if one of them is not known."""
+    """Return the squared logarithm of the sum of pitch radii divided by the axis distance; 0 if one of them is not
+    known.
+    """
     square = geometry.square_distance(mesh.driving[0], mesh.driven[0])
     whole = geometry.radii_sum(mesh.driving[1], mesh.driven[1])
     return 0.0 if square is None or whole is None else math.log(whole**2 / square) ** 2 / 4

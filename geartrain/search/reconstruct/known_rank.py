@@ -180,7 +180,7 @@ class TrainPlace(Result):
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Probability of the best explanation over the probability of this one, at least 1."""
+    """Probability of the best explanation divided by the probability of this one, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)

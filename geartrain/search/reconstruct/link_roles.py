@@ -328,7 +328,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
             said = " and ".join(f"'{link}'" for link in links)
             what = f"{said} are joined, but are on different axes"
             why = "the arbor of an added wheel would be ambiguous"
-            fix = f"remove the axis of '{name}', and list pairs of wheels that do not mesh in `apart`"
+            fix = f"remove the axis of '{name}', and list in `apart` the pairs of wheels that do not mesh"
             place = next(loc for pair, loc in _pairs(evidence) if name in pair)
             yield Problem(what, why, fix, evidence.place(*place))
 

@@ -3,11 +3,11 @@
 A hash join on quotients finds pairs of paths, bit masks represent shared arbors and wheels, and the length of the
 shortest tour of the dials is the lower bound that prunes branches.
 
-The distance of two dials is the number of added wheels on exactly one of their paths; the distance of a dial from the
-input is the number on its path. A tour around the tree passes each added wheel twice, so not all distances can be
+The distance between two dials is the number of added wheels on exactly one of their paths; the distance of a dial from
+the input is the number on its path. A tour around the tree passes each added wheel twice, so not all distances can be
 large. The search therefore begins with a short path, or with two paths at a small distance, whose quotients are looked
-up in a table. Then only paths of the other dials remain that are compatible with all chosen ones, and the dial with
-the fewest paths is next. The search is complete, because every choice begins in one of these ways.
+up in a table. Then only paths of the other dials remain that are compatible with all chosen ones, and the dial with the
+fewest paths is next. The search is complete, because every choice begins in one of these ways.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def _orders(number: int) -> tuple[NDArray[np.int64], NDArray[np.int64], tuple[tu
 
 
 _NEVER = 100
-"""Distance of two paths that differ by a prime larger than every tooth count, so that they are incompatible."""
+"""Distance between two paths that differ by a prime larger than every tooth count, so that they are incompatible."""
 
 
 class PathColumns:

@@ -418,7 +418,9 @@ class PathList:
 
     @cached_property
     def _wanted(self) -> Fraction:
-        """Magnitude of the speed of the dial over the speed of the input; the minimum if the dial has a tolerance."""
+        """Magnitude of the speed of the dial divided by the speed of the input; the minimum if the dial has a
+        tolerance.
+        """
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
 
@@ -501,7 +503,9 @@ class PathList:
         return minimum / known, np.where(turned, float(turned_high), float(high)) / known
 
     def known_ratio(self, row: int) -> Fraction:
-        """Return the product of surviving driving counts over the product of surviving driven counts on a path."""
+        """Return the product of surviving driving counts divided by the product of surviving driven counts on a
+        path.
+        """
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         taken = [each for each in taken if not each.idler]
         return Fraction(

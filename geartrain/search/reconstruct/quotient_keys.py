@@ -178,7 +178,7 @@ _ROUNDING = 1e-12  # relative rounding error of a quotient
 
 
 class QuotientRanges:
-    """Sorted tables of all quotients of products of added tooth counts, as floats.
+    """Sorted lookup tables, as floats, of all ratios of products of tooth counts that added wheels can have.
 
     minimum, maximum   range of the tooth count of an added wheel
     """

@@ -324,7 +324,9 @@ def _ranks_of_known(
 
 
 def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
-    """Return a search that returns all explanations, or raises `KeyboardInterrupt`."""
+    """Return a function that runs a reconstruction search to completion, without listing candidates, and raises
+    `KeyboardInterrupt` if the search is interrupted.
+    """
 
     def search(requested: ReconstructionProblem) -> Reconstructions:
         answer = find_reconstructions(requested, execution, listed=0)

@@ -61,7 +61,7 @@ class SurvivingGeometry:
     module: Fraction = Fraction(43, 1000)
     """Standard deviation of the logarithm of the ratio of the modules of two meshing wheels."""
     distance: Fraction = Fraction(3, 100)
-    """Standard deviation of the logarithm of the sum of two pitch radii over the distance of the axes."""
+    """Standard deviation of the logarithm of the sum of two pitch radii divided by the distance between the axes."""
     reach: Fraction | None = None
     """Maximum possible difference between the sum of pitch radii and the axis distance [mm]; None if unlimited."""
     radius: Fraction | None = None
@@ -85,7 +85,7 @@ class SurvivingGeometry:
         return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
 
     def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
-        """Return the square of the distance of two axes [mm2]; None if a position is not known."""
+        """Return the square of the distance between two axes [mm2]; None if a position is not known."""
         if first not in self.places or second not in self.places:
             return None
         (x, y), (u, v) = self.places[first], self.places[second]
@@ -105,7 +105,7 @@ class SurvivingGeometry:
         return (module * first[1] + other * second[1]) / 2
 
     def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
-        """Return the minimum and maximum axis distance of two meshing wheels [mm]; None if unlimited."""
+        """Return the minimum and maximum axis distance between two meshing wheels [mm]; None if unlimited."""
         own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
         if own is None or mate is None or self.reach is None:
             return None
@@ -429,7 +429,8 @@ def _plain(value: object) -> object:
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     """Return the measurements of the evidence; `NO_GEOMETRY` if it has no block `geometry`.
 
-    Raise `DeclarationError` for a module that is not above 0, and for an arbor with a position if there is a ring.
+    Raise `DeclarationError` for a module that is not greater than 0, and for an arbor with a position if there is a
+    ring.
     """
     assert evidence.reconstruct is not None, "no evidence"
     requested = evidence.reconstruct.geometry
@@ -476,7 +477,7 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             continue
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
-            what = f"the module of '{name}' is not above 0"
+            what = f"the module of '{name}' must be greater than 0"
             raise DeclarationError(
                 [Problem(what, "a module is a positive length", "declare for example `module: 0.5 mm`", place)]
             )
@@ -498,16 +499,17 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
 def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
-        what = f"the position of '{link}' cannot be used in evidence with the ring '{ring}'"
+        what = f"the position of '{link}' cannot be used as evidence, because '{ring}' is a ring gear"
         why = (
-            "`distance` applies to sums of pitch radii, but the centre distance of a ring and its mate is a difference"
+            "`distance` compares axis distances with sums of pitch radii, but the centre distance of a ring gear and "
+            "its mate is a difference"
         )
         fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 
 
 def _millimetres(length: Quantity) -> Fraction:
-    """Convert a length to an exact number of millimetres; a plain number is already in mm."""
+    """Convert a length to an exact number of millimetres; a number without a unit is already in mm."""
     return length.base if length.unit is None else length.base * 1000
 
 

@@ -234,7 +234,7 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
-    """Yield the intervals of speeds for which `drive` over the speed is from `low` to `high`."""
+    """Yield the intervals of speeds for which `drive` divided by the speed is from `low` to `high`."""
     if low > 0 or high < 0:
         ends = sorted((drive / low, drive / high))
         yield ends[0], ends[1]

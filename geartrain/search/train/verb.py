@@ -72,7 +72,10 @@ def run(
     ] = 0,
     coaxial: Annotated[
         bool | None,
-        typer.Option("--coaxial/--no-coaxial", help="Require equal centre distances between the same axes."),
+        typer.Option(
+            "--coaxial/--no-coaxial",
+            help="Require equal centre distances for all pairs that connect the same two axes.",
+        ),
     ] = None,
     hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
     different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,

@@ -47,7 +47,7 @@ class ContactPair:
     backlash.
     """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
-    """Friction terms of the driver's lever arm, which is its torque over the driven side's torque.
+    """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
 
     In the order: front flank turning forward and backward, back flank turning forward and backward. None without
     friction.
@@ -207,8 +207,8 @@ class ContactModel:
         return tuple(tuple(sorted(each)) for each in near)
 
     def restarted(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
-        """Return the same train with scaled speeds, starting at other angles [rad] and speeds [rad/s], with the same
-        tables.
+        """Return a copy of the model with scaled speeds and a new initial state (angles [rad], speeds [rad/s]); tables
+        are shared.
 
         `share` scales the speeds. If touching pairs determine all coordinates, speeds follow from their transmission
         functions at the angles, because the speeds of a step are means.

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 
-_SLOPE = 1e-12  # relative tolerance, over the mean ratio, of tables of the speed that are differentiated
+_SLOPE = 1e-12  # tolerance, relative to the mean ratio, of tables of the speed that are differentiated
 _DEGREE = 9
 _LEAP = 1e-7  # relative to the larger of the input's and the link's maximum speed: smaller jumps are rounding
 _MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
@@ -63,7 +63,7 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links over the speed of the input at n positions, and slopes of the pairs'
+    """Speeds and accelerations of all links divided by the speed of the input at n positions, and slopes of the pairs'
     errors.
     """
 
@@ -228,7 +228,8 @@ class InertialContacts:
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
-        """Return the impulse of each pair at kinks of the transmission functions, over the input's speed [N m s2].
+        """Return the impulse of each pair at kinks of the transmission functions, divided by the input's speed [N m
+        s2].
 
         Pairs with a negative impulse separate at any rate. The impulse is 0 where no speed jumps.
 

@@ -58,8 +58,8 @@ class CoSimulationCase(Shown):
 
 
 def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
-    """Return a train as a functional mock-up unit for co-simulation (FMI 2.0). The importing tool needs a Python with
-    geartrain.
+    """Export a train as a Functional Mock-up Unit (FMI 2.0) for co-simulation. The importing tool requires a Python
+    installation with geartrain.
 
     Parameters
     ----------

@@ -99,7 +99,7 @@ class StepEquations(NamedTuple):
     ratio: Floats
     """Speed ratio of both flanks of each pair."""
     arm: Floats
-    """Driver's torque over the driven side's torque, for both flanks of each pair."""
+    """Driver's torque divided by the driven side's torque, for both flanks of each pair."""
     A: Floats
     """Matrix; overwritten by the elimination."""
     b: Floats

@@ -30,14 +30,14 @@ WEAR_RANGE = (1e-7, 1e-3)
 """Range of the wear coefficient K, from greased metal to dry bronze or brass: four decades."""
 
 YIELD_AT = 5 / 3
-"""Maximum pressure of a line contact at first yield, over the yield stress.
+"""Maximum pressure of a line contact at first yield, divided by the yield stress.
 
 Yielding begins below the surface. The maximum shear stress is 0.300 of the pressure at a depth of 0.79 half widths; by
 Tresca, metal yields at half the yield stress (Johnson, Contact Mechanics, 1985, sections 4.2 and 6.2).
 """
 
 YIELD_AT_POINT = 1.6
-"""Maximum pressure of a point contact at first yield, over the yield stress.
+"""Maximum pressure of a point contact at first yield, divided by the yield stress.
 
 The value is that of spheres, by Tresca and by von Mises (Johnson, Contact Mechanics, 1985, section 6.2). A long ellipse
 has 5/3.
@@ -418,8 +418,8 @@ class CrossedWheels:
 
 
 def loss_over_friction(mesh: GearMesh) -> float | None:
-    """Return the power loss of a pair over its power and its friction coefficient, near friction 0: docs/strength.md
-    (14).
+    """Return the power loss of a pair divided by its power and its friction coefficient, near friction 0:
+    docs/strength.md (14).
 
     The energy through the pair times this is the integral of force over sliding distance. None for teeth that lock.
     """

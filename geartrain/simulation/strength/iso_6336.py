@@ -280,7 +280,7 @@ class RootSection:
     """Distance from the wheel's axis; `thickness` is the tooth thickness there [module]."""
     thickness: float
     factor: float
-    """Bending stress over torque/(width module^2)."""
+    """Bending stress divided by torque/(width module^2)."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
         """Return the bending stress [MPa] under a torque [N mm] on this tooth; `width` and `module` in mm."""

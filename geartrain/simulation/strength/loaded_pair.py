@@ -224,7 +224,7 @@ class PairUnderLoad:
 
     @property
     def _helical_bending_factor(self) -> float:
-        """Bending stress of a helical tooth over that of a spur tooth with the same transverse section.
+        """Bending stress of a helical tooth divided by that of a spur tooth with the same transverse section.
 
         The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
         In the normal section the tooth is thinner and the load is larger.

@@ -82,9 +82,9 @@ class PinLoad(NamedTuple):
 def lobe_load(disc: CycloidalDisc) -> PinLoad:
     """Return the load of the pin with the maximum pressure.
 
-    The force is over the tangential force at the disc's pitch circle, the curvature in 1/module. The radius of
-    curvature of a convex lobe is that of the curve of centres minus that of the pin; for a concave one it is the sum
-    of both (28).
+    The force is divided by the tangential force at the disc's pitch circle, the curvature in 1/module. The radius of
+    curvature of a convex lobe is that of the curve of centres minus that of the pin; for a concave one it is the sum of
+    both (28).
 
     >>> from geartrain.teeth.cycloidal_disc import CycloidalDisc
     >>> load = lobe_load(CycloidalDisc(11, 25 / 3, 1.0))
@@ -99,7 +99,7 @@ def lobe_load(disc: CycloidalDisc) -> PinLoad:
 
 
 def hole_share(pins: int) -> float:
-    """Return the maximum force on one of the pins in holes, times the radius of their circle, over their torque:
+    """Return the maximum force on one of the pins in holes, times the radius of their circle, divided by their torque:
     docs/strength.md (29).
 
     All pins press in the same direction, from their centres to those of the holes; those on one side carry the load.

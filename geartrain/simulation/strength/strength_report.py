@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 _FORCES = (
     "Mean forces at the operating pitch circles. Axial: positive along the direction of the axis; radial: positive "
-    "towards the axis. Both wheels of a pair have the same force, the larger torque over radius, because friction "
-    "reduces the torque on one of them; crossed axes are an exception. Friction is included for sliding along the "
+    "towards the axis. Both wheels of a pair have the same force, the larger torque divided by radius, because "
+    "friction reduces the torque on one of them; crossed axes are an exception. Friction is included for sliding along the "
     "teeth, not along their profiles. The pressure angle is 20 degrees by default."
 )
 _CONTACT = (
@@ -47,14 +47,14 @@ _WHERE = {
 _PINS = (
     "Half of the pins, or fewer with a clearance, carry the load in proportion to their lever arms; the table has the "
     "maximum pressure of all phases. Radius: equivalent cylinder on a plane. Safety of a disc is 5/3 of the "
-    "strength of the weaker side over the pressure. Pins in holes are cantilevers with bending and shear at the plane "
-    "of the disc, of the train's material or else of steel; those of a ring are supported by it."
+    "strength of the weaker side divided by the pressure. Pins in holes are cantilevers with bending and shear at the "
+    "plane of the disc, of the train's material or else of steel; those of a ring are supported by it."
 )
 _ROOT = (
     "Bending by Lewis on the outline that is cut, without the stress concentration of its fillet. At the tip, one "
     "tooth pair carries the whole load, as with inexact teeth. Shared: equal forces. Safety of a root is the "
-    "strength of the material over the stress with the load at the tip; safety of a flank is 5/3 of the strength over "
-    "the pressure of single contact, at which yielding begins below the flank (static; pitting is not included)."
+    "strength of the material divided by the stress with the load at the tip; safety of a flank is 5/3 of the "
+    "strength divided by the pressure of single contact, at which yielding begins below the flank (static; pitting is not included)."
 )
 _ISO = (
     "ISO 6336-2 and -3, method B, all load factors K 1, for wheels cut by a hob (tip radius of the rack 0.38 "
@@ -68,8 +68,8 @@ _WEAR = (
 _ARBOR = (
     "Upper bound: the forces of all meshes act in one direction, at the worst position between two bearings, together "
     "with the moments of the axial forces at the radii of the wheels, and the total force is on one pivot. Positions "
-    "of wheels are not used. Pivot pressure: force over diameter times length. Shoulder pressure: the thrust over the "
-    "annulus of the arbor round its pivot."
+    "of wheels are not used. Pivot pressure: force divided by diameter times length. Shoulder pressure: thrust divided by the "
+    "area of the annulus of the arbor round its pivot."
 )
 
 

@@ -54,8 +54,8 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     ROW = "WheelStrength"
     MEANINGS: ClassVar = {
         "pair": "Gear pair.",
-        "root_safety": "Strength over the stress at the root [1].",
-        "contact_safety": "Pressure at which yielding begins over the pressure in the contact [1].",
+        "root_safety": "Strength divided by the stress at the root [1].",
+        "contact_safety": "Pressure at which yielding begins divided by the pressure in the contact [1].",
     }
 
     PAGE = "simulation.strength.strength_report:strength_document"
@@ -334,7 +334,7 @@ class WheelForce(Result):
     tangential: float
     """Tangential force at the pitch circle, with the sign of the torque [N].
 
-    On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque over radius,
+    On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque divided by radius,
     because friction reduces the other torque.
     """
     axial: float

@@ -122,7 +122,7 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius [mm]: m z/2 over the cosine of the helix angle."""
+        """Return the pitch radius [mm]: m z/2 divided by the cosine of the helix angle."""
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
@@ -203,7 +203,7 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
     Parameters
     ----------
     tangential : float
-        Torque over pitch radius, in any unit of force.
+        Torque divided by pitch radius, in any unit of force.
     helix : float
         Helix angle [rad], positive for a right hand; near pi/2 for a worm.
     pressure_angle : float
@@ -223,7 +223,7 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
     (5.7735, 4.2028)
     """
     lean = helix + friction_angle
-    # component N cos(alpha) of the normal force in the pitch plane, over the tangential force
+    # component N cos(alpha) of the normal force in the pitch plane, divided by the tangential force
     across = cos(friction_angle) / cos(lean)
     return PitchForce(tangential, 0.0 - tangential * tan(lean), abs(tangential * across) * tan(pressure_angle))
 

@@ -142,7 +142,7 @@ class Service:
         if unit is None:
             what, why = (
                 "years cannot be converted to turns",
-                "the speeds of this train are plain numbers without a unit",
+                "the speeds of this train are numbers without a unit",
             )
             raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
         return years * _YEAR * float(unit)

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 
 _MM = 1e3
 _FLATTEST = 0.01  # minimum cosine of a cone half-angle; below, the virtual spur wheel is nearly a rack
-_WIDEST = 1 / 3  # usual maximum width over the cone distance
-_SPREAD = 2.0  # width over which a point force is distributed at the root, over its lever arm
+_WIDEST = 1 / 3  # usual maximum width divided by the cone distance
+_SPREAD = 2.0  # width over which a point force is distributed at the root, divided by its lever arm
 _MPA = 1e6
 _WORDS = {
     "base": "a tip reaches below the mate's base cylinder, where the flank ends: give the smaller wheel more teeth",

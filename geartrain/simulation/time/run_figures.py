@@ -424,7 +424,7 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
     # a linear fit removes the mean motion, whose leakage would hide the lines
     swing = angle - np.polyval(np.polyfit(time - time[0], angle, 1), time - time[0])
     window = np.hanning(len(swing))
-    # amplitude: both halves of the spectrum, over the gain of the window
+    # amplitude: both halves of the spectrum, divided by the gain of the window
     size = np.abs(np.fft.rfft(swing * window)) * 2 / window.sum()
     return np.arange(len(size)) / (len(swing) * (time[1] - time[0])), size
 

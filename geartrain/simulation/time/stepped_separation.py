@@ -55,7 +55,7 @@ _KEPT = 16, 6, 3  # numbers of positions that are refined with each shorter time
 
 
 class SeparationPosition(NamedTuple):
-    """Position at which a pair may separate, with bounds of the rate over the rate of the model."""
+    """Position at which a pair may separate, with bounds of the rate divided by the rate of the model."""
 
     pair: int
     """Index of the pair."""
@@ -66,9 +66,9 @@ class SeparationPosition(NamedTuple):
     turns: float
     """Position of the input [revolutions]."""
     holds: float
-    """Rate at which the flanks of the pair touch, over the rate of the model."""
+    """Rate at which the flanks of the pair touch, divided by the rate of the model."""
     parts: float
-    """Rate at which the flanks of the pair separate, over the rate of the model."""
+    """Rate at which the flanks of the pair separate, divided by the rate of the model."""
 
 
 @dataclass(frozen=True)

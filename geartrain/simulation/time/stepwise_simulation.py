@@ -158,7 +158,7 @@ class Simulation(Shown):
 
     @property
     def _share(self) -> float:
-        """Speed of the drive over its declared speed."""
+        """Speed of the drive divided by its declared speed."""
         own = self._of.case.drive.value
         return self.drive / own if own else 0.0
 

@@ -115,7 +115,9 @@ def describe_time_run(found: TimeReport) -> Document:
 
 
 def time_document(run: TimeRun) -> Document | None:
-    """Return the document of a run, as `geartrain dynamics` prints it; None if the train is not known."""
+    """Return the report of a simulation run, as `geartrain dynamics` prints it; None if the run contains no declaration
+    of its train.
+    """
     from geartrain.analysis.gear_train import GearTrain
 
     if run._declaration is None:

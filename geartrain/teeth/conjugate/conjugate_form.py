@@ -381,11 +381,13 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
 
 
 def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
-    """Raise a validation error if the backlash is below 0 or the centre distance is not above 0."""
+    """Raise a validation error if the backlash is below 0 or the centre distance is not greater than 0."""
     if backlash.value < 0:
         raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
     if centre_distance is not None and centre_distance.value <= 0:
-        raise bad("length", f"centre_distance {centre_distance.text} is not above 0", "give a distance above 0")
+        raise bad(
+            "length", f"centre_distance must be greater than 0, not {centre_distance.text}", "give a distance above 0"
+        )
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:

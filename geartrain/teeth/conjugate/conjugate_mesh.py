@@ -105,7 +105,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def separation(self) -> float:
-        """Tangent of the pressure angle at the pitch point: radial over tangential tooth force."""
+        """Tangent of the pressure angle at the pitch point: radial divided by tangential tooth force."""
         return abs(tan(float(self.path.at(np.zeros(1)).psi[0])))
 
     @property
@@ -277,7 +277,7 @@ class DesignLosses(Result):
     measures: PathMeasures
     """Loss, contact stress, heat, flash temperature and case depth, relative to the standard involute."""
     sliding: float
-    """Maximum sliding speed over the pitch-line speed."""
+    """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
     """Maximum sliding speed over the lower of both contact speeds along the flanks; infinite where that speed is 0."""
 

@@ -262,8 +262,8 @@ def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end
 
 
 def sliding(path: PathOfContact) -> tuple[float, float]:
-    """Return the maximum sliding speed over the pitch-line speed, and over the lower of both contact speeds along the
-    flanks.
+    """Return the maximum sliding speed divided by the pitch-line speed, and by the lower of both contact speeds along
+    the flanks.
     """
     pitch = path.pitch
     slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
@@ -326,7 +326,7 @@ def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float
 
 
 def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
-    """Return input and output power of a contact over normal force and pitch-line speed; gear `driver` drives."""
+    """Return input and output power of a contact divided by normal force and pitch-line speed; gear `driver` drives."""
     rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
     rub = np.sign(contact.d) * (friction if driver == 1 else -friction)
     first = contact.cos_psi + rub * (rising + pitch.A * S)

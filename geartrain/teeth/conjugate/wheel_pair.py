@@ -129,7 +129,7 @@ class WheelPair(Shown):
             )
 
     def modules(self, length: Quantity, name: str) -> float:
-        """Convert a declared length to transverse modules. A plain number is a length in normal modules.
+        """Convert a declared length to transverse modules. A number without a unit is a length in normal modules.
 
         Parameters
         ----------
@@ -149,6 +149,6 @@ class WheelPair(Shown):
             raise refused(
                 f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
-                f"give the `module` of both wheels (option --module), or the {name} as a plain number of modules",
+                f"give the `module` of both wheels (option --module), or the {name} as a number of modules",
             )
         return length.si / self.module

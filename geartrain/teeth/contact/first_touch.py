@@ -155,8 +155,8 @@ class FlankSegments(NamedTuple):
     u: Floats
     """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives by u, shape (4, 2,
-    n).
+    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives with respect to u,
+    shape (4, 2, n).
     """
     v: Floats
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
@@ -253,15 +253,15 @@ class FlankSegmentation:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return radius, azimuth and their derivatives by u of the driver's points about the second axle, shape (4,
-        n).
+        """Return radius, azimuth and their derivatives with respect to u of the driver's points about the second axle,
+        shape (4, n).
         """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """Return the driver's points about the second axle, and the derivatives by u of their radius and azimuth about
-        the first.
+        """Return the driver's points about the second axle, and the derivatives with respect to u of their radius and
+        azimuth about the first.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
@@ -386,7 +386,7 @@ class FirstTouchSearch(FlankSegmentation):
         change, swing = view.moved(dr, da)
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
-            slant = np.where(at_end, swing / change, turn / rise)  # derivative of azimuth by radius on the smooth side
+            slant = np.where(at_end, swing / change, turn / rise)  # d azimuth / d radius on the smooth side
             off = view.radius - r
             # a larger correction occurs only where the smooth side is stationary and `slant` is noise
             trusted = np.abs(off / np.where(at_end, change, rise)) <= _LEFT

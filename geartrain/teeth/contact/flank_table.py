@@ -112,7 +112,9 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Radius, its derivative by u, azimuth [rad] and its derivative by u at the search nodes."""
+        """Radius, its derivative with respect to u, azimuth [rad] and its derivative with respect to u at the search
+        nodes.
+        """
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)

@@ -224,7 +224,9 @@ class OutlineTransmission(TransmissionFunction):
         return float(weights @ found)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return the work output divided by the work input of one pitch at constant load torque; NaN if friction
+        locks.
+        """
         found, speed, weights = self._sampled
         return float((weights @ speed) / (weights @ (speed / found)))
 

@@ -40,7 +40,7 @@ _THIN = (
     1e-9  # of a pitch: thinner stretches are not divided, as where a tip is tangent to a side and the speed is infinite
 )
 _CUTS = 17  # subdivisions of a gap with a kink; one call for many angles costs little more than for one
-_SAFETY = 2.0  # reported error over the maximum found
+_SAFETY = 2.0  # reported error divided by the maximum found
 _FLAT = 1e-7  # of the ratio: kinks with a smaller change of speed are not refined
 _LEAP = 1e-9  # rad: a larger step of the angle is a discontinuity, not a kink
 _MOST = 100_000  # maximum number of stretches per driver pitch
@@ -51,7 +51,7 @@ class PiecewiseTransmission:
     """Driven angle as a periodic piecewise polynomial: angle = ratio phi1 + error."""
 
     ratio: Fraction
-    """Mean speed ratio, driven over driver, without sign."""
+    """Mean speed ratio, driven divided by driver, without sign."""
     period: float
     """Period in driver angle [rad]."""
     breaks: Floats

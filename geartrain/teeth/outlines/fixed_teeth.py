@@ -40,9 +40,10 @@ ADDENDUM, DEDENDUM = 0.7, 0.9
 A tooth must have left its space where the wheel is bent in, two modules from where it is bent out.
 """
 WALL = 0.012
-"""Wall thickness of the flexible wheel under its teeth over the pitch diameter."""
+"""Wall thickness of the flexible wheel under its teeth divided by the pitch diameter."""
 CUP = 0.25
-"""Length of the wall between the flexible wheel and its cup over the pitch diameter; a shorter wall is too stiff."""
+"""Length of the wall between the flexible wheel and its cup divided by the pitch diameter; a shorter wall is too stiff.
+"""
 
 
 # -------------------------------------------------------------------------------------------------------- escape wheels

@@ -255,7 +255,9 @@ def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return arcs X at which the chords of a flank deviate equally: ds sqrt(curvature) is constant."""
+    """Return the arc coordinates X at which to sample a flank so that all chords deviate equally from it: ds
+    sqrt(curvature) is constant.
+    """
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
     length = np.hypot(steps[:, 0], steps[:, 1])

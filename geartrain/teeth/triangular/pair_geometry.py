@@ -21,8 +21,8 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return the tooth depth over the tip radius, Eq. (1), as a product because the printed difference cancels at large
-    z.
+    """Return the tooth depth divided by the tip radius, Eq. (1), as a product because the printed difference cancels at
+    large z.
 
     For a ring gear of z teeth pass -z and multiply by the negative radius.
     """
@@ -30,7 +30,7 @@ def depth(z: int, beta: float) -> float:
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank over the tip radius, Eq. (2); `beta` is the half aperture angle [rad]."""
+    """Return the length of a flank divided by the tip radius, Eq. (2); `beta` is the half aperture angle [rad]."""
     return sin(pi / z) / sin(beta + pi / z)
 
 

@@ -80,8 +80,8 @@ class ToothPair:
         return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
 
     def approach_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances of both centres from the common normal in approach; the second is O2C cos(psi) of Eq.
-        (11).
+        """Return the distances of both centres from the common normal in approach; the second is O2C cos(psi) of
+        Eq. (11).
         """
         return self._arms_on_flank(self._flank_line(x, m))
 
@@ -114,12 +114,12 @@ class ToothPair:
         return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
 
     def approach_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity in approach over the driver's angular speed, in the common length unit.
+        """Return the sliding velocity in approach divided by the driver's angular speed, in the common length unit.
 
         It is R2 |sin y| / cos psi, the distance from C, times 1 + tau.
         """
         _, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
-        # (1 + tau) / cos psi is D over the distance of the driven axis from the normal
+        # (1 + tau) / cos psi is D divided by the distance of the driven axis from the normal
         return abs(self.D) * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
 
     # --------------------------------------------------------------------------------------------------------- recess
@@ -185,7 +185,9 @@ class ToothPair:
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity in recess over the driver's angular speed: R1 |sin x| (1 + tau) / cos psi2."""
+        """Return the sliding velocity in recess divided by the driver's angular speed: R1 |sin x| (1 + tau) / cos
+        psi2.
+        """
         sine, _, arm, _, _ = self._driven_apex(x, m)
         return abs(self.D * self.R1 * sine / arm)
 
@@ -257,7 +259,7 @@ class ToothPair:
         return self.approach_normal_arms(x, m) if phase == APPROACH else self.recess_normal_arms(x, m)
 
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity over the driver's angular speed, docs/shapes.md (14)."""
+        """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14)."""
         return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:

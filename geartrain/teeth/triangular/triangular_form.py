@@ -148,7 +148,7 @@ class Triangular(ToothForm):
         if len({length.unit is None for length in given.values()}) > 1:
             raise PydanticCustomError(
                 "length",
-                "{names} mix plain numbers and lengths with a unit",
+                "{names} mix numbers without a unit and lengths with a unit",
                 {"names": ", ".join(given), "fix": "give all with a unit, or all without"},
             )
 
@@ -242,8 +242,8 @@ class Triangular(ToothForm):
         Returns
         -------
         TriangularSizes
-            Sizes with lengths in m; in the unit of plain radii, or with a tip radius of 1, if no length with a unit is
-            given.
+            Sizes with lengths in m. If no length with a unit is given, they are in the unit of the declared radii, or
+            relative to the tip radius.
 
         Raises
         ------

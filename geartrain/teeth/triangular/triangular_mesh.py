@@ -29,8 +29,8 @@ OTHER_SHAPES = (
     "use `radii: pitch_true` (teeth of equal depth do not suit a ring), more teeth, or another half_angle",
 )
 _WORDS = (
-    "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
-    "wheel, mean sliding efficiency at constant driver torque, relative jumps of normal velocity at collisions."
+    "Triangular teeth, each pair in its carrier's frame. Speed ratio divided by its mean, transmission error of the "
+    "driven wheel, mean sliding efficiency at constant driver torque, relative jumps of normal velocity at collisions."
 )
 _CLEARANCE_HEADER = ("pair", "drives", "clearance factor", "window", "verdict")
 _TRANSMISSION_HEADER = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
@@ -167,7 +167,7 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def separation(self) -> float:
-        """Mean separating force over the tangential force, at constant torque on the driven wheel.
+        """Mean separating force divided by the tangential force, at constant torque on the driven wheel.
 
         The normal makes the angle psi with the pitch line and passes both centres at n1 + n2 = D cos(psi), or at the
         difference with a ring gear: (31) of docs/strength.md.
@@ -224,7 +224,7 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
-    """Sizes in m, or in the plain unit of the declared radii."""
+    """Sizes in m, or in the unit of the declared radii."""
     window: ClearanceWindow | None
     """Clearance window of the pair; None if such teeth do not exist."""
     intervals: tuple[DriveInterval, ...]

@@ -132,7 +132,9 @@ class TriangularTransmission(TransmissionFunction):
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return the sliding speed over the pitch-line speed, and the friction terms of input and output power."""
+        """Return the sliding speed divided by the pitch-line speed, and the friction terms of input and output
+        power.
+        """
         if interval.held is not None:
             return nan, nan, nan
         side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
@@ -435,7 +437,7 @@ class ContactCourse(Result):
     alpha2: Floats
     """Angle of the driven wheel's apex from the line of centres [rad]."""
     speed_ratio: Floats
-    """Speed ratio tau, driven over driver."""
+    """Speed ratio tau, driven divided by driver."""
     instant_centre: Floats
     """Distance O1C from the driver's axis to the instant centre, in the unit of the sizes.
 

@@ -62,7 +62,7 @@ class ErrorOverride:
 class WheelErrors:
     """Errors of one wheel.
 
-    pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth over its tip radius
+    pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
     ring               True for an internal wheel
     errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, the others in depths
     towards            direction of the eccentricity from the first tooth (rad); None for a random direction
@@ -86,7 +86,7 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Tooth depth over the tip radius; for displaced flanks in modules, for bevel gears in rad."""
+        """Tooth depth divided by the tip radius; for displaced flanks in modules, for bevel gears in rad."""
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property

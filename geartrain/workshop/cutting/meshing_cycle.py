@@ -4,12 +4,12 @@ Events occur only at a few positions. Two flanks jam where a front and a back to
 driven wheel dwells only where a tooth pair leaves, and a tooth meets a tip only where one enters. A cycle of
 lcm(z1, z2) tooth pairs therefore needs a few contact computations each, without time steps (`MeshingCycle`).
 
-With pitch deviations only, a trial costs z1 + z2 operations for a cycle of any length: 1000 trials of
-`freeth-2021-cut` take 13 s, and 412 s pair by pair. The contact of every tooth pair is the same function, and the
-driven teeth only add their deviations. The minimum backlash of a front tooth pair against the back tooth pair n before
-it is J_n(difference of the two driving teeth) minus the distance of the two driven teeth: one term depends on driving
-teeth, the other on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent modulo
-gcd(z1, z2). So the minimum of the sums is, in each residue class, the sum of the two minima.
+With pitch deviations only, a trial costs z1 + z2 operations for a cycle of any length: 1000 trials of `freeth-2021-cut`
+take 13 s, and 412 s pair by pair. The contact of every tooth pair is the same function, and the driven teeth only add
+their deviations. The minimum backlash of a front tooth pair against the back tooth pair n before it is J_n(difference
+of the two driving teeth) minus the distance between the two driven teeth: one term depends on driving teeth, the other
+on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent modulo gcd(z1, z2). So the
+minimum of the sums is, in each residue class, the sum of the two minima.
 """
 
 from __future__ import annotations
@@ -301,8 +301,8 @@ class MeshingCycle:
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the backlash of one front tooth pair in each selected trial against the back pair n before it
-        [rad].
+        """Return the backlash [rad] between each selected front tooth pair (trial, tooth pair) and the back tooth pair
+        n positions earlier, computed without tables.
         """
 
         def at(columns: Any) -> Any:

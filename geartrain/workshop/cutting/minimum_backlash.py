@@ -126,7 +126,9 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum distance of two tooth pairs that can touch at once [tooth pairs]; -1 if no pair can touch."""
+    """Return the maximum distance between two tooth pairs that can touch at once [tooth pairs]; -1 if no pair can
+    touch.
+    """
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)

@@ -38,7 +38,7 @@ _HEADER = (
     "| mesh | declared backlash | minimum backlash | overlap mm2 | contact ratio | clearance | tip width | verdict |"
 )
 _CHORD = 0.1  # mm: maximum deviation of drawn chords from an outline
-_GAP = 0.12  # distance of the two views, as a fraction of the width
+_GAP = 0.12  # distance between the two views, as a fraction of the width
 _MARGIN = 0.04  # as a fraction of the width
 _WIDE = 720  # pixels
 _LETTER = 0.016  # height of letters, as a fraction of the width

@@ -270,7 +270,7 @@ class Keyframes:
     seconds: float
     """Duration of the animation [s]."""
     speeds: tuple[Fraction | None, ...]
-    """Speed of each body relative to its parent over the speed of the driving link; None if undetermined."""
+    """Speed of each body relative to its parent divided by the speed of the driving link; None if undetermined."""
     ripples: bool
     _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 

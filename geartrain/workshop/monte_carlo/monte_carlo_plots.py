@@ -1,6 +1,6 @@
 """Plots of Monte Carlo trials: pointer errors, probabilities of jams, and sensitivities.
 
-`monte_carlo_figure` draws one picture of a result. It uses plots of plain numbers: bands and histograms of errors, a
+`monte_carlo_figure` draws one picture of a result. Its plots take arrays of numbers: bands and histograms of errors, a
 map of probabilities over two quantities, a tornado chart of variance shares, and the convergence of an estimate.
 """
 

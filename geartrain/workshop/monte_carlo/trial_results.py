@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 FEWEST = 30
-"""Minimum number of trials without a jam for the statistics of a pointer to use only these."""
+"""Minimum number of trials that turn; with fewer, the statistics of a pointer are computed from all trials."""
 
 EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengaged": DISENGAGED}
 

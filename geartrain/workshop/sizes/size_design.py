@@ -78,7 +78,7 @@ class ToothSizes(Result):
     """Number of the wheel that is a ring gear, 1 or 2; 0 for an external pair."""
 
     def __post_init__(self) -> None:
-        # convert NumPy scalars to plain numbers, with which scalar code is faster
+        # convert NumPy scalars to Python numbers, with which scalar code is faster
         z1, z2 = self.teeth
         first, second = self.half_angles
         object.__setattr__(self, "teeth", (int(z1), int(z2)))

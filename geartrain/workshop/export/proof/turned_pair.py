@@ -1,7 +1,7 @@
 """Two written outlines turned against each other: their overlap, and the range of angles in which the second is free.
 
-Wheel 1 is at the origin. Wheel 2 is at the distance of the axes on the positive x axis, or on the negative one if it is
-internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
+Wheel 1 is at the origin. Wheel 2 is at the distance between the axes on the positive x axis, or on the negative one if
+it is internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
 +t z1/z2) plus a `lag`. The limits of the lag between which it is free are found by bisection on the area of overlap.
 
 Outlines are read back from the SVG that a laser follows (`read_material`), independently of the code that writes it.

@@ -120,7 +120,7 @@ class Sink:
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file or of standard output in lower case; "" if there is none."""
+        """Suffix of the file or of standard output in lower case; "" without a suffix."""
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
@@ -236,7 +236,7 @@ def draw(figure: Any, out: Sink) -> None:
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, or "" if it has none; reject suffixes that are not allowed."""
+    """Return the suffix of an output file, or "" without a suffix; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")

@@ -378,7 +378,7 @@ class _PlanSize:
     depth: float
     """Height of all layers together [mm]."""
     deep: float
-    """Width of the side view; 0 without one."""
+    """Width of the side view; 0 without a side view."""
 
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:

@@ -54,7 +54,7 @@ _ELEMENT_NAME = 8.0  # points: font size of an element's name
 
 
 def width_of(train: GearTrain) -> float:
-    """Return the width [in] of all brakes and clutches; 0 if there are none."""
+    """Return the width [in] of all brakes and clutches; 0 without shift elements."""
     count, letters = len(train.declaration.clutches), _letters(train)
     return count * max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1) + 0.2 if count else 0.0
 

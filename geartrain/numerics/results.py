@@ -281,7 +281,7 @@ def _property_doc(member: object) -> str:
 
 
 def _unit(meaning: str) -> str:
-    """Return the unit in square brackets in the meaning of a column; "" if there is none."""
+    """Return the unit in square brackets in the meaning of a column; "" without a unit."""
     found = search(r"\[([^\]]+)\]", meaning)
     return found[1] if found else ""
 

@@ -244,8 +244,8 @@ def _base(found: FormComparison) -> Section:
     rows += [(_header(name), *[cost(getattr(base, name))] * 2) for name in FREE]
     unit = "rad on the unit sphere" if found.path.pitch.bevel else "modules"
     text = (
-        f"Values of the 20 degree involute, lengths in {unit}: mean loss divided by friction; maximum Hertz pressure as "
-        "the root of curvature divided by cos psi; maximum heat divided by friction times tangential force."
+        f"Values of the 20 degree involute, lengths in {unit}: mean loss divided by friction; maximum Hertz pressure "
+        "as the root of curvature divided by cos psi; maximum heat divided by friction times tangential force."
     )
     return Section("The involute of 20 deg", (text,), (Table(("quantity", "one pair", "shared"), rows),))
 

@@ -57,7 +57,7 @@ _MOST_PAIRS = 12  # with more, a report as text omits their tables
 
 
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
-    """Yield sections on the real teeth and on the pins of a train; nothing if it has none."""
+    """Yield sections on the real teeth and on the pins of a train; nothing if it has neither."""
     if pairs:
         yield _teeth(train, pairs)
     if pins:
@@ -116,7 +116,7 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with real teeth, one entry for each wheel that drives in some state; empty if there are none."""
+    """Return the pairs with real teeth, one entry for each wheel that drives in some state; empty without real teeth."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 

@@ -35,9 +35,9 @@ _RING_CLEARANCE = 0.1  # modules: clearance between the lobes and the ring behin
 _WORDS = (
     "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
     "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
-    "`deflection` of a pin is given. Max load: maximum load on one pin divided by the force on the disc's pitch circle, "
-    "for pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the "
-    "pair is driven, and driven back."
+    "`deflection` of a pin is given. Max load: maximum load on one pin divided by the force on the disc's pitch "
+    "circle, for pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, "
+    "as the pair is driven, and driven back."
 )
 _HEADER = (
     *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "max load", "backlash (deg)"),

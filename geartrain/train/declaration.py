@@ -187,7 +187,7 @@ class Train(Declared):
     inputs: ByName[Speed] = Field(
         {},
         validate_default=True,
-        description="Prescribed speeds by link: numbers without a unit in `unit`, or with a unit such as `30 rpm`",
+        description="Prescribed speeds by link: numbers in the train's `unit`, or with a unit such as `30 rpm`",
     )
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Required outputs of the train, by name"

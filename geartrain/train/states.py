@@ -352,7 +352,7 @@ class StateCase(Shown):
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
     """Links that are fixed or locked indirectly -> links of the declared brake or lock that causes this."""
     problems: tuple[Problem, ...] = ()
-    """Problems that prevent the calculation of speeds in this state; empty if there are none."""
+    """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
 
     def given(self, link: str) -> str:
         """Return the prescribed speed of a link as text, such as `sun = 1400`.

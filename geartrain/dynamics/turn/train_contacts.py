@@ -42,7 +42,7 @@ class ContactTorques(NamedTuple):
     driven: Floats
     driver: Floats
     barred: Bools | None = None
-    """Mask of positions at which no power can flow; None if there are none."""
+    """Mask of positions at which no power can flow; None if power can flow everywhere."""
 
 
 class PairForce(NamedTuple):
@@ -53,7 +53,7 @@ class PairForce(NamedTuple):
     first: Floats
     second: Floats
     barred: Bools | None
-    """Mask of positions at which no power can flow; None if there are none."""
+    """Mask of positions at which no power can flow; None if power can flow everywhere."""
 
 
 class DriverState(NamedTuple):

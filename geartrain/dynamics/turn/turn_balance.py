@@ -264,8 +264,8 @@ class PositionTorques(NamedTuple):
     highest: Floats
     """Unknown torque on each requested link in the solution with maximum loss, shape (requested, n)."""
     speeds: Floats
-    """Speeds of the links with external torques, about their own axes, divided by the speed of the input, shape (outside,
-    n).
+    """Speeds of the links with external torques, about their own axes, divided by the speed of the input, shape
+    (outside, n).
 
     """
     powers: Floats

@@ -84,7 +84,9 @@ class RecordedNode:
     values: RecordedItem
     """Values of the variable that occur."""
     misfit: Floats | None
-    """Misfit that each transition adds by graded constraints that are complete at this node; None if there are none."""
+    """Misfit that each transition adds by graded constraints that are complete at this node; None without
+    such constraints.
+    """
     children: tuple[tuple[RecordedNode, Ints], ...]
     """Child nodes, each with the index of the row to which each transition leads."""
 
@@ -129,7 +131,9 @@ class _Recorder:
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
     def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats | None:
-        """Return the misfit of the graded constraints that are complete at a node; None if there are none."""
+        """Return the misfit of the graded constraints that are complete at a node; None without such
+        constraints.
+        """
         found: Floats | None = None
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)

@@ -102,7 +102,7 @@ class ListCache(Generic[Made]):
         self._kept: OrderedDict[Hashable, Made] = OrderedDict()
 
     def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return the cached entry of a key, or the result of `make` if there is none."""
+        """Return the cached entry of a key, or the result of `make` if it is not cached."""
         if key not in self._kept:
             self._kept[key] = make()
         self._kept.move_to_end(key)

@@ -212,7 +212,7 @@ class ToothCountPrior(Result):
     weights: tuple[int, ...]
     """Positive integer weights of the counts without a common divisor. The prior probability is weight / `total`."""
     declared: int | None
-    """Declared count of the wheel; None if there is none."""
+    """Declared count of the wheel; None if no count is declared."""
     assumed: str
     """Source of the counts. The prior is uniform unless the text says that it is weighted."""
 

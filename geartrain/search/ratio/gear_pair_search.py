@@ -127,8 +127,8 @@ def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
         raise RangeError(
             Problem(
                 f"the lists of {len(top)} and {len(beneath)} tooth counts are too long",
-                f"lists with gaps are limited to {_MOST_SCANNED:,} counts (the shorter list), or to {_MOST_BOXES} pairs "
-                "of contiguous ranges",
+                f"lists with gaps are limited to {_MOST_SCANNED:,} counts (the shorter list), or to {_MOST_BOXES} "
+                "pairs of contiguous ranges",
                 "give one contiguous range for each wheel, such as 12:1000000",
             )
         )

@@ -238,9 +238,13 @@ class FeasiblePairings:
     possible: Bools
     """True if some pairing satisfies the constraints, shape (n,)."""
     coprime: Ints
-    """Maximum number of stages with coprime counts over the feasible pairings, shape (n,); 0 if there are none."""
+    """Maximum number of stages with coprime counts over the feasible pairings, shape (n,); 0 if no pairing
+    is feasible.
+    """
     centres: Ints
-    """Minimum number of distinct centre distances over the feasible pairings, shape (n,); 2 k if there are none."""
+    """Minimum number of distinct centre distances over the feasible pairings, shape (n,); 2 k if no pairing is
+    feasible.
+    """
 
     def taken(self, at: Ints) -> FeasiblePairings:
         """Return the rows at the given indices."""
@@ -338,7 +342,7 @@ def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
 def best_pairing(
     top: tuple[int, ...], beneath: tuple[int, ...], fit: StageConstraints | None = None, *, centres: bool = False
 ) -> Pairs | None:
-    """Return the best pairing that satisfies the constraints, or None if there is none.
+    """Return the best pairing that satisfies the constraints, or None if no pairing does.
 
     The criteria are, in this order, the number of distinct centre distances (only if `centres`), the number of stages
     with coprime counts, and the quotient of the maximum and the minimum ratio of a stage. The last `fit.internal` of

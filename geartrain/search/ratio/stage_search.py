@@ -106,7 +106,7 @@ class StageFindings(Tabular, Result):
     shortfall: Shortfall
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """Assumption of the search that was not requested; "" if there is none."""
+    """Assumption of the search that was not requested; "" without such an assumption."""
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""

@@ -470,7 +470,7 @@ class CandidateFindings(Result):
     assumptions: tuple[ChangedCount, ...] = ()
     """Number of explanations without each hard fact, if requested."""
     missing: MissingExplanation | None = None
-    """Reasons why the evidence has no explanation; None if it has one."""
+    """Reasons why the evidence has no explanation; None if it has an explanation."""
 
 
 NO_FINDINGS = CandidateFindings()

@@ -283,7 +283,7 @@ class PassResult:
     """Result of one pass of a search."""
 
     share: Fraction | None
-    """Common relative tolerance of the pass; None if there is none."""
+    """Common relative tolerance of the pass; None without a common tolerance."""
     searched: float
     """Fraction of the assignments that was searched; 1 if complete."""
     tally: PassTally

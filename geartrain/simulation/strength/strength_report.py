@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 _FORCES = (
     "Mean forces at the operating pitch circles. Axial: positive along the direction of the axis; radial: positive "
     "towards the axis. Both wheels of a pair have the same force, the larger torque divided by radius, because "
-    "friction reduces the torque on one of them; crossed axes are an exception. Friction is included for sliding along the "
-    "teeth, not along their profiles. The pressure angle is 20 degrees by default."
+    "friction reduces the torque on one of them; crossed axes are an exception. Friction is included for sliding "
+    "along the teeth, not along their profiles. The pressure angle is 20 degrees by default."
 )
 _CONTACT = (
     "Hertz pressure of smooth flanks under the mean torque. Tooth pairs in contact at the same time carry the same "
@@ -54,7 +54,8 @@ _ROOT = (
     "Bending by Lewis on the outline that is cut, without the stress concentration of its fillet. At the tip, one "
     "tooth pair carries the whole load, as with inexact teeth. Shared: equal forces. Safety of a root is the "
     "strength of the material divided by the stress with the load at the tip; safety of a flank is 5/3 of the "
-    "strength divided by the pressure of single contact, at which yielding begins below the flank (static; pitting is not included)."
+    "strength divided by the pressure of single contact, at which yielding begins below the flank (static; pitting is "
+    "not included)."
 )
 _ISO = (
     "ISO 6336-2 and -3, method B, all load factors K 1, for wheels cut by a hob (tip radius of the rack 0.38 "
@@ -68,8 +69,8 @@ _WEAR = (
 _ARBOR = (
     "Upper bound: the forces of all meshes act in one direction, at the worst position between two bearings, together "
     "with the moments of the axial forces at the radii of the wheels, and the total force is on one pivot. Positions "
-    "of wheels are not used. Pivot pressure: force divided by diameter times length. Shoulder pressure: thrust divided by the "
-    "area of the annulus of the arbor round its pivot."
+    "of wheels are not used. Pivot pressure: force divided by diameter times length. Shoulder pressure: thrust divided by "
+    "the area of the annulus of the arbor round its pivot."
 )
 
 

@@ -373,8 +373,8 @@ def solved(
 ) -> ChebyshevSeries:
     """Return the solution of S v' + f = 0 on [start, end] with v = `first` at `start`, by Chebyshev collocation.
 
-    f      function of d, v that returns f and its derivative with respect to v; f(0, first) = 0 makes the solution bounded
-           at the pitch point
+    f      function of d, v that returns f and its derivative with respect to v; f(0, first) = 0 makes the solution
+           bounded at the pitch point
     near   the solution up to another end, as the initial guess
 
     The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError`

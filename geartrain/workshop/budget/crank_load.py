@@ -106,7 +106,7 @@ def find_weight_drive(
     """Return the weight that drives a train in one state; None if it is driven otherwise.
 
     link           link of the drum; `driving_link`, the input
-    under_load     torque over the run under the declared loads; None if there are none
+    under_load     torque over the run under the declared loads; None without loads
     """
     drive = train.declaration.case(state).drive
     if drive is None or drive.pull is None:

@@ -103,7 +103,7 @@ class _Unit:
         self.relate("assembly", assembly=shaft, part=number)
 
     def angle(self, name: str) -> float:
-        """Return the pressure angle of the first involute pair of a wheel [deg]; 20 if there is none."""
+        """Return the pressure angle of the first involute pair of a wheel [deg]; 20 without such a pair."""
         forms = (self.declared.form_of(gear) for gear in self.declared.gears if name in gear.pair)
         angles = (form.rack_angle for form in forms if form is not None)
         return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)

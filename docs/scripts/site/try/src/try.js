@@ -162,7 +162,7 @@ function draw() {
   const state = shown.states.find((each) => each.name === part("state").value) ?? shown.states[0];
   const dials = drawDials(part("dials"), state, shown.clockwise);
   const plan = drawPlan(part("plan"), shown.plan, state.turns, shown.clockwise);
-  part("unit").textContent = shown.unit ? `in ${shown.unit}` : "plain numbers";
+  part("unit").textContent = shown.unit ? `in ${shown.unit}` : "numbers without a unit";
   part("sense").textContent = shown.clockwise ? "clockwise" : "counter-clockwise";
   part("lead").textContent = state.lead ? `turns of ${state.lead}` : "turns";
   turned = (turns) => {

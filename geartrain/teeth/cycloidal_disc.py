@@ -33,11 +33,11 @@ _MIN_CHORDS, _MAX_CHORDS = 16, 4096  # minimum and maximum number of chords of a
 _PHASES = 64  # positions in a pitch for means and extrema
 _RING_CLEARANCE = 0.1  # modules: clearance between the lobes and the ring behind the pins
 _WORDS = (
-    "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
-    "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
+    "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring divided by "
+    "the radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
     "`deflection` of a pin is given. Max load: maximum load on one pin divided by the force on the disc's pitch "
-    "circle, for pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, "
-    "as the pair is driven, and driven back."
+    "circle, for pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not "
+    "roll, as the pair is driven, and driven back."
 )
 _HEADER = (
     *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "max load", "backlash (deg)"),

@@ -269,7 +269,7 @@ def _not_negative(figure: Figure) -> Figure:
 
 class Target(Declared):
     """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single text instead
-    of a mapping is a name.
+    of a mapping is its name.
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.

@@ -69,8 +69,8 @@ _WEAR = (
 _ARBOR = (
     "Upper bound: the forces of all meshes act in one direction, at the worst position between two bearings, together "
     "with the moments of the axial forces at the radii of the wheels, and the total force is on one pivot. Positions "
-    "of wheels are not used. Pivot pressure: force divided by diameter times length. Shoulder pressure: thrust divided by "
-    "the area of the annulus of the arbor round its pivot."
+    "of wheels are not used. Pivot pressure: force divided by diameter times length. Shoulder pressure: thrust divided "
+    "by the area of the annulus of the arbor round its pivot."
 )
 
 

@@ -62,7 +62,7 @@ def test_the_site_shows_what_an_import_brings(room: str, read: griffe.Module) ->
 
 def test_the_names_of_the_package_itself_are_listed() -> None:
     names = set(geartrain.__all__) - {"__version__"}
-    listed = re.search(r"^`geartrain` itself contains .*?\. ", PAGES["index"], re.MULTILINE | re.DOTALL)
+    listed = re.search(r"^The package `geartrain` itself contains .*?\. ", PAGES["index"], re.MULTILINE | re.DOTALL)
     assert listed is not None
     assert set(re.findall(r"`(\w+)`", listed[0])) - {"geartrain"} == names
 

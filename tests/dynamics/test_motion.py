@@ -526,7 +526,7 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
 
     year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
     labels = [panel.get_ylabel() for panel in year.axes]
-    assert labels == ["mars\nangle (deg)", "mars\nanomaly\nless its mean (deg)", "mars\nspeed over mean"]
+    assert labels == ["mars\nangle (deg)", "mars\nanomaly\nless its mean (deg)", "mars\nspeed divided by mean"]
     back = year.axes[0].lines[2]
     assert back.get_label() == "backward"
     y = np.asarray(back.get_ydata(), dtype=float)

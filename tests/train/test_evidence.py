@@ -149,7 +149,7 @@ MISTAKES = {
         changed("      w: 40", "      w: {teeth: 40, internal: true}")
         + "  geometry: {}\naxes: {B: {position: [0 mm, 1 mm, 0 mm]}}\nrevolutes: [{pair: [frame, b], axis: B}]\n",
         14,
-        ["the position of 'b' cannot be used in evidence with the ring 'w'", "remove the position"],
+        ["the position of 'b' cannot be used as evidence, because 'w' is a ring gear", "remove the position"],
     ),
     "a moving axis": (SOUND + "revolutes: [{pair: [a, b], axis: B}]\n", 13, ["an arbor on a moving link"]),
     "seen from an arbor": (changed("{expect", "{relative_to: a, expect"), 10, ["is relative to 'a'"]),

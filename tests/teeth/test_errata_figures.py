@@ -31,7 +31,7 @@ def shares(clearance: str) -> tuple[float, float, float]:
 
 
 def test_the_recess_sub_region_of_equal_wheels_is_given_by_the_equations() -> None:
-    found = re.search(r"recess apart, in pitches: ([\d.]+) at ([\d.]+), ([\d.]+) at ([\d.]+) ", PAGE)
+    found = re.search(r"width of the recess sub-phase, in pitches: ([\d.]+) at ([\d.]+), ([\d.]+) at ([\d.]+) ", PAGE)
     assert found is not None
     for printed, clearance in (found.groups()[:2], found.groups()[2:]):
         assert shares(clearance)[2] == pytest.approx(float(printed), abs=6e-4)
@@ -51,7 +51,7 @@ def test_friction_takes_minimum_where_the_piece_astride_is_first_alone() -> None
     lost = {a: float(1 - pair(a).mean_efficiency(mp.mpf("0.2"))[0]) for a in ("1.0116", "1.011725", "1.0119", "1.025")}
     assert min(lost, key=lost.__getitem__) == "1.011725"
     assert [f"{100 * lost[a]:.3f} %" for a in ("1.011725", "1.025")] == ["0.551 %", "0.841 %"]
-    assert "sliding takes 0.841 %, at 1.0117219 0.551 %;" in PAGE
+    assert "sliding loss 0.841 %, at 1.0117219 0.551 %;" in PAGE
 
 
 def test_collisions_dissipate_minimum_near_the_clearance_of_the_page() -> None:
@@ -60,7 +60,7 @@ def test_collisions_dissipate_minimum_near_the_clearance_of_the_page() -> None:
         for a in ("1.0118", "1.0190", "1.019273", "1.0196", "1.025")
     }
     assert min(spent, key=spent.__getitem__) == "1.019273"
-    assert f"impacts {spent['1.025']:.2e} J2 w1^2, at 1.019273 {spent['1.019273']:.2e}" in PAGE
+    assert f"impact loss {spent['1.025']:.2e} J2 w1^2, at 1.019273 {spent['1.019273']:.2e}" in PAGE
 
 
 def test_the_note_on_spheres_is_set_right_by_trigonometry() -> None:
@@ -71,6 +71,6 @@ def test_the_note_on_spheres_is_set_right_by_trigonometry() -> None:
     cone = atan2(sin(between), 3 / 5 + cos(between))
     assert f"{degrees(2 * asin(sin(radians(18)) / cos(radians(36)))):.7f}" in PAGE
     assert f"{degrees(asin(2 / 3)):.12f}" in PAGE
-    assert f"{degrees(cone):.3f} deg from the pentagon's axis, the middle of the edge {degrees(edge):.3f}" in PAGE
+    assert f"{degrees(cone):.3f} deg from the pentagon's axis; the middle of the edge is at {degrees(edge):.3f}" in PAGE
     assert f"irrational ratio {sin(edge) / sin(between - edge):.6f}" in PAGE
     assert f"< 45/33 < {sqrt(3) / tan(pi / 10):.4f} |" in PAGE

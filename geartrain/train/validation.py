@@ -31,7 +31,6 @@ from geartrain.numerics.containers import collector_paused
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
-from geartrain.train.examples import example_line
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
@@ -204,6 +203,8 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     shown = repr(error["input"])
     got = f"the given value is {shown if len(shown) <= 60 else shown[:57] + '...'}"
     if kind in _SHAPES:
+        from geartrain.train.examples import example_line  # reads a file, needed for errors only
+
         shape, of = _SHAPES[kind]
         line = _wheel_pair(error["input"]) if _is_wheel_pair(loc) else example_line(loc, of)
         fix = f"write for example `{line}`" if line else f"write {shape}"

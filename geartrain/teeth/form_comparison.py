@@ -1,7 +1,7 @@
 """Comparison of conjugate tooth forms with the 20 degree involute of the same wheels and the same arcs of contact.
 
 Forms are compared at equal arcs of contact. The arcs of approach and recess are given, in pitches, and each form
-constructs the pair that has them. Losses, stresses and temperatures are ratios to the values of the involute.
+constructs the pair with these arcs. Losses, stresses and temperatures are ratios to the values of the involute.
 """
 
 from __future__ import annotations

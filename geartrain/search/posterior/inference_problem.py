@@ -95,7 +95,7 @@ def build_inference_problem(
     """Build the inference problem of a train in one state, or in all its states at once.
 
     outputs     outputs used as evidence and reported; default all
-    tolerance   relative tolerance of targets without one
+    tolerance   relative tolerance of targets that do not declare a tolerance
     against     kinds of observations that are used: "targets", "figures" (`expect` and `published`), or "all"
     scale       factor of every tolerance
 
@@ -192,7 +192,7 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
 
 
 def _no_evidence(what: str) -> QuestionError:
-    fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
+    fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets without a tolerance"
     return QuestionError(Problem(what, "the likelihood of counts follows from speeds with a tolerance", fix))
 
 

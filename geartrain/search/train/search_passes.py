@@ -412,7 +412,7 @@ class AssignmentOrder:
     requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]
-    """Declared tooth count of each wheel that has one."""
+    """Wheel -> declared tooth count, if one is declared."""
 
     @property
     def level(self) -> bool:

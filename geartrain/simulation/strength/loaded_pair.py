@@ -146,7 +146,7 @@ class PairUnderLoad:
 
     @property
     def path(self) -> PathOfContact | None:
-        """Path of contact; None for a form without one."""
+        """Path of contact; None for a form without a path of contact."""
         return self.mesh.path if self.spurs is None else self.spurs.pair.path
 
     @cached_property

@@ -148,8 +148,8 @@ def find_gears(
     steps: tuple[float, float] = (1.05, 2.0),
     single: bool = False,
 ) -> GearSearch:
-    """Find all gears of a gearbox, declared or not, by enumeration of closed shift elements, and search for series of
-    gears.
+    """Find all declared and undeclared gears of a gearbox by enumeration of closed shift elements, and search for
+    series of gears.
 
     Parameters
     ----------

@@ -170,7 +170,7 @@ class GearTrain:
         tolerance: float | None = None,
         fast: bool | None = None,
     ) -> Motion:
-        """Compute the motion of some outputs or links with real teeth and pins, by composition of transmission
+        """Compute the motion of the given outputs or links with real teeth and pins, by composition of transmission
         functions.
 
         Parameters
@@ -326,7 +326,7 @@ class GearTrain:
 
     @property
     def mobility(self) -> Mobility:
-        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:

@@ -75,7 +75,8 @@ _Drawer = Callable[[Any, _Trace], None]
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """Draw the angle, deviation from mean motion, and speed of outputs over a run; backward motion is red.
+    """Draw the angle, deviation from mean motion, and speed of outputs over a run; backward motion is drawn in
+    red.
 
     For each output that deviates from uniform motion, panels show its deviation and its speed. A run of few turns has a
     further panel with the angle, a run of many turns a further panel with the backward motion, if any. Outputs that
@@ -332,7 +333,8 @@ class _Loss(NamedTuple):
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    r"""Draw the requested torque over a run with its mean and extremes, and the losses of the parts below it.
+    r"""Draw the requested torque over a run with its mean and extremes, and the losses of gear pairs, couplings and
+    bearings in a panel below the torque.
 
     Parameters
     ----------

@@ -94,7 +94,7 @@ class Verdict(Result):
     links: tuple[str, ...] = ()
     """Links whose speeds are undetermined; empty unless the train is free or partly locked."""
     fixes: tuple[str, ...] = ()
-    """Links whose speeds would determine all other speeds if they were also prescribed."""
+    """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds."""
     prescriptions: tuple[str, ...] = ()
     """Links of the inputs, brakes and clutches that cause a lock or a contradiction."""
     loops: tuple[Loop, ...] = ()

@@ -188,7 +188,9 @@ class Picture(Shown):
     caption: str
     """Text below the picture."""
     svg: str
-    """Complete SVG document, which is included unchanged in the page. Its producer must escape text of users."""
+    """Complete SVG document, which is included unchanged in the page. The function that draws the picture must
+    escape text from users.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +241,7 @@ class Document:
     """
 
     title: str
-    """First heading."""
+    """Title of the document, shown as its first heading."""
     summary: Sequence[str]
     """Paragraphs before the first section."""
     sections: Sequence[Section]

@@ -125,7 +125,7 @@ class ErrorSamples(NamedTuple):
     rate: Floats
     """Speed of each output minus its mean, divided by the input speed [1], shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
-    """Names of pairs whose driver temporarily turns against its mean motion at these positions.
+    """Names of pairs whose driver turns against its mean sense of rotation at one or more of these positions.
 
     There the contact changes to the coast flanks, but the transmission function of the drive flanks is used, without
     backlash.

@@ -195,7 +195,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on the torques.
+    """Verdict on whether the loads determine the torques.
 
     `determined`: all torques follow from the loads. `incomplete`: some effects are neglected. `ambiguous`: several
     patterns of power flow balance the loads at some position. `self-locking`: no torque balances the loads at some
@@ -247,7 +247,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     energy: CycleEnergy | None = None
     """Energies over the run; None if the train locks."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
-    """Loss and torque of gear pairs and couplings by name, and of bearings by `bearing LINK`."""
+    """Name -> loss and torque of each gear pair and coupling, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads."""
     held_share: float = 0.0
@@ -346,7 +346,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Pair -> transmitted energy divided by the energy input of the train, for pairs with a ratio above 1."""
+        """Pair -> energy transmitted by the pair divided by the energy input of the train, for pairs in which this
+        quotient exceeds 1.
+        """
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}

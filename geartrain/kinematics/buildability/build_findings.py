@@ -42,7 +42,7 @@ class BuildFinding(Result):
     is undecided.
     """
     problem: Problem
-    """Location, problem, reason and fix."""
+    """Description of the problem: location, problem, reason and fix."""
 
     def _summary(self) -> str:
         return f"{self.level} {self.rule}: {self.problem.what}"

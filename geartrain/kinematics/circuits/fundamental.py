@@ -83,7 +83,7 @@ class Circuit(NamedTuple):
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
-        """Return the same pair with other tooth counts; senses of rotation are unchanged.
+        """Return the circuit of the same pair with other tooth counts; the senses of rotation are unchanged.
 
         Parameters
         ----------

@@ -56,7 +56,7 @@ class MeshRemoval(Result):
     meshes: tuple[str, ...]
     """Ids of the pairs."""
     method: RemovalMethod
-    """Method by which the set was found.
+    """Method by which the set of meshes was found.
 
     "one": a single mesh is enough for each part. "loops": smallest, because an equal number of inconsistent loops share
     no mesh. "matching": smallest, by matching the odd faces of a planar graph (a T-join). "search": smallest, by
@@ -183,7 +183,7 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield one sentence for each locked part with its remedy; nothing for a train that moves.
+        """Yield one sentence on each locked part and its remedy; yield nothing if no link is locked.
 
         Parameters
         ----------

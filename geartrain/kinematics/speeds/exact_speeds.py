@@ -411,7 +411,7 @@ class Solution:
     ratios: Mapping[str, Mapping[str, Fraction]]
     """Link -> input -> speed of the link per unit speed of the input, with the other inputs at rest."""
     signs: Mapping[str, int]
-    """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
+    """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
     loose: FreeForms | None = None
     """Speeds of all links as linear forms of the free unknowns, if the train is free; otherwise None."""
 

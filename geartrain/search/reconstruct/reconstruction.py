@@ -142,9 +142,9 @@ class RankedTrain(Result):
     wheels: dict[str, int]
     """Tooth count of each added wheel."""
     doubtful: dict[str, int]
-    """Tooth count in this train of each surviving wheel with an uncertain tooth count."""
+    """Tooth count that this train gives to each surviving wheel with an uncertain tooth count."""
     meshes: tuple[str, ...]
-    """All meshes, each as "driving > driven"."""
+    """All meshes of the train, each as "driving > driven"."""
 
 
 @dataclass(frozen=True, slots=True)

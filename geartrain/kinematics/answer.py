@@ -132,9 +132,9 @@ class RowResiduals(TypedDict, total=False):
 class Answer(FrozenFields, Tabular, TrainResult):
     """Solution of a train in one state: speeds from the Willis equations (4) and (5) of docs/theory.md.
 
-    It is true if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs
-    agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if the
-    speed is not determined.
+    An answer is true if the verdict is as expected (`determined` unless the state's `expect` names another) and all
+    outputs agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if
+    the speed is not determined.
 
     Examples
     --------

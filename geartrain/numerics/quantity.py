@@ -311,9 +311,9 @@ Friction = Annotated[Figure, AfterValidator(_not_negative)]
 class Quantity:
     """Number with its unit as written.
 
-    Use `base` in comparisons and computations, not `value`, because it does not depend on the written unit. The units
-    are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded to 50
-    digits.
+    Use `base` in comparisons and computations, not `value`, because `base` does not depend on the written unit. The
+    units are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded
+    to 50 digits.
 
     Examples
     --------

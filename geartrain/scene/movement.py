@@ -55,7 +55,7 @@ class ErrorTable(Result):
     coefficients: Floats
     """Coefficients of the driven side's error [rad]. Shape (n, degree + 1).
 
-    They multiply the powers of the driver's angle minus the middle of its interval.
+    The coefficients multiply the powers of the difference between the driver's angle and the middle of its interval.
     """
     uncertainty: float
     """Maximum error of the table [rad]."""

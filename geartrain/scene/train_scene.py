@@ -170,7 +170,7 @@ class Pointer(Shown):
     outline: Sequence[tuple[float, float]] = ()
     """Outline of the hand relative to its length: distances from the axis, and half the width at each distance.
 
-    It is empty for a pointer without a dial.
+    The outline is empty for a pointer without a dial.
     """
 
 
@@ -233,7 +233,7 @@ class Scene(Shown):
     """Deviations of the bodies' angles while the driving link turns against its declared sense and the coast
     flanks are in contact.
 
-    It is None if they are equal to `movement`.
+    The value is None if these deviations are equal to `movement`.
     """
     unit_days: str | None = None
     """Length of the unit in days, exact, if the unit is a time; otherwise None."""

@@ -89,7 +89,7 @@ class PointerCompositions:
 class TransmissionErrorCurve(Tabular, Result):
     """Transmission error of one output as a function of the input angle.
 
-    With a pin and slot it includes the designed deviation from uniform motion (anomaly).
+    The error of an output with a pin and slot includes the designed deviation from uniform motion (anomaly).
 
     See Also
     --------
@@ -158,11 +158,11 @@ class Motion(Shown):
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
     tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default they are
-        evaluated directly.
+        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default the functions
+        are evaluated directly.
     fast : bool, optional
-        True to use compiled kernels, which agree to 1e-12 rad. By default they are used if numba is installed and there
-        are enough positions to justify loading it.
+        True to use compiled kernels, which agree to 1e-12 rad. By default the kernels are used if numba is installed
+        and there are enough positions to justify loading it.
 
     Raises
     ------

@@ -217,7 +217,7 @@ class PowerLoss(Result):
 class PowerFlow(Result):
     """Power streams of a train in one state. Power is torque times absolute speed.
 
-    Powers into and out of a shaft are equal; powers into and out of a pair differ by its loss.
+    Powers into and out of a shaft are equal; powers into and out of a pair differ by the loss of the pair.
 
     Examples
     --------

@@ -140,7 +140,7 @@ class PairCycle(Result):
     flank_changes: int = 0
     """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each sign change.
 
-    If the run is an integer number of periods, a change between its end and its start is included.
+    If the run is an integer number of periods, a change between the end and the start of the run is included.
     """
     maximum: float = 0.0
     """Maximum magnitude of the torque on the driven side [N m, or number without a unit]; 0 for a bearing."""
@@ -151,9 +151,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Torques of a train over some revolutions of its input, position by position: docs/torques.md, sections 16 to 18.
 
     The run has about `samples` equally spaced positions. Positions are added at both sides of every kink and jump of
-    the transmission functions, where a motion reverses or the flank in contact changes, and where integrals need them.
-    Arrays with one value per position are read-only. At positions where no torque balances the loads, the train is
-    locked and the torque is NaN.
+    the transmission functions, where a motion reverses or the flank in contact changes, and where the integrals need
+    more positions. Arrays with one value per position are read-only. At positions where no torque balances the loads,
+    the train is locked and the torque is NaN.
 
     Examples
     --------
@@ -217,8 +217,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     torque: Floats | None = None
     """Torque at the link in the solution with minimum loss [N m, or number without a unit], shape (n,).
 
-    It is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed is
-    0.
+    The torque is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean
+    speed is 0.
     """
     highest: Floats | None = None
     """Torque at the link in the solution with maximum loss [N m, or number without a unit], shape (n,)."""

@@ -17,7 +17,7 @@ BuildLevel = Literal["error", "note"]
 class BuildFinding(Result):
     """Violation of one buildability rule by a train.
 
-    `geartrain check`, reports, drawings and exports print the text of its problem.
+    `geartrain check`, reports, drawings and exports print the text of the problem.
 
     Examples
     --------

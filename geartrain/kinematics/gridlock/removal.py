@@ -58,9 +58,10 @@ class MeshRemoval(Result):
     method: RemovalMethod
     """Method by which the set of meshes was found.
 
-    "one": a single mesh is enough for each part. "loops": smallest, because an equal number of inconsistent loops share
-    no mesh. "matching": smallest, by matching the odd faces of a planar graph (a T-join). "search": smallest, by
-    exhaustive search or branch and bound. "greedy": heuristic, not proved to be the smallest.
+    "one": a single mesh is enough for each part. "loops": the set is the smallest, because an equal number of
+    inconsistent loops share no mesh. "matching": the set is the smallest, found by matching the odd faces of a planar
+    graph (a T-join). "search": the set is the smallest, found by exhaustive search or branch and bound. "greedy": the
+    set was found by a heuristic and is not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""

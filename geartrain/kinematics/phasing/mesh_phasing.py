@@ -377,7 +377,7 @@ _SHOWN = 10  # maximum number of loops listed in a text
 class MeshPhasing(Result):
     """Assembly condition: whether the teeth of every loop mesh, and the angles at which the wheels are mounted.
 
-    See equations (1) to (4) of docs/closure.md. The result is true unless a loop misses or is unclear.
+    See equations (1) to (4) of docs/closure.md. The result is true unless a loop does not close or is unclear.
 
     Examples
     --------
@@ -480,8 +480,9 @@ class MeshPhasing(Result):
         """Angle of the zero mark of every link in the pose in which all teeth mesh [rad], 0 to 2 pi.
 
         Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
-        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If
-        loops miss, errors are distributed. A wheel on the frame is listed like a link, by its own name.
+        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at the zero mark
+        of the link. If loops do not close, their phase errors are distributed. A wheel on the frame is listed like a
+        link, by its own name.
         """
         turns = self.problem.spread_angles if self.missing else self.problem.tree_angles
         parts = self.problem.parts

@@ -418,7 +418,8 @@ class Solution:
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        It can be determined although both links are free, if the difference is in the row space of the system.
+        The relative speed can be determined although both links are free, if the difference of the speeds is in the row
+        space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.loose is None:

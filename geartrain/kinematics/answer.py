@@ -83,7 +83,7 @@ class Verdict(Result):
     """
 
     kind: VerdictKind
-    """Kind of the verdict.
+    """Kind of the verdict, from the list below.
 
     determined: the inputs determine the speed of every link. free: the speeds of `links` are undetermined. locked: the
     input cannot move because of `loops` or `prescriptions`. contradictory: `prescriptions` contradict each other.
@@ -186,7 +186,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     speeds.
     """
     work: int
-    """Number of circuits that were solved."""
+    """Number of circuits whose equations were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
     """Row label of `WillisSystem.matrix` -> relative residual |b - A w| / (|A| |w|) [1]. Computed at the first access;
     empty if the matrix was not used.

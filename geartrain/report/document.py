@@ -78,7 +78,7 @@ class Table(Shown):
     """
 
     header: Sequence[str]
-    """Title of each column; "" for a column without title."""
+    """Title of each column; "" for a column without a title."""
     rows: Sequence[Sequence[str]]
     """Cells by row; each row has one cell for each column."""
     wide: bool = False
@@ -148,7 +148,7 @@ class Branch:
     """
 
     text: str
-    """Text of the line."""
+    """Text of the line at this node."""
     below: Sequence[Branch] = ()
     """Child nodes of this node."""
 

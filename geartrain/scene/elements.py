@@ -65,7 +65,7 @@ class SceneHanger(Shown):
     A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
     """
     body: int
-    """Index of the body whose angle moves the part."""
+    """Index of the body whose rotation moves the part."""
     point: Vector
     """Point of suspension [mm]."""
     direction: Vector
@@ -103,7 +103,7 @@ class SceneBody(Shown):
     parent: int | None
     """Index of the body that carries the axis; None for the frame."""
     axis: str
-    """Label of the axis."""
+    """Label of the axis about which the link turns."""
     point: Vector
     """Point on the axis [mm]."""
     direction: Vector
@@ -113,11 +113,11 @@ class SceneBody(Shown):
     speed: str | None
     """Speed relative to the speed of the driving link, about its declared axis, exact; None if it is not determined."""
     shown: str | None
-    """Exact speed at the declared inputs, in the train's unit."""
+    """Exact speed of the link at the declared inputs, in the train's unit."""
     decimal: str
-    """Rounded speed at the declared inputs, in the train's unit."""
+    """Rounded speed of the link at the declared inputs, in the train's unit."""
     start: float
-    """Declared starting angle [rad]."""
+    """Declared starting angle of the link [rad]."""
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False
@@ -220,13 +220,13 @@ class SceneWheel(Shown):
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of the wheel body along its direction, from the centre [mm]."""
+        """Lower and upper end of the wheel body along `direction`, relative to `centre` [mm]."""
         depths = self.root - self.radius, self.tip - self.radius
         return span(self.facing, *reach(self.cone, self.radius, self.thickness, *depths))
 
     @property
     def web(self) -> tuple[float, float]:
-        """Lower and upper end of the disc within the teeth along the direction of the wheel, from the centre [mm]."""
+        """Lower and upper end of the disc inside the ring of teeth along `direction`, relative to `centre` [mm]."""
         return span(self.facing, *web(self.cone, self.radius, self.thickness, self.root - self.radius))
 
 

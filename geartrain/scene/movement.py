@@ -49,7 +49,7 @@ class ErrorTable(Result):
     pair: str
     """Name of the first pair with this transmission function."""
     period: float
-    """Period in the driver's angle [rad]."""
+    """Period of the transmission error in the driver's angle [rad]."""
     breaks: Floats
     """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
@@ -58,7 +58,7 @@ class ErrorTable(Result):
     The coefficients multiply the powers of the difference between the driver's angle and the middle of its interval.
     """
     uncertainty: float
-    """Maximum error of the table [rad]."""
+    """Maximum deviation of the table from the transmission error that it represents [rad]."""
 
     @property
     def packed_breaks(self) -> str:
@@ -157,7 +157,7 @@ class Movement(Shown):
     sources: Sequence[ErrorSource] = ()
     """Pairs with transmission errors."""
     steps: Sequence[ErrorStep] = ()
-    """Steps in the order of their evaluation."""
+    """Steps that compute the angular errors, in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
     """Link -> constant error of its angle [rad]."""
 

@@ -54,12 +54,12 @@ class LinkCourse(Result):
 
     @property
     def packed_samples(self) -> str:
-        """Sample indices as base64 of little-endian uint32."""
+        """Entries of `samples` as base64 of little-endian uint32."""
         return packed(self.samples, "<u4")
 
     @property
     def packed_angles(self) -> str:
-        """Angles as base64 of little-endian float32."""
+        """Entries of `angles` as base64 of little-endian float32."""
         return packed(self.angles, "<f4")
 
 
@@ -114,17 +114,17 @@ class SceneContact(Result):
 
     @property
     def packed_changes(self) -> str:
-        """Samples as base64 of little-endian uint32."""
+        """Entries of `changes` as base64 of little-endian uint32."""
         return packed(self.changes, "<u4")
 
     @property
     def packed_times(self) -> str:
-        """Times as base64 of little-endian float64."""
+        """Entries of `impact_times` as base64 of little-endian float64."""
         return packed(self.impact_times)
 
     @property
     def packed_speeds(self) -> str:
-        """Speeds as base64 of little-endian float32."""
+        """Entries of `impact_speeds` as base64 of little-endian float32."""
         return packed(self.impact_speeds, "<f4")
 
 
@@ -138,7 +138,7 @@ class SceneRun(Result):
     """
 
     driven: str
-    """Drive that supplies the power of the train."""
+    """Drive that supplies power to the train."""
     link: str
     """Link at which power enters."""
     rate: float

@@ -94,7 +94,7 @@ class PointerTarget(Shown):
     """
 
     label: str
-    """Name of the target."""
+    """Name of the target value."""
     speed: str
     """Speed relative to the driving link, exact. A target without a sense takes the sense of the output."""
     source: str = ""
@@ -138,7 +138,7 @@ class Pointer(Shown):
     body: int
     """Index of the body that turns with the pointer."""
     base: int
-    """Index of the body relative to which the pointer is read."""
+    """Index of the body relative to which the angle of the pointer is read."""
     dial: int | None
     """Index of the dial; None for an output without a dial, for which a small dial is drawn."""
     speed: str | None
@@ -192,7 +192,7 @@ class Scene(Shown):
     state: str | None
     """State of the train; None if it has no states."""
     unit: str
-    """Unit of speeds."""
+    """Unit of the speeds that are shown for bodies and pointers."""
     positive: str
     """Sense of rotation of a positive speed, as declared."""
     front: int
@@ -220,7 +220,7 @@ class Scene(Shown):
     couplings: Sequence[SceneCoupling]
     """Pins in slots and in round holes."""
     dials: Sequence[DialFace]
-    """Dials on which the pointers are read."""
+    """Dials of the scene, with their scales."""
     pointers: Sequence[Pointer]
     """Outputs of the train; the first 100 links if no output is declared."""
     movement: Movement

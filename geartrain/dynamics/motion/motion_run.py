@@ -222,13 +222,13 @@ class MotionRun(Tabular, Pictured):
     samples: int
     """Number of positions, 2 or more, including both ends of the run."""
     statistics: list[RunningStatistics] = field(default_factory=list)
-    """Peak values and moments of each output."""
+    """Peak values and moments of each output's error and speed."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
-    """Peak values and moments of each output, for each set of random phases."""
+    """Peak values and moments of each output's error and speed, for each set of random phases."""
     seed: int | None = None
     """Random seed of the phases; None if no random phases were used."""
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
-    """First-order estimates of the peak values of each output."""
+    """First-order estimates of each output's peak and rms errors."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
     """Spectral lines by output, in descending order of amplitude."""
     done: int = 0
@@ -261,7 +261,7 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each evaluated output.
+        """Table with a row for each evaluated output: mean speed, error and relative speed.
 
         Its columns are the mean speed divided by the input speed [1], the error [rad], and the speed divided by its
         mean [1].

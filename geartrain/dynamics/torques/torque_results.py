@@ -93,7 +93,7 @@ class BearingTorque(NamedTuple):
     reaction: Fraction
     """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
-    """Lost power, 0 or more [unit of torque times the train's unit of speed]."""
+    """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class PairTorque(Result):
     id: str
     """Name of the pair or coupling."""
     driver: str
-    """Wheel or link that drives relative to the carrier; "" if no power flows."""
+    """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
     links: tuple[str, str, str]
     """First link, second link, carrier."""
     torques: tuple[Fraction, Fraction, Fraction]
@@ -129,7 +129,7 @@ class PairTorque(Result):
     The power from the first link to the second is -x times this speed.
     """
     share: Fraction
-    """Efficiency of the pair with the carrier at rest, for the given driver; 1 for a pair without losses."""
+    """Efficiency of the pair with the carrier at rest, for `driver` as driving side; 1 for a pair without losses."""
     loose: bool = False
     """True if the balance of torques does not determine the torque of the pair."""
     exact: bool = True
@@ -137,7 +137,9 @@ class PairTorque(Result):
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Basic efficiency (with the carrier at rest) for the given driver; a float if it is a mean over teeth."""
+        """Basic efficiency (with the carrier at rest) for `driver` as driving side; a float if it is a mean over
+        teeth.
+        """
         return self.share if self.exact else float(self.share)
 
     @property
@@ -158,7 +160,7 @@ class PairTorque(Result):
 
     @property
     def loss(self) -> Fraction:
-        """Lost power [unit of torque times the train's unit of speed]; 0 if the speed is undetermined."""
+        """Power lost in the pair [unit of torque times the train's unit of speed]; 0 if the speed is undetermined."""
         return (self.power or Fraction(0)) * (1 - self.share)
 
 
@@ -356,7 +358,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def link_torques(self) -> Mapping[str, LinkTorque]:
-        """Link -> external torque and power."""
+        """Link -> external torque on the link and its power."""
         powers = self.powers
         return {
             link: LinkTorque(torque, powers.get(link), link in self.requested) for link, torque in self.external.items()

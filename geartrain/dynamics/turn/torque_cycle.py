@@ -132,7 +132,7 @@ class PairCycle(Result):
     kind: str
     """Kind of the part: `mesh`, `pin` or `bearing`."""
     loss: float
-    """Lost energy [J, or torque without a unit times rad]."""
+    """Energy lost in the part [J, or torque without a unit times rad]."""
     passed: float
     """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it is equal to the
     loss.
@@ -203,7 +203,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     returned. If no torque can be requested, the verdict is the verdict of `Torques`, and the other fields are empty.
     """
     link: str = ""
-    """Link whose torque is computed."""
+    """Link at which the torque is requested."""
     newton_metres: bool = True
     """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0

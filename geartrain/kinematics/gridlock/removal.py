@@ -54,7 +54,7 @@ class MeshRemoval(Result):
     KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
 
     meshes: tuple[str, ...]
-    """Ids of the pairs."""
+    """Ids of the pairs whose meshes are to be removed."""
     method: RemovalMethod
     """Method by which the set of meshes was found.
 
@@ -119,7 +119,7 @@ class LockedSubgraph(Result):
     links: tuple[str, ...]
     """Names of all links of the component."""
     meshes: int
-    """Number of meshes of the component."""
+    """Number of meshes in the component."""
     by: Literal["sign", "ratio"]
     """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
     release: MeshRemoval

@@ -67,7 +67,7 @@ class DivisibilityRule(Result):
     KEYS = ("text", "conditions")
 
     conditions: tuple[DivisibilityCondition, ...]
-    """Conditions, all of which must be satisfied."""
+    """Conditions on the tooth counts, all of which must be satisfied."""
 
     @property
     def text(self) -> str:
@@ -284,7 +284,7 @@ class LoopPhase(Result):
 
     @property
     def text(self) -> str:
-        """Description of the loop in one line of text."""
+        """Description of the loop and its verdict in one line of text."""
         name = " - ".join((*self.gears, *self.gears[:1])) if self.gears else f"{', '.join(self.meshes)} together"
         if self.kind == "closes":
             return f"{name} closes{self._accuracy_remark}"
@@ -523,7 +523,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def last(self) -> float:
-        """Maximum magnitude of `last_errors` [pitch]; 0 if all loops close."""
+        """Maximum magnitude of the phase errors in `last_errors` [pitch]; 0 if all loops close."""
         return max(map(abs, self.last_errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property

@@ -341,7 +341,7 @@ class WheelPlace(Shown):
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of the wheel body along the direction of the axis, from the centre [mm]."""
+        """Lower and upper end of the wheel body along the direction of the axis, relative to `centre` [mm]."""
         return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 

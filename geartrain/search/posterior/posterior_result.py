@@ -129,7 +129,7 @@ class CountCombination(Result):
     teeth: Mapping[str, int]
     """Tooth count of each wheel, in the order of declaration."""
     speeds: Mapping[str, Fraction]
-    """Exact speed of each output in the unit of the train."""
+    """Exact speed of each output, in the unit of the train."""
     errors: Mapping[str, Fraction]
     """Relative error of each output with respect to the observation with the largest misfit; the speed itself if the
     observed speed is 0.
@@ -237,7 +237,7 @@ class ToothCountPosterior(Tabular, Result):
     fits: int | None
     """Number of combinations that satisfy all observations; None if it is not known."""
     witnesses: tuple[ObservedOutput, ...]
-    """Outputs with observed speeds."""
+    """Outputs with observed speeds, which are the evidence."""
     alone: Mapping[str, CountProbability]
     """Evidence of each output without the observations of the other outputs."""
     posteriors: Mapping[str, WheelPosterior]

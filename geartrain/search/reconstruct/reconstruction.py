@@ -210,12 +210,12 @@ class ReconstructionAnswer(Result):
 
     @property
     def requested(self) -> RequestedQuestion:
-        """Size of the reconstruction problem."""
+        """Size of the reconstruction problem: numbers of surviving parts, pointers and added wheels."""
         return RequestedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:
-        """Total number of explanations."""
+        """Number of explanations, summed over all numbers of added wheels."""
         return sum(count.solutions for count in self.counts)
 
 

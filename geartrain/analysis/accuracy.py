@@ -36,7 +36,7 @@ _NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 @dataclass(frozen=True, slots=True)
 class MethodAccuracy(Shown):
-    """Run time and error of one method for one stage of the computation.
+    """Run time and error of one computation method in one stage of the computation.
 
     See Also
     --------
@@ -44,19 +44,19 @@ class MethodAccuracy(Shown):
     """
 
     stage: Stage
-    """Stage of the computation."""
+    """Stage of the computation, such as "speeds"."""
     method: str
-    """Name of the method."""
+    """Name of the method, such as "exact" or "floats"."""
     seconds: float
     """Run time [s]."""
     error: float | None
-    """Maximum error in `unit`; None for the reference method."""
+    """Maximum difference from the values of the reference method, in `unit`; None for the reference method itself."""
     unit: Literal["relative", "pitches", "deg"]
-    """Unit of the error."""
+    """Unit of `error`."""
     reference: str
     """Method whose values are the reference for the error."""
     prepared: float | None = None
-    """Time of preparation before the run, such as the computation of tables [s]."""
+    """Time spent on preparations before the run, such as the computation of tables [s]."""
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -86,7 +86,7 @@ class TrainAccuracy(Tabular, TrainResult):
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
-    """Stage that was not measured -> reason why it does not apply to the train."""
+    """Unmeasured stage -> reason why the stage does not apply to the train."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"

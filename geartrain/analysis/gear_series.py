@@ -148,8 +148,8 @@ def find_gears(
     steps: tuple[float, float] = (1.05, 2.0),
     single: bool = False,
 ) -> GearSearch:
-    """Find all gears of a gearbox, declared or not, by enumeration of closed shift elements, and search for series of
-    gears.
+    """Find all declared and undeclared gears of a gearbox by enumeration of closed shift elements, and search for
+    series of gears.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def find_gears(
     output : str, optional
         Name of an output; by default the first output that is not the input.
     gears : int
-        Number of forward gears of a series; no series is searched for if it is below 2.
+        Number of forward gears of a series. If the number is below 2, no series is searched for.
     steps : tuple of float
         Minimum and maximum step of a series: ratio of a gear divided by the ratio of the next gear.
     single : bool
@@ -167,8 +167,8 @@ def find_gears(
     Returns
     -------
     GearSearch
-        All gears, exact. Every combination of closed elements with the minimum number that determines the speeds is
-        examined.
+        All gears with exact ratios. The search examines every combination of the minimum number of closed elements that
+        determines the speeds.
 
     Raises
     ------

@@ -85,8 +85,8 @@ class GearTrain:
             Name of an output or a link; only the circuits that drive it are solved.
         method : {"auto", "exact", "sparse"}
             "auto" is exact unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
-            float64 and reports residuals, condition numbers and errors; "floats" is its older name. If a train mixes
-            speeds in radians and in turns, those in radians are rounded to floats with any method.
+            float64 and reports residuals, condition numbers and errors; "floats" is an older name of "sparse". If a
+            train mixes speeds in radians and in turns, the speeds in radians are rounded to floats with any method.
 
         Returns
         -------
@@ -170,7 +170,7 @@ class GearTrain:
         tolerance: float | None = None,
         fast: bool | None = None,
     ) -> Motion:
-        """Compute the motion of some outputs or links with real teeth and pins, by composition of transmission
+        """Compute the motion of the given outputs or links with real teeth and pins, by composition of transmission
         functions.
 
         Parameters
@@ -180,14 +180,14 @@ class GearTrain:
         outputs : sequence of str
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore, so that real teeth do not overconstrain a loop.
+            Pairs to ignore where real teeth would overconstrain a loop.
         tolerance : float, optional
             Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
             evaluation.
         fast : bool, optional
-            True to use compiled kernels, which agree to 1e-12 rad and are about ten times as fast. By default they are
-            used if numba is installed and there are enough positions to justify loading it. Pairs that depend on each
-            other never use them.
+            True to use compiled kernels, which agree to 1e-12 rad and are about ten times as fast. By default the
+            kernels are used if numba is installed and there are enough positions to justify loading it. Pairs that
+            depend on each other never use them.
 
         Returns
         -------
@@ -313,8 +313,8 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with real teeth, each with its transmission function; empty if no pair declares a tooth form.
 
-        The driving side of each pair is its driving side in the first state in which it is determined.
-        `mechanics.meshes_in` returns the pairs of another state.
+        Each pair has the driving side of the first state that determines its driving side. `mechanics.meshes_in`
+        returns the pairs of another state.
         """
         return self.mechanics.meshes
 
@@ -326,7 +326,7 @@ class GearTrain:
 
     @property
     def mobility(self) -> Mobility:
-        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
@@ -496,13 +496,14 @@ class GearTrain:
         turns : float, optional
             Revolutions of the input over which wear accumulates, above 0.
         years : float, optional
-            The same duration in years of 365.25 days; the unit of speeds or a `rate` must determine the speed of the
-            train.
+            Duration over which wear accumulates, in years of 365.25 days; the unit of speeds or a `rate` must determine
+            the speed of the train.
         wear : tuple of float, optional
             Minimum and maximum wear coefficient K of Archard's law; by default 1e-7 to 1e-3.
         over : float, optional
-            Revolutions of the input in a run whose maximum torque of each pair determines the stresses, with the
-            instantaneous ratios and friction of teeth and pins. By default stresses are computed from the mean torque.
+            Revolutions of the input in a run with the instantaneous ratios and friction of teeth and pins. Stresses are
+            computed from the maximum torque of each pair in this run. By default stresses are computed from the mean
+            torque.
 
         Returns
         -------
@@ -559,11 +560,11 @@ class GearTrain:
         outputs : sequence of str
             Outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore, so that real teeth do not overconstrain a loop.
+            Pairs to ignore where real teeth would overconstrain a loop.
         samples : int, optional
             Number of samples to record; by default 12 in the shortest period of a pair, at most 40000.
         fast : bool, optional
-            True to compile kernels (extra `fast`). By default they are compiled if the run is long and numba is
+            True to compile kernels (extra `fast`). By default the kernels are compiled if the run is long and numba is
             installed.
         on_done : callable
             Progress function, called with the additional share of the work that is done [0 to 1]. If it returns True,
@@ -575,7 +576,7 @@ class GearTrain:
         Returns
         -------
         geartrain.simulation.TimeRun
-            Angles, speeds, torques, shares of time without contact, impacts, energy.
+            Angles, speeds, torques, impacts, energy, and the shares of time in which teeth are not in contact.
 
         Raises
         ------
@@ -608,11 +609,11 @@ class GearTrain:
         Parameters
         ----------
         rate, state, restitution, outputs, without
-            The same as for `dynamics`; teeth are rigid.
+            Parameters with the same meaning as in `dynamics`. The teeth are rigid.
         step : float, optional
             Length of a step [s]; by default the step of the finer run of `dynamics`.
         fast : bool, optional
-            True to compile kernels (extra `fast`). By default they are compiled if numba is installed.
+            True to compile kernels (extra `fast`). By default the kernels are compiled if numba is installed.
 
         Returns
         -------
@@ -622,9 +623,9 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            In the cases of `dynamics`.
+            Under the conditions listed for `dynamics`.
         GearTrainError
-            In the cases of `dynamics`.
+            Under the conditions listed for `dynamics`.
         """
         driven = wing("simulation.time.train_in_time").DrivenTrain(
             self.mechanics, state, rate, restitution, outputs, without
@@ -676,7 +677,7 @@ class GearTrain:
             `gears`, `outputs` and the like are merged by name, other values such as `inputs` and `tooth_form` are
             replaced, None deletes a key, and `remove` deletes entries.
         **more : object
-            The same for keys that are Python identifiers.
+            Keys that are Python identifiers with their values, applied in the same way as `changes`.
 
         Returns
         -------

@@ -75,11 +75,12 @@ _Drawer = Callable[[Any, _Trace], None]
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """Draw the angle, deviation from mean motion, and speed of outputs over a run; backward motion is red.
+    """Draw the angle, deviation from mean motion, and speed of outputs over a run; backward motion is drawn in
+    red.
 
-    For each output that deviates from uniform motion, panels show its deviation and its speed. A run of few turns has a
-    further panel with the angle, a run of many turns a further panel with the backward motion, if any. Outputs that
-    move uniformly are drawn only if all outputs do, each in one panel: the angle for few turns, otherwise the speed.
+    For each output that deviates from uniform motion, panels show its deviation and its speed. A run of few turns also
+    has a panel with the angle, and a run of many turns a panel with any backward motion. Outputs that move uniformly
+    are drawn only if all outputs move uniformly, each in one panel: the angle for few turns, otherwise the speed.
 
     Parameters
     ----------
@@ -123,7 +124,7 @@ def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> F
     motion : Motion
         Motion of the outputs.
     turns : float
-        Turns of the input, from 0 [turn].
+        Length of the run from position 0 of the input [turn].
     samples : int
         Number of positions, 2 or more, both ends included.
 
@@ -332,7 +333,8 @@ class _Loss(NamedTuple):
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    r"""Draw the requested torque over a run with its mean and extremes, and the losses of the parts below it.
+    r"""Draw the requested torque over a run with its mean and extremes, and the losses of gear pairs, couplings and
+    bearings in a panel below the torque.
 
     Parameters
     ----------

@@ -80,11 +80,12 @@ def sweep_figure(
     title: str = "",
     units: Mapping[str, str] | None = None,
 ) -> Figure:
-    """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; NaN values are omitted.
+    """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; points with NaN
+    values are omitted.
 
     For one parameter, panels show mean efficiency, transmission error and speed ratios against the parameter, with a
-    background band for each verdict. For two parameters, a map shows the mean efficiency; it is blank where the pair
-    does not turn, and faults are hatched. The scale covers the pairs that run.
+    background band for each verdict. For two parameters, a map shows the mean efficiency; the map is blank where the
+    pair does not turn, and faults are hatched. The colour scale covers the pairs that run.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Draw the power flow as a Sankey diagram, with recirculating power in bands that return above the others.
+    """Draw the power flow as a Sankey diagram, in which bands of recirculating power return above the other bands.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 def sphere_figure(
     configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
-    """Draw all gears of a set on their sphere, viewed from one side.
+    """Draw all gears of a set on their common sphere, in orthographic projection.
 
     Parameters
     ----------

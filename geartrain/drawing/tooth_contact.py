@@ -191,7 +191,7 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Draw triangular teeth in contact to scale, with the contact point and the line of centres.
+    """Draw two triangular teeth in contact, to scale, with their contact point and the line of centres.
 
     Parameters
     ----------

@@ -115,7 +115,8 @@ _BEYOND = 4.0  # maximum extension of an axis beyond the real path, over the ran
 
 
 def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
-    """Draw driven angle, speed ratio, sliding efficiency and moment arms of triangular teeth against the driver angle.
+    """Draw driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth against
+    the angle of the driver.
 
     Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11), thick lines the real path of
     all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position of
@@ -388,8 +389,8 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Compare tooth forms of one pair in a figure: flanks, path of contact, stress, heat, flash temperature, sliding
-    and loss.
+    """Draw a comparison of tooth forms for one pair: flanks, path of contact, stress, heat, flash temperature,
+    sliding and loss.
 
     Parameters
     ----------

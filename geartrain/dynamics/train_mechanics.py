@@ -66,7 +66,7 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
+        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
@@ -96,8 +96,8 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """Gear pairs with real teeth by name, with the first wheel driving. The teeth of a pair are computed when it is
-        first read.
+        """Gear pairs with real teeth by name, with the first wheel driving. The teeth of a pair are computed when the
+        pair is first read.
         """
         if not any(map(self.declaration.form_of, self.declaration.gears)):
             return {}  # avoids importing tooth forms for a train without any
@@ -110,7 +110,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All gear pairs with real teeth, with the first wheel driving, after their teeth are computed.
+        """All gear pairs with real teeth, with the first wheel driving and with computed teeth.
 
         Raises
         ------
@@ -125,7 +125,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth, each with the driver of the first state in which it is known."""
+        """Gear pairs with real teeth, each with its driving wheel in the first state that determines this wheel."""
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 
@@ -168,7 +168,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def pins(self) -> tuple[PinMesh, ...]:
-        """Couplings by pin and slot with declared dimensions, each with its transmission function."""
+        """Pin-and-slot couplings with declared dimensions, each with its transmission function."""
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_pins

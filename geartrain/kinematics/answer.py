@@ -83,7 +83,7 @@ class Verdict(Result):
     """
 
     kind: VerdictKind
-    """Kind of the verdict.
+    """Kind of the verdict, from the list below.
 
     determined: the inputs determine the speed of every link. free: the speeds of `links` are undetermined. locked: the
     input cannot move because of `loops` or `prescriptions`. contradictory: `prescriptions` contradict each other.
@@ -94,7 +94,7 @@ class Verdict(Result):
     links: tuple[str, ...] = ()
     """Links whose speeds are undetermined; empty unless the train is free or partly locked."""
     fixes: tuple[str, ...] = ()
-    """Links whose speeds would determine all other speeds if they were also prescribed."""
+    """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds."""
     prescriptions: tuple[str, ...] = ()
     """Links of the inputs, brakes and clutches that cause a lock or a contradiction."""
     loops: tuple[Loop, ...] = ()
@@ -132,9 +132,9 @@ class RowResiduals(TypedDict, total=False):
 class Answer(FrozenFields, Tabular, TrainResult):
     """Solution of a train in one state: speeds from the Willis equations (4) and (5) of docs/theory.md.
 
-    It is true if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs
-    agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if the
-    speed is not determined.
+    An answer is true if the verdict is as expected (`determined` unless the state's `expect` names another) and all
+    outputs agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if
+    the speed is not determined.
 
     Examples
     --------
@@ -186,7 +186,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     speeds.
     """
     work: int
-    """Number of circuits that were solved."""
+    """Number of circuits whose equations were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
     """Row label of `WillisSystem.matrix` -> relative residual |b - A w| / (|A| |w|) [1]. Computed at the first access;
     empty if the matrix was not used.

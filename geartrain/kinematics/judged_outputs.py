@@ -80,8 +80,8 @@ class TargetResult(Result):
     goal: RatioGoal
     """Required speed [unit of the train], and whether its sign is compared."""
     error: SpeedValue
-    """Output divided by target, minus 1 [1]; the magnitudes are compared if the sign is not. It is the output itself if
-    the target is 0.
+    """Relative error: output divided by target, minus 1 [1]. Magnitudes are compared if the target has no sign. If
+    the target is 0, the value is the speed of the output.
     """
     days_per_century: float | None
     """Gain of the pointer in time [days per 36525 days]. None if the unit of speeds does not contain a time, if the
@@ -186,9 +186,9 @@ class OutputResult(Result):
     ratio: SpeedValue | None
     """Output speed divided by input speed; None unless exactly one input has a non-zero speed."""
     expect_holds: bool | None
-    """True if the speed agrees with the declared `expect`; None if none is declared."""
+    """True if the speed agrees with the declared `expect`; None if no `expect` is declared."""
     published_holds: bool | None
-    """True if the output agrees with the declared `published` value; None if none is declared."""
+    """True if the output agrees with the declared `published` value; None if no value is published."""
     targets: tuple[TargetResult, ...]
     """Comparisons with the declared targets."""
     bookkeeping: bool
@@ -207,13 +207,13 @@ class OutputResult(Result):
 
     @property
     def expect(self) -> JudgedExpectation | None:
-        """Declared `expect` with the result of its comparison; None if none is declared."""
+        """Declared `expect` with the result of its comparison; None if no `expect` is declared."""
         expect = self.output.expect
         return None if expect is None else JudgedExpectation(str(expect.value), self.expect_holds)
 
     @property
     def published(self) -> JudgedFigure | None:
-        """Published value with the result of its comparison; None if none is declared."""
+        """Published value with the result of its comparison; None if no value is published."""
         figure = self.output.published
         if figure is None:
             return None
@@ -229,8 +229,8 @@ class OutputResult(Result):
 
     @property
     def differs_in_sign(self) -> bool:
-        """True if the opposite speed would satisfy every `expect` and `published` value that this speed does not
-        satisfy.
+        """True if a speed of the opposite sign would satisfy every `expect` and `published` value that the output
+        violates.
         """
         if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
@@ -373,7 +373,7 @@ class Sensitivity(Result):
     wheel: str
     """Wheel with an uncertain tooth count."""
     teeth: int
-    """Tooth count that is used."""
+    """Tooth count of the wheel that the train uses."""
     allowed: tuple[int, ...]
     """Tooth counts that the evidence allows."""
     output: str

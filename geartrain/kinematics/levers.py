@@ -29,7 +29,7 @@ class Lever(Shown):
     """
 
     carrier: str
-    """Carrier k of the set."""
+    """Carrier k of the epicyclic set."""
     abscissae: Mapping[str, Fraction]
     """Link -> exact abscissa x; 0 for the carrier, and at most 1 in magnitude."""
 

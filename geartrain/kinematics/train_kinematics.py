@@ -144,7 +144,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
+        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
         return self._axes.link_signs
 
     @cached_property
@@ -362,7 +362,8 @@ class TrainKinematics(Shown):
         return replace(case, outputs=outputs), links
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
-        """Return for each output the link whose speed it is, and the link relative to which it is measured.
+        """Return for each output the link whose speed the output reports, and the link relative to which this speed is
+        measured.
 
         Parameters
         ----------

@@ -15,10 +15,10 @@ class WillisEquation(NamedTuple):
     """
 
     label: str
-    """Name of the pair, or the prescribed speed, such as `input sun`."""
+    """Name of the pair, or of the prescribed speed, such as `input sun`."""
     kind: str
     """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
     terms: tuple[tuple[str, int], ...]
     """Pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
-    """Right-hand side [unit of the train]."""
+    """Right-hand side of the equation [unit of the train]."""

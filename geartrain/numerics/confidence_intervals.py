@@ -87,9 +87,9 @@ class IntervalEstimate:
     value: float
     """Estimated value, in the unit of the quantity."""
     low: float
-    """Lower end of the interval, in the same unit; -inf if there are too few trials."""
+    """Lower end of the confidence interval, in the same unit; -inf if there are too few trials."""
     high: float
-    """Upper end of the interval, in the same unit; inf if there are too few trials."""
+    """Upper end of the confidence interval, in the same unit; inf if there are too few trials."""
 
     def to_dict(self) -> list[float | None]:
         """Return [value, low, high] for JSON, with null for infinite or undetermined numbers."""

@@ -38,7 +38,7 @@ class LabelledArray(Tabular, Result):
     axes: tuple[str, ...]
     """Name of each axis, such as ("link", "case")."""
     labels: tuple[tuple[str, ...], ...]
-    """Labels of the positions, for each axis."""
+    """Labels of the positions on each axis."""
 
     def __post_init__(self) -> None:
         if self.values.shape != tuple(len(names) for names in self.labels):

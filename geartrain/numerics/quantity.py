@@ -179,7 +179,7 @@ _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$"
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Number together with the digits with which it was written.
+    """Number with its digits as written, which determine its accuracy.
 
     Examples
     --------
@@ -202,7 +202,8 @@ class Figure:
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
-        """Return True if a number agrees with the written number.
+        """Return True if a number agrees with the written number within the accuracy of its digits, or within a given
+        tolerance.
 
         Parameters
         ----------
@@ -216,7 +217,7 @@ class Figure:
 
     @classmethod
     def parse(cls, raw: object) -> Figure:
-        """Parse a number with its written digits from text or a Python number.
+        """Parse a number and its written digits from text or a Python number.
 
         Parameters
         ----------
@@ -310,9 +311,9 @@ Friction = Annotated[Figure, AfterValidator(_not_negative)]
 class Quantity:
     """Number with its unit as written.
 
-    Use `base` in comparisons and computations, not `value`, because it does not depend on the written unit. The units
-    are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded to 50
-    digits.
+    Use `base` in comparisons and computations, not `value`, because `base` does not depend on the written unit. The
+    units are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded
+    to 50 digits.
 
     Examples
     --------

@@ -78,7 +78,7 @@ class Table(Shown):
     """
 
     header: Sequence[str]
-    """Title of each column; "" for a column without title."""
+    """Title of each column; "" for a column without a title."""
     rows: Sequence[Sequence[str]]
     """Cells by row; each row has one cell for each column."""
     wide: bool = False
@@ -148,7 +148,7 @@ class Branch:
     """
 
     text: str
-    """Text of the line."""
+    """Text of the line at this node."""
     below: Sequence[Branch] = ()
     """Child nodes of this node."""
 
@@ -188,7 +188,9 @@ class Picture(Shown):
     caption: str
     """Text below the picture."""
     svg: str
-    """Complete SVG document, which is included unchanged in the page. Its producer must escape text of users."""
+    """Complete SVG document, which is included unchanged in the page. The function that draws the picture must
+    escape text from users.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +241,7 @@ class Document:
     """
 
     title: str
-    """First heading."""
+    """Title of the document, shown as its first heading."""
     summary: Sequence[str]
     """Paragraphs before the first section."""
     sections: Sequence[Section]

@@ -87,7 +87,7 @@ class MotionFigures(Result):
     )
 
     run: MotionRun
-    """Run from which the results are taken; not part of the data."""
+    """Run from which the results are taken; it is not included in the JSON data."""
     name: str
     """Name of the train."""
     state: str | None
@@ -109,8 +109,8 @@ class MotionFigures(Result):
     outputs: Mapping[str, OutputMotion]
     """Deviation, speed and further requested results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
-    """Speeds of the driving link at which teeth first separate, which limit this motion; None if no inertia is
-    declared.
+    """Speeds of the driving link at which teeth first separate. The computed motion is valid only below these
+    speeds; None if no inertia is declared.
     """
     phases: PhaseSets | None
     """Random tooth phases that were evaluated; None unless requested."""

@@ -26,8 +26,8 @@ def to_markdown(documents: Sequence[Document]) -> str:
     Returns
     -------
     str
-        CommonMark with pipe tables. Text of users is escaped: it cannot contain HTML or additional cells, and only
-        relative, http, https and mailto links.
+        CommonMark with pipe tables. Text from users is escaped and cannot contain HTML or additional cells. Its only
+        links are relative, http, https and mailto links.
 
     Examples
     --------

@@ -119,9 +119,9 @@ class TorqueReport(Result):
     states: tuple[TorqueFigures, ...]
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over a run of some turns of the input in one state; None unless requested."""
+    """Torque over a run of some revolutions of the input in one state; None unless requested."""
     friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
-    """Torque over a run in trials with random friction; None unless requested."""
+    """Results of torque runs with random friction; None unless requested."""
 
 
 def collect_torque_report(

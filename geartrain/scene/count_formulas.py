@@ -38,9 +38,9 @@ class CountCondition(Shown):
     """
 
     formula: CountFormula
-    """Function of the tooth counts."""
+    """Function of the tooth counts that must be 0, or must not be 0."""
     zero: bool
-    """True if the function must be 0, False if it must not be 0."""
+    """True if the value of `formula` must be 0, False if it must not be 0."""
     text: str
     """Condition as text."""
     carrier: int | None = None
@@ -61,11 +61,11 @@ class SceneFormulas(Shown):
     count: Sequence[int | None]
     """Index in `wheels` of the tooth count of each wheel of the scene; None if the count is not in `wheels`."""
     formulas: Sequence[CountFormula]
-    """Functions, without duplicates."""
+    """Distinct functions of the tooth counts, to which `bodies` and `pointers` refer."""
     bodies: Sequence[int | None]
-    """Index of the function of each body of the scene; None if its speed is not determined."""
+    """Index in `formulas` of the speed of each body of the scene; None if the speed is not determined."""
     pointers: Sequence[int | None]
-    """Index of the function of each pointer of the scene; None if its speed is not determined."""
+    """Index in `formulas` of the speed of each pointer of the scene; None if the speed is not determined."""
     conditions: Sequence[CountCondition]
     """Conditions of validity. If one is violated, the formulas do not describe the motion."""
     input: str

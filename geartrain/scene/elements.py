@@ -31,7 +31,7 @@ class ScenePart(Shown):
     body: int
     """Index of the body to which the part belongs."""
     name: str
-    """Name in the list of parts."""
+    """Name of the part in the list of parts."""
     kind: str
     """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A
     plate of the frame is `frame`, a plate that turns with a carrier or a ring is `carrier`, a plate of dials is `dial`.
@@ -65,7 +65,7 @@ class SceneHanger(Shown):
     A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
     """
     body: int
-    """Index of the body whose angle moves the part."""
+    """Index of the body whose rotation moves the part."""
     point: Vector
     """Point of suspension [mm]."""
     direction: Vector
@@ -103,9 +103,9 @@ class SceneBody(Shown):
     parent: int | None
     """Index of the body that carries the axis; None for the frame."""
     axis: str
-    """Label of the axis."""
+    """Label of the axis about which the link turns."""
     point: Vector
-    """Point of the axis [mm]."""
+    """Point on the axis [mm]."""
     direction: Vector
     """Unit vector of the reference direction of all axes that are parallel to its axis."""
     sense: int
@@ -113,17 +113,17 @@ class SceneBody(Shown):
     speed: str | None
     """Speed relative to the speed of the driving link, about its declared axis, exact; None if it is not determined."""
     shown: str | None
-    """Exact speed at the declared inputs, in the train's unit."""
+    """Exact speed of the link at the declared inputs, in the train's unit."""
     decimal: str
-    """Rounded speed at the declared inputs, in the train's unit."""
+    """Rounded speed of the link at the declared inputs, in the train's unit."""
     start: float
-    """Declared starting angle [rad]."""
+    """Declared starting angle of the link [rad]."""
     role: str
     """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False
     """True if the speed is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
     note: str = ""
-    """Note as declared."""
+    """Note on the link, as declared."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,12 +149,14 @@ class ToothProfile(Shown):
     For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back cone.
     """
     hole: bool = False
-    """True for the pin of a lantern or another closed curve, whose points go around it."""
+    """True if the profile is a closed curve, such as the pin of a lantern pinion. Its points then go once around
+    the curve.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class SceneWheel(Shown):
-    """Wheel of a body of a scene.
+    """Wheel in a scene: its position, dimensions, teeth and declared data.
 
     See Also
     --------
@@ -164,19 +166,19 @@ class SceneWheel(Shown):
     id: str
     """Name of the wheel."""
     body: int
-    """Index of the body of the wheel."""
+    """Index of the body to which the wheel belongs."""
     teeth: int
     """Tooth count; 1 if it is not known."""
     kind: str
     """Kind of the wheel; `pins` is a lantern pinion."""
     centre: Vector
-    """Centre of its pitch circle, on its axis [mm]."""
+    """Centre of the wheel's pitch circle, on the axis of the wheel [mm]."""
     direction: Vector
-    """Unit vector along the axis, equal to the direction of its body."""
+    """Unit vector along the axis, equal to the direction of the wheel's body."""
     reference: Vector
     """Unit vector perpendicular to the axis, from which `turn` is measured."""
     turn: float
-    """Angle of its first tooth about `direction` [rad]."""
+    """Angle of the wheel's first tooth about `direction`, measured from `reference` [rad]."""
     radius: float
     """Pitch radius [mm]."""
     tip: float
@@ -186,11 +188,11 @@ class SceneWheel(Shown):
     module: float
     """Pitch diameter divided by the tooth count [mm]."""
     thickness: float
-    """Thickness of its rim along the axis [mm]."""
+    """Thickness of the wheel's rim along the axis [mm]."""
     cone: float
-    """Half angle of its pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
+    """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int
-    """Side of the axis to which the cone opens: 1 or -1; 0 for a cylinder."""
+    """Side of the axis towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     profile: int
     """Index of the tooth profile of the wheel."""
     layer: int | None
@@ -198,15 +200,17 @@ class SceneWheel(Shown):
     status: str
     """Status of the wheel: surviving, reconstructed or hypothetical; empty if no status is declared."""
     source: str
-    """Source as declared."""
+    """Source of the data on the wheel, as declared."""
     note: str
-    """Note as declared."""
+    """Note on the wheel, as declared."""
     doubt: str
-    """Tooth counts that the evidence allows, as text; empty for a certain count."""
+    """Tooth counts of the wheel that the evidence allows, as text; empty for a certain count."""
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at its meshes; None unless loads and friction are declared."""
+    """Fraction of the input power that is lost at the meshes of the wheel; None unless loads and friction are
+    declared.
+    """
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""
     holes: Sequence[Sequence[float]] = ()
@@ -216,13 +220,13 @@ class SceneWheel(Shown):
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of the wheel body along its direction, from the centre [mm]."""
+        """Lower and upper end of the wheel body along `direction`, relative to `centre` [mm]."""
         depths = self.root - self.radius, self.tip - self.radius
         return span(self.facing, *reach(self.cone, self.radius, self.thickness, *depths))
 
     @property
     def web(self) -> tuple[float, float]:
-        """Lower and upper end of the disc within the teeth along the direction of the wheel, from the centre [mm]."""
+        """Lower and upper end of the disc inside the ring of teeth along `direction`, relative to `centre` [mm]."""
         return span(self.facing, *web(self.cone, self.radius, self.thickness, self.root - self.radius))
 
 
@@ -242,15 +246,17 @@ class ScenePair(Shown):
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
-    """Speed ratio of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
+    """Exact speed ratio of the pair's fundamental circuit: (w_i - w_k) / (w_j - w_k), equation (4) of
+    docs/theory.md.
+    """
     form: str
-    """Tooth form; empty if none is declared."""
+    """Tooth form of the pair; empty if no form is declared."""
     text: str
-    """Equation of the fundamental circuit as text."""
+    """Equation of the pair's fundamental circuit as text."""
     broken: bool = False
     """True if the pair belongs to a loop that does not close, or that prevents the train from turning."""
     fault: str = ""
-    """Description of that loop."""
+    """Description of the faulty loop to which a broken pair belongs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,9 +287,9 @@ class SceneCoupling(Shown):
     offset: float
     """Distance between the two axes [mm]."""
     drawn: bool
-    """False if the dimensions are not declared; the sizes are then chosen for the picture."""
+    """False if the dimensions of the coupling are not declared and were therefore chosen for the picture."""
     text: str
-    """Equation of the fundamental circuit as text."""
+    """Equation of the coupling's fundamental circuit as text."""
     slot_turn: float = 0.0
     """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose
     [rad]; 0 unless starting angles are declared.
@@ -331,7 +337,7 @@ class SceneWave(Shown):
     wheel: int
     """Index of the flexible wheel."""
     by: int
-    """Index of the body of the wave generator."""
+    """Index of the body that is the wave generator."""
     towards: Vector
     """Unit vector perpendicular to the axis, towards the first lobe in the zero pose."""
     rise: float

@@ -49,16 +49,16 @@ class ErrorTable(Result):
     pair: str
     """Name of the first pair with this transmission function."""
     period: float
-    """Period in the driver's angle [rad]."""
+    """Period of the transmission error in the driver's angle [rad]."""
     breaks: Floats
     """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
     """Coefficients of the driven side's error [rad]. Shape (n, degree + 1).
 
-    They multiply the powers of the driver's angle minus the middle of its interval.
+    The coefficients multiply the powers of the difference between the driver's angle and the middle of its interval.
     """
     uncertainty: float
-    """Maximum error of the table [rad]."""
+    """Maximum deviation of the table from the transmission error that it represents [rad]."""
 
     @property
     def packed_breaks(self) -> str:
@@ -89,23 +89,23 @@ class ErrorSource(Shown):
     pair: str
     """Name of the gear pair or coupling."""
     transmission: int
-    """Index of its error table in the movement."""
+    """Index of the pair's error table in `Movement.transmissions`."""
     driver: int
     """Index of the driving body."""
     carrier: int
     """Index of the body of the pair's carrier."""
     driver_sense: int
-    """1 or -1: sign of the driver's error in the pair's own sense."""
+    """Sign of the driver's error in the angle S, 1 or -1."""
     carrier_sense: int
-    """1 or -1: sign of the carrier's error in the pair's own sense."""
+    """Sign of the carrier's error in the angle S, 1 or -1; the error with this sign is subtracted."""
     cycles: str
     """Number of periods of the transmission error per turn of the driving link, exact."""
     start: float
-    """Initial value of S [rad]."""
+    """Driver's forward angle S at the start, with all errors 0 [rad]."""
     forward: int
     """Sense of rotation of the driver: 1 or -1."""
     sense: int
-    """1 or -1: sign of the transmission error."""
+    """Sign with which the transmission error is added to the error of the driven body, 1 or -1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,11 +121,11 @@ class ErrorStep(Shown):
     bodies: Sequence[int]
     """Indices of the bodies whose errors are computed in this step."""
     known: Sequence[int]
-    """Indices of the bodies from earlier steps on which this step depends."""
+    """Indices of the bodies whose errors are known from earlier steps and enter this step."""
     from_known: Sequence[Sequence[float]]
     """Coefficients of the known bodies, one row per body in `bodies`."""
     sources: Sequence[int]
-    """Indices of sources."""
+    """Indices of the sources whose transmission errors enter this step."""
     from_sources: Sequence[Sequence[float]]
     """Coefficients of the sources, one row per body in `bodies`."""
     coupled: bool
@@ -134,8 +134,8 @@ class ErrorStep(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Movement(Shown):
-    """Errors of the angles of bodies as functions of the turns of the driving link: steps in order, then constant
-    offsets.
+    """Angular errors of bodies as functions of the turns of the driving link. The steps are evaluated in order,
+    and constant offsets are then added.
 
     See Also
     --------
@@ -143,13 +143,13 @@ class Movement(Shown):
     """
 
     kind: str
-    """Kind of motion.
+    """Kind of motion, which states whether transmission errors are included.
 
     `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: the mean motion is shown,
     because these errors cannot be computed. `still`: no speed is determined.
     """
     why: str = ""
-    """Reason for `mean` or `still`."""
+    """Reason why the motion has the kind `mean` or `still`; otherwise empty."""
     period: str | None = None
     """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
@@ -157,9 +157,9 @@ class Movement(Shown):
     sources: Sequence[ErrorSource] = ()
     """Pairs with transmission errors."""
     steps: Sequence[ErrorStep] = ()
-    """Steps in the order of their evaluation."""
+    """Steps that compute the angular errors, in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
-    """Constant errors by link [rad]."""
+    """Link -> constant error of its angle [rad]."""
 
 
 TOLERANCE = 1e-11  # maximum error of a table in driven pitches

@@ -46,20 +46,20 @@ class LinkCourse(Result):
     KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
 
     rate: float
-    """Mean speed about its declared axis [rad/s]."""
+    """Mean speed of the link about its declared axis [rad/s]."""
     samples: Ints
-    """Indices of the samples that are stored. Shape (n,)."""
+    """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
-    """Angle turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
+    """Angle that the link has turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
 
     @property
     def packed_samples(self) -> str:
-        """Sample indices as base64 of little-endian uint32."""
+        """Entries of `samples` as base64 of little-endian uint32."""
         return packed(self.samples, "<u4")
 
     @property
     def packed_angles(self) -> str:
-        """Angles as base64 of little-endian float32."""
+        """Entries of `angles` as base64 of little-endian float32."""
         return packed(self.angles, "<f4")
 
 
@@ -94,7 +94,7 @@ class SceneContact(Result):
     body: int
     """Index of the body with which the contact point moves."""
     at: Vector
-    """Contact point in the zero pose [mm]."""
+    """Position of the contact point in the zero pose [mm]."""
     apart: float
     """Fraction of the time in which no flank is in contact."""
     coast: float
@@ -114,17 +114,17 @@ class SceneContact(Result):
 
     @property
     def packed_changes(self) -> str:
-        """Samples as base64 of little-endian uint32."""
+        """Entries of `changes` as base64 of little-endian uint32."""
         return packed(self.changes, "<u4")
 
     @property
     def packed_times(self) -> str:
-        """Times as base64 of little-endian float64."""
+        """Entries of `impact_times` as base64 of little-endian float64."""
         return packed(self.impact_times)
 
     @property
     def packed_speeds(self) -> str:
-        """Speeds as base64 of little-endian float32."""
+        """Entries of `impact_speeds` as base64 of little-endian float32."""
         return packed(self.impact_speeds, "<f4")
 
 
@@ -138,7 +138,7 @@ class SceneRun(Result):
     """
 
     driven: str
-    """Drive that supplies the power of the train."""
+    """Drive that supplies power to the train."""
     link: str
     """Link at which power enters."""
     rate: float
@@ -158,13 +158,13 @@ class SceneRun(Result):
     complete: bool
     """False if the simulation was stopped before its end."""
     links: Sequence[LinkCourse]
-    """Angles of the links, in the order of bodies."""
+    """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]
     """Contacts of teeth, pins and the escapement."""
     deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
-    """Maximum deviations of outputs from `motion`, ahead and behind."""
+    """Maximum deviations of the simulated outputs from the result of `motion`, ahead and behind."""
     notes: Sequence[str]
-    """Simplifications: omitted effects, and links drawn as one."""
+    """Simplifications of the replay: omitted effects, and links that are drawn as one."""
 
 
 # ------------------------------------------------------------------------------------------------- from a simulated run

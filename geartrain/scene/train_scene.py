@@ -49,7 +49,7 @@ class DialFace(Shown):
     id: str
     """Name of the dial."""
     body: int
-    """Index of the body on which it is mounted."""
+    """Index of the body on which the dial is mounted."""
     face: str
     """Face of the train: front or back, or another name."""
     centre: Vector
@@ -68,14 +68,14 @@ class DialFace(Shown):
     centre.
     """
     note: str = ""
-    """Note as declared."""
+    """Note on the dial, as declared."""
     plate: float = 0.0
     """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if no disc is made."""
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
-    """Caption: the name, followed in brackets by the outputs that are read on this dial if a dial of this name exists
-    on several axes.
+    """Caption: the name of the dial. If dials on several axes have this name, the outputs that are read on this
+    dial follow in brackets.
     """
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
     """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
@@ -94,7 +94,7 @@ class PointerTarget(Shown):
     """
 
     label: str
-    """Name of the target."""
+    """Name of the target value."""
     speed: str
     """Speed relative to the driving link, exact. A target without a sense takes the sense of the output."""
     source: str = ""
@@ -119,9 +119,9 @@ class SceneEpoch(Shown):
     calendar: str | None
     """Calendar in which dates are displayed; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
-    """Source as declared."""
+    """Source of the date, as declared."""
     note: str
-    """Note as declared."""
+    """Note on the date, as declared."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,19 +138,19 @@ class Pointer(Shown):
     body: int
     """Index of the body that turns with the pointer."""
     base: int
-    """Index of the body relative to which the pointer is read."""
+    """Index of the body relative to which the angle of the pointer is read."""
     dial: int | None
     """Index of the dial; None for an output without a dial, for which a small dial is drawn."""
     speed: str | None
     """Speed relative to the driving link, exact; None if it is not determined."""
     shown: str | None
-    """Exact speed at the declared inputs, in the train's unit."""
+    """Exact speed of the output at the declared inputs, in the train's unit."""
     decimal: str
-    """Rounded speed at the declared inputs, in the train's unit."""
+    """Rounded speed of the output at the declared inputs, in the train's unit."""
     sense: int
     """1 if a positive angle is clockwise for a reader of the dial, -1 if it is counter-clockwise."""
     text: str
-    """Sense of rotation in words."""
+    """Sense of rotation of the pointer in words."""
     pairs: Sequence[str]
     """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
@@ -158,7 +158,7 @@ class Pointer(Shown):
     wheels: Sequence[int]
     """Indices of the wheels on the path from the input to the output."""
     note: str = ""
-    """Note as declared."""
+    """Note on the output, as declared."""
     targets: Sequence[PointerTarget] = ()
     """Targets of the output, in the order declared; empty if nothing is driven, or the speed is not determined."""
     level: float = 0.0
@@ -170,7 +170,7 @@ class Pointer(Shown):
     outline: Sequence[tuple[float, float]] = ()
     """Outline of the hand relative to its length: distances from the axis, and half the width at each distance.
 
-    It is empty for a pointer without a dial.
+    The outline is empty for a pointer without a dial.
     """
 
 
@@ -192,9 +192,9 @@ class Scene(Shown):
     state: str | None
     """State of the train; None if it has no states."""
     unit: str
-    """Unit of speeds."""
+    """Unit of the speeds that are shown for bodies and pointers."""
     positive: str
-    """Declared sense of a positive speed."""
+    """Sense of rotation of a positive speed, as declared."""
     front: int
     """Side of z from which the train is viewed, 1 or -1."""
     driving_link: int | None
@@ -202,7 +202,7 @@ class Scene(Shown):
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     step: str
-    """Turns of the driving link in one unit of the input, exact."""
+    """Turns of the driving link per unit of the input, exact."""
     verdict: Mapping[str, Any]
     """Verdict as plain data, with keys "kind", "text", "links", "loops" and "advice".
 
@@ -220,30 +220,31 @@ class Scene(Shown):
     couplings: Sequence[SceneCoupling]
     """Pins in slots and in round holes."""
     dials: Sequence[DialFace]
-    """Dials."""
+    """Dials of the scene, with their scales."""
     pointers: Sequence[Pointer]
     """Outputs of the train; the first 100 links if no output is declared."""
     movement: Movement
-    """Deviations of angles from the exact angles, for positive turns."""
+    """Deviations of the bodies' angles from uniform motion, for positive turns of the driving link."""
     sources: Mapping[str, Mapping[str, str]]
-    """Citations by key."""
+    """Citations by source key."""
     notices: Sequence[Mapping[str, str]]
     """Problems of placement or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """Deviations of angles while the driving link turns against its declared sense, in contact on the coast flanks.
+    """Deviations of the bodies' angles while the driving link turns against its declared sense and the coast
+    flanks are in contact.
 
-    It is None if they are equal to `movement`.
+    The value is None if these deviations are equal to `movement`.
     """
     unit_days: str | None = None
     """Length of the unit in days, exact, if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
-    """Brakes and clutches with their condition, in the order declared."""
+    """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
     """Date that corresponds to turns of the driving link; None if no date is declared."""
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts, if they were requested and exist."""
     asks: bool = True
-    """False if no output is declared, so that links are used as outputs."""
+    """True if outputs are declared. Otherwise links are used as outputs."""
     run: SceneRun | None = None
     """Simulated motion to be replayed; None if the train is turned by its crank."""
     parts: Sequence[ScenePart] = ()

@@ -120,15 +120,15 @@ class ErrorSamples(NamedTuple):
     error: Floats
     """Angle of each output minus its mean motion [rad], shape (outputs, n).
 
-    With a pin and slot it includes the designed deviation from uniform motion (anomaly).
+    The error of an output with a pin and slot includes the designed deviation from uniform motion (anomaly).
     """
     rate: Floats
     """Speed of each output minus its mean, divided by the input speed [1], shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
-    """Names of pairs whose driver temporarily turns against its mean motion at these positions.
+    """Names of pairs whose driver turns against its mean sense of rotation at one or more of these positions.
 
-    There the contact changes to the coast flanks, but the transmission function of the drive flanks is used, without
-    backlash.
+    While such a driver turns backwards, the coast flanks of its pair are in contact, but the transmission function of
+    the drive flanks is used, without backlash.
     """
 
     def __repr__(self) -> str:

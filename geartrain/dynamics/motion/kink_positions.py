@@ -50,15 +50,15 @@ class KinkPositions(NamedTuple):
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     pair: Indices
-    """Index into `pairs` of the pair with the kink, shape (n,)."""
+    """Index into `pairs` of the pair that passes a kink at each position, shape (n,)."""
     pairs: tuple[str, ...]
-    """Names of pairs and couplings."""
+    """Names of all pairs and couplings to which `pair` refers."""
 
     def __repr__(self) -> str:
         return short_repr(self)
 
     def names(self) -> list[str]:
-        """Return the name of the pair at each position."""
+        """Return the name of the pair that passes a kink at each position."""
         return [self.pairs[at] for at in self.pair]
 
 

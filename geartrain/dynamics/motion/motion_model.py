@@ -89,7 +89,7 @@ class PointerCompositions:
 class TransmissionErrorCurve(Tabular, Result):
     """Transmission error of one output as a function of the input angle.
 
-    With a pin and slot it includes the designed deviation from uniform motion (anomaly).
+    The error of an output with a pin and slot includes the designed deviation from uniform motion (anomaly).
 
     See Also
     --------
@@ -101,7 +101,7 @@ class TransmissionErrorCurve(Tabular, Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed divided by the input speed [1]."""
+    """Exact mean speed of the output divided by the speed of the input [1]."""
     angle: Floats
     """Angle of the input [rad], shape (n,)."""
     error: Floats
@@ -120,12 +120,12 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed divided by the input speed [1]."""
+        """Mean speed of the output divided by the speed of the input [1]."""
         return mean_speed(self.name, self.ratio)
 
     @cached_property
     def statistics(self) -> RunningStatistics:
-        """Peak values and moments of the error and the speed."""
+        """Peak values and moments of the transmission error and the speed of the output."""
         found = RunningStatistics(self.name, self.ratio)
         found.add(self.error, self.speed - self.mean)
         return found
@@ -158,11 +158,11 @@ class Motion(Shown):
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
     tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default they are
-        evaluated directly.
+        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default the functions
+        are evaluated directly.
     fast : bool, optional
-        True to use compiled kernels, which agree to 1e-12 rad. By default they are used if numba is installed and there
-        are enough positions to justify loading it.
+        True to use compiled kernels, which agree to 1e-12 rad. By default the kernels are used if numba is installed
+        and there are enough positions to justify loading it.
 
     Raises
     ------
@@ -284,7 +284,7 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """Output -> angle by which its pointer is turned relative to its wheels so that the error at position 0 is 0
+        """Output -> constant angle between its pointer and its wheels, such that the output's error at position 0 is 0
         [rad].
         """
         found = self._compositions.setting
@@ -302,7 +302,7 @@ class Motion(Shown):
             )
 
     def with_random_phases(self, random: Generator) -> Motion:
-        """Return the motion with a random phase for every pair with real teeth that declares no phase.
+        """Return the motion in which each pair with real teeth but without a declared phase has a random phase.
 
         Parameters
         ----------
@@ -329,8 +329,8 @@ class Motion(Shown):
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Output -> pair -> sensitivity of the output to an error of the pair's driven side [rad/rad], also for ideal
-        teeth.
+        """Output -> pair -> change of the output's angle per angular error of the pair's driven side [rad/rad], also
+        for ideal teeth.
         """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
@@ -427,7 +427,8 @@ class Motion(Shown):
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Return the positions of the input at which a pair has a kink. All errors are smooth between these positions.
+        """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of
+        all outputs are smooth between these positions.
 
         Only pairs on which an output depends are included. A speed may jump at a kink: evaluate it slightly before and
         after the kink for its one-sided limits.
@@ -532,7 +533,8 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over some revolutions of the input, with peak values and moments of each output.
+        """Compute the motion over some revolutions of the input, with peak values and moments of each output's error
+        and speed.
 
         Parameters
         ----------

@@ -67,11 +67,11 @@ class SpectrumLine(Result):
     order: Fraction
     """Exact number of periods per revolution of the input."""
     shares: tuple[HarmonicShare, ...]
-    """Harmonics of pairs that have this order."""
+    """Harmonics of the pairs' transmission errors that have this order."""
     expected: float
-    """First-order amplitude: sum of `shares` with their phases [rad]."""
+    """First-order estimate of the amplitude: sum of `shares` with their phases [rad]."""
     measured: float
-    """Amplitude in the composed motion, from a Fourier sum [rad]."""
+    """Amplitude of the line in the composed motion, from a Fourier sum [rad]."""
 
 
 def find_spectrum(
@@ -179,7 +179,8 @@ def _ignore(_: int) -> None:
 
 @dataclass
 class MotionRun(Tabular, Pictured):
-    """Run of a motion: positions from 0 to `turns` of the input, with results on request.
+    """Evaluation of a motion at positions from 0 to `turns` of the input; each result is computed when its method
+    is called.
 
     Results are filled in by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
 
@@ -215,25 +216,27 @@ class MotionRun(Tabular, Pictured):
     motion: Motion
     """Motion that the run evaluates."""
     turns: float
-    """Revolutions of the input, up to 1e12 in magnitude; negative against the declared sense, with the coast flanks
-    driving.
+    """Revolutions of the input, up to 1e12 in magnitude. If the number is negative, the input turns against its
+    declared sense, and the coast flanks drive.
     """
     samples: int
-    """Number of positions including both ends, 2 or more."""
+    """Number of positions, 2 or more, including both ends of the run."""
     statistics: list[RunningStatistics] = field(default_factory=list)
-    """Peak values and moments of each output."""
+    """Peak values and moments of each output's error and speed."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
-    """Peak values and moments of each output, for each set of random phases."""
+    """Peak values and moments of each output's error and speed, for each set of random phases."""
     seed: int | None = None
     """Random seed of the phases; None if no random phases were used."""
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
-    """First-order estimates of the peak values of each output."""
+    """First-order estimates of each output's peak and rms errors."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
     """Spectral lines by output, in descending order of amplitude."""
     done: int = 0
     """Number of positions evaluated so far; less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
-    """Names of pairs whose driver temporarily turned against its mean motion; backlash is not modelled there."""
+    """Names of pairs whose driver temporarily turned against its mean sense of rotation; the backlash of these
+    pairs is not modelled.
+    """
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
@@ -258,7 +261,7 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each evaluated output.
+        """Table with a row for each evaluated output: mean speed, error and relative speed.
 
         Its columns are the mean speed divided by the input speed [1], the error [rad], and the speed divided by its
         mean [1].
@@ -323,7 +326,8 @@ class MotionRun(Tabular, Pictured):
             self.phase_statistics.append(other.statistics)
 
     def find_estimates(self, on_done: OnDone = _ignore) -> None:
-        """Compute first-order estimates of peak and rms values, and their errors relative to the exact composition.
+        """Compute first-order estimates of the peak and rms errors of each output, and compare them with the exact
+        composition.
 
         Parameters
         ----------

@@ -67,29 +67,29 @@ class RunningStatistics(Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed divided by the input speed."""
+    """Exact mean speed of the output divided by the speed of the input [1]."""
     count: int = 0
     """Number of positions evaluated so far."""
     centre: float = 0.0
-    """Mean error [rad]."""
+    """Mean error of the output [rad]."""
     square: float = 0.0
     """Sum of squared deviations of the error from its mean [rad^2]."""
     minimum: float = inf
-    """Minimum error [rad]."""
+    """Minimum error of the output [rad]."""
     most: float = -inf
-    """Maximum error [rad]."""
+    """Maximum error of the output [rad]."""
     slow: float = inf
-    """Minimum speed minus mean speed, divided by the input speed."""
+    """Minimum speed of the output minus its mean speed, divided by the input speed [1]."""
     fast: float = -inf
-    """Maximum speed minus mean speed, divided by the input speed."""
+    """Maximum speed of the output minus its mean speed, divided by the input speed [1]."""
     error_within: float | None = 0.0
     """Upper bound on the difference between the true extremes of the error and `minimum`, `most` [rad].
 
     It is 0 if the run was searched completely, with a tolerance of 1e-9 of the range; None if no bound is known.
     """
     speed_within: float | None = 0.0
-    """Upper bound on the difference between the true extremes of the speed and `slow`, `fast`, divided by the input
-    speed. It is 0 or None as for `error_within`.
+    """Upper bound on the difference between the true extremes of the speed and `slow`, `fast`, divided by the
+    input speed [1]. It is 0 or None in the same cases as `error_within`.
     """
 
     def add(self, error: Floats, rate: Floats) -> None:
@@ -113,7 +113,7 @@ class RunningStatistics(Result):
         self.reach(error, rate)
 
     def reach(self, error: Floats, rate: Floats) -> None:
-        """Add values to the extremes, without changing the moments.
+        """Include further values in the extremes without changing the moments.
 
         Parameters
         ----------
@@ -125,24 +125,22 @@ class RunningStatistics(Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed divided by the input speed."""
+        """Mean speed of the output divided by the speed of the input [1]."""
         return mean_speed(self.name, self.ratio)
 
     @property
     def peak_to_peak(self) -> float:
-        """Maximum minus minimum error [rad]."""
+        """Maximum minus minimum error of the output [rad]."""
         return self.most - self.minimum
 
     @property
     def rms(self) -> float:
-        """Root mean square of the error about its mean [rad]."""
+        """Root mean square of the output's error about its mean [rad]."""
         return sqrt(self.square / self.count)
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Minimum and maximum deviation of the speed relative to the mean speed, with the mean speed divided by the
-        input speed.
-        """
+        """Minimum and maximum speed as in `speeds`, together with the mean speed divided by the input speed."""
         return SpeedSpan(*self.speeds, self.mean)
 
     @property

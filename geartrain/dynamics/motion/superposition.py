@@ -117,15 +117,17 @@ class ErrorEstimates(Result):
     )
 
     true: RunningStatistics
-    """Statistics of the exact composition at the same positions."""
+    """Statistics of the output's error in the exact composition, at the same positions."""
     bound: float
     """Sum over all pairs of sensitivity times error range, an upper bound on the range of the error [rad]."""
     independent: float
-    """Rms value of the error for independent phases of the pairs [rad]."""
+    """Rms error of the output if the phases of the pairs are statistically independent [rad]."""
     nominal: SuperpositionEstimate
-    """Superposition with each driver at its mean angle."""
+    """First-order superposition of the pairs' errors, with each driver at its mean angle."""
     lagged: SuperpositionEstimate
-    """Superposition with each driver displaced by the mean error (lag) of the pairs before it."""
+    """First-order superposition of the pairs' errors, with each driver displaced by the mean error (lag) of the
+    preceding pairs.
+    """
 
     @property
     def bound_error(self) -> float:

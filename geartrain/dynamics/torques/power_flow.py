@@ -56,7 +56,7 @@ class PowerStream(Result):
     target: PowerNode
     """Node to which the power flows."""
     power: Fraction
-    """Power, above 0 [unit of torque times the train's unit of speed]."""
+    """Power of the stream, above 0 [unit of torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
     """Part of `power` that recirculates in closed loops, in the same unit."""
 
@@ -73,7 +73,7 @@ class RecirculatingPower(Result):
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
 
     nodes: tuple[PowerNode, ...]
-    """Pairs and shafts of the loops."""
+    """Pairs and shafts through which the recirculating power flows."""
     power: Fraction
     """Recirculating power [unit of torque times the train's unit of speed]."""
     power_in: Fraction
@@ -196,11 +196,11 @@ class PowerLoss(Result):
     node: PowerNode
     """Pair or bearing in which the power is lost."""
     power: Fraction
-    """Lost power [unit of torque times the train's unit of speed]."""
+    """Power loss of the pair or bearing [unit of torque times the train's unit of speed]."""
     power_in: Fraction
     """Power that enters the train, in the same unit."""
     loss: Fraction
-    """Total lost power of the train, in the same unit."""
+    """Total power loss of the train, in the same unit."""
 
     @property
     def of_power_in(self) -> Fraction | None:
@@ -217,7 +217,7 @@ class PowerLoss(Result):
 class PowerFlow(Result):
     """Power streams of a train in one state. Power is torque times absolute speed.
 
-    Powers into and out of a shaft are equal; powers into and out of a pair differ by its loss.
+    Powers into and out of a shaft are equal; powers into and out of a pair differ by the loss of the pair.
 
     Examples
     --------
@@ -240,7 +240,7 @@ class PowerFlow(Result):
     streams: tuple[PowerStream, ...] = ()
     """Power streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Pair or bearing -> lost power, if it is not 0, in the same unit."""
+    """Pair or bearing -> lost power, in the same unit; parts without losses are omitted."""
     loops: tuple[RecirculatingPower, ...] = ()
     """Power loops, in descending order of power."""
 
@@ -260,7 +260,8 @@ class PowerFlow(Result):
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
     def surplus(self, node: PowerNode) -> Fraction:
-        """Return power input minus power output and loss of a node, which is 0 except at `in` and `out`.
+        """Return the power balance of a node: power input minus power output and loss. The balance is 0 except at `in`
+        and `out`.
 
         Parameters
         ----------

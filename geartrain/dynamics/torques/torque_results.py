@@ -47,14 +47,14 @@ class HoldingTorque(Result):
     clutch: str | None = None
     """Name of the brake or clutch; empty if no clutch is declared for it."""
     cause: tuple[str, ...] = ()
-    """Links of the declared lock that implies this brake or lock; empty if it is declared itself.
+    """Links of the declared lock that implies this brake or lock; empty if the brake or lock is itself declared.
 
     A lock across several axes closes every joint on the path between its links.
     """
 
     @property
     def declared_cause(self) -> tuple[str, ...] | None:
-        """Links of the declared lock that implies this brake or lock; None if it is declared itself."""
+        """Links of the declared lock that implies this brake or lock; None if the brake or lock is itself declared."""
         return self.cause or None
 
     @property
@@ -93,7 +93,7 @@ class BearingTorque(NamedTuple):
     reaction: Fraction
     """Torque on the carrier about its own axis [N m, or number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
-    """Lost power, 0 or more [unit of torque times the train's unit of speed]."""
+    """Power lost in the bearing, 0 or more [unit of torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class PairTorque(Result):
     id: str
     """Name of the pair or coupling."""
     driver: str
-    """Wheel or link that drives relative to the carrier; "" if no power flows."""
+    """Wheel or link that drives in the frame of the carrier; "" if no power flows."""
     links: tuple[str, str, str]
     """First link, second link, carrier."""
     torques: tuple[Fraction, Fraction, Fraction]
@@ -129,15 +129,17 @@ class PairTorque(Result):
     The power from the first link to the second is -x times this speed.
     """
     share: Fraction
-    """Efficiency of the pair with the carrier at rest, for the given driver; 1 for a pair without losses."""
+    """Efficiency of the pair with the carrier at rest, for `driver` as driving side; 1 for a pair without losses."""
     loose: bool = False
-    """True if the balance does not determine the torque of the pair."""
+    """True if the balance of torques does not determine the torque of the pair."""
     exact: bool = True
     """False if `share` is a mean over teeth, a float with 15 digits."""
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Basic efficiency (with the carrier at rest) for the given driver; a float if it is a mean over teeth."""
+        """Basic efficiency (with the carrier at rest) for `driver` as driving side; a float if it is a mean over
+        teeth.
+        """
         return self.share if self.exact else float(self.share)
 
     @property
@@ -158,7 +160,7 @@ class PairTorque(Result):
 
     @property
     def loss(self) -> Fraction:
-        """Lost power [unit of torque times the train's unit of speed]; 0 if the speed is undetermined."""
+        """Power lost in the pair [unit of torque times the train's unit of speed]; 0 if the speed is undetermined."""
         return (self.power or Fraction(0)) * (1 - self.share)
 
 
@@ -205,7 +207,7 @@ class TorqueVerdict(Result):
     """
 
     kind: TorqueVerdictKind
-    """Kind of the verdict, one of the kinds above."""
+    """Kind of the verdict, from the list in the description of the class."""
     text: str
     """Verdict as a sentence."""
     candidates: tuple[str, ...] = ()
@@ -237,8 +239,8 @@ class NeglectedEffect(Result):
 
     @property
     def counts(self) -> bool:
-        """False for effects that do not change mean values: variation within a revolution, and the choice between two
-        mean values.
+        """True if the neglected effect changes mean values. Variation within a revolution, and the choice between two
+        mean values, do not count.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 
@@ -311,7 +313,9 @@ class Torques(FrozenFields, Tabular, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on the torques. If it is false, only `verdict` and `neglected` have values."""
+    """Verdict on whether the loads determine the torques. If its truth value is False, only `verdict` and
+    `neglected` have values.
+    """
     requested: tuple[str, ...] = ()
     """Links whose torque was computed from the balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
@@ -349,12 +353,12 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """Link -> external power, positive into the train, for links whose speed is determined."""
+        """Link -> external power, positive if it flows into the train, for links whose speed is determined."""
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
 
     @property
     def link_torques(self) -> Mapping[str, LinkTorque]:
-        """Link -> external torque and power."""
+        """Link -> external torque on the link and its power."""
         powers = self.powers
         return {
             link: LinkTorque(torque, powers.get(link), link in self.requested) for link, torque in self.external.items()
@@ -411,7 +415,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def known_loss(self) -> Fraction | None:
-        """Lost power; None if the speed of a loaded link is undetermined."""
+        """Power lost in pairs and bearings; None if the speed of a loaded link is undetermined."""
         return None if self.open_speeds else self.loss
 
     @property

@@ -132,7 +132,7 @@ class PairCycle(Result):
     kind: str
     """Kind of the part: `mesh`, `pin` or `bearing`."""
     loss: float
-    """Lost energy [J, or torque without a unit times rad]."""
+    """Energy lost in the part [J, or torque without a unit times rad]."""
     passed: float
     """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it is equal to the
     loss.
@@ -140,7 +140,7 @@ class PairCycle(Result):
     flank_changes: int = 0
     """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each sign change.
 
-    If the run is an integer number of periods, a change between its end and its start is included.
+    If the run is an integer number of periods, a change between the end and the start of the run is included.
     """
     maximum: float = 0.0
     """Maximum magnitude of the torque on the driven side [N m, or number without a unit]; 0 for a bearing."""
@@ -151,9 +151,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Torques of a train over some revolutions of its input, position by position: docs/torques.md, sections 16 to 18.
 
     The run has about `samples` equally spaced positions. Positions are added at both sides of every kink and jump of
-    the transmission functions, where a motion reverses or the flank in contact changes, and where integrals need them.
-    Arrays with one value per position are read-only. At positions where no torque balances the loads, the train is
-    locked and the torque is NaN.
+    the transmission functions, where a motion reverses or the flank in contact changes, and where the integrals need
+    more positions. Arrays with one value per position are read-only. At positions where no torque balances the loads,
+    the train is locked and the torque is NaN.
 
     Examples
     --------
@@ -195,7 +195,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on the torques.
+    """Verdict on whether the loads determine the torques.
 
     `determined`: all torques follow from the loads. `incomplete`: some effects are neglected. `ambiguous`: several
     patterns of power flow balance the loads at some position. `self-locking`: no torque balances the loads at some
@@ -203,7 +203,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     returned. If no torque can be requested, the verdict is the verdict of `Torques`, and the other fields are empty.
     """
     link: str = ""
-    """Link whose torque is computed."""
+    """Link at which the torque is requested."""
     newton_metres: bool = True
     """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0
@@ -217,8 +217,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     torque: Floats | None = None
     """Torque at the link in the solution with minimum loss [N m, or number without a unit], shape (n,).
 
-    It is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed is
-    0.
+    The torque is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean
+    speed is 0.
     """
     highest: Floats | None = None
     """Torque at the link in the solution with maximum loss [N m, or number without a unit], shape (n,)."""
@@ -247,7 +247,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     energy: CycleEnergy | None = None
     """Energies over the run; None if the train locks."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
-    """Loss and torque of gear pairs and couplings by name, and of bearings by `bearing LINK`."""
+    """Name -> loss and torque of each gear pair and coupling, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads."""
     held_share: float = 0.0
@@ -346,7 +346,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Pair -> transmitted energy divided by the energy input of the train, for pairs with a ratio above 1."""
+        """Pair -> energy transmitted by the pair divided by the energy input of the train, for pairs in which this
+        quotient exceeds 1.
+        """
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}

@@ -17,7 +17,7 @@ BuildLevel = Literal["error", "note"]
 class BuildFinding(Result):
     """Violation of one buildability rule by a train.
 
-    `geartrain check`, reports, drawings and exports print the text of its problem.
+    `geartrain check`, reports, drawings and exports print the text of the problem.
 
     Examples
     --------
@@ -42,7 +42,7 @@ class BuildFinding(Result):
     is undecided.
     """
     problem: Problem
-    """Location, problem, reason and fix."""
+    """Description of the problem: location, problem, reason and fix."""
 
     def _summary(self) -> str:
         return f"{self.level} {self.rule}: {self.problem.what}"

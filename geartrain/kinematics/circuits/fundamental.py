@@ -47,13 +47,13 @@ class Circuit(NamedTuple):
     carrier: str
     """Carrier k: the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
-    """Coefficient of the speed of link i, above 0."""
+    """Coefficient of the relative speed of link i, above 0."""
     b: int
-    """Coefficient of the speed of link j."""
+    """Coefficient of the relative speed of link j."""
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
-    """Note on a sense of rotation that is only a convention; otherwise empty."""
+    """Note on a sense of rotation that is only a convention; empty if no such note is necessary."""
 
     @property
     def swings(self) -> bool:
@@ -83,7 +83,7 @@ class Circuit(NamedTuple):
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
-        """Return the same pair with other tooth counts; senses of rotation are unchanged.
+        """Return the circuit of the same pair with other tooth counts; the senses of rotation are unchanged.
 
         Parameters
         ----------

@@ -285,8 +285,8 @@ class Axes:
 
     @property
     def link_signs(self) -> Mapping[str, int]:
-        """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes; other links have
-        1.
+        """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it.
+        Other links have the sign 1 and are omitted.
         """
         if self.plain:
             return {}
@@ -437,8 +437,8 @@ class Rigid:
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the cases with brakes and locks joint by joint: brakes on links that turn on the frame, locks between
-    coaxial links.
+    """Return the cases with each brake and lock expressed for single joints: brakes on links that turn on the
+    frame, locks between coaxial links.
 
     A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
     `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`

@@ -372,8 +372,8 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Formulas(Mapping[str, Formula], Result):
-    """Outputs of a train in one state as functions of the tooth counts of its free wheels. As a mapping, it contains
-    `outputs`.
+    """Outputs of a train in one state as functions of the tooth counts of its free wheels. The object is also a
+    mapping with the items of `outputs`.
 
     A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with free wheels are assumed to turn. A
     train that moves although such a loop is locked therefore has no formulas. Loops without free wheels may turn or be

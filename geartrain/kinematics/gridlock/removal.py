@@ -54,13 +54,14 @@ class MeshRemoval(Result):
     KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
 
     meshes: tuple[str, ...]
-    """Ids of the pairs."""
+    """Ids of the pairs whose meshes are to be removed."""
     method: RemovalMethod
-    """Method by which the set was found.
+    """Method by which the set of meshes was found.
 
-    "one": a single mesh is enough for each part. "loops": smallest, because an equal number of inconsistent loops share
-    no mesh. "matching": smallest, by matching the odd faces of a planar graph (a T-join). "search": smallest, by
-    exhaustive search or branch and bound. "greedy": heuristic, not proved to be the smallest.
+    "one": a single mesh is enough for each part. "loops": the set is the smallest, because an equal number of
+    inconsistent loops share no mesh. "matching": the set is the smallest, found by matching the odd faces of a planar
+    graph (a T-join). "search": the set is the smallest, found by exhaustive search or branch and bound. "greedy": the
+    set was found by a heuristic and is not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
@@ -118,7 +119,7 @@ class LockedSubgraph(Result):
     links: tuple[str, ...]
     """Names of all links of the component."""
     meshes: int
-    """Number of meshes of the component."""
+    """Number of meshes in the component."""
     by: Literal["sign", "ratio"]
     """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
     release: MeshRemoval
@@ -183,7 +184,7 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield one sentence for each locked part with its remedy; nothing for a train that moves.
+        """Yield one sentence on each locked part and its remedy; yield nothing if no link is locked.
 
         Parameters
         ----------

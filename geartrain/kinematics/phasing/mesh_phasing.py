@@ -67,7 +67,7 @@ class DivisibilityRule(Result):
     KEYS = ("text", "conditions")
 
     conditions: tuple[DivisibilityCondition, ...]
-    """Conditions, all of which must be satisfied."""
+    """Conditions on the tooth counts, all of which must be satisfied."""
 
     @property
     def text(self) -> str:
@@ -255,7 +255,7 @@ class LoopPhase(Result):
     residue: Fraction | float
     """Deviation of the sum from the nearest integer [pitch], -1/2 to 1/2; a Fraction if it is exact."""
     slack: float
-    """Maximum error of the residue [pitch]; 0 if it is exact."""
+    """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""
     how: ResidueKnowledge
     """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions), or
     "numeric".
@@ -277,14 +277,14 @@ class LoopPhase(Result):
 
     @property
     def miss(self) -> Fraction | float:
-        """Error of the last pair if all other pairs mesh exactly [pitch], for the choice of engaged teeth with the
-        minimum error.
+        """Phase error of the last pair if all other pairs mesh exactly [pitch], for the choice of engaged teeth with
+        the minimum phase error.
         """
         return self.residue / self.weights[-1]
 
     @property
     def text(self) -> str:
-        """Description of the loop in one line of text."""
+        """Description of the loop and its verdict in one line of text."""
         name = " - ".join((*self.gears, *self.gears[:1])) if self.gears else f"{', '.join(self.meshes)} together"
         if self.kind == "closes":
             return f"{name} closes{self._accuracy_remark}"
@@ -377,7 +377,7 @@ _SHOWN = 10  # maximum number of loops listed in a text
 class MeshPhasing(Result):
     """Assembly condition: whether the teeth of every loop mesh, and the angles at which the wheels are mounted.
 
-    See equations (1) to (4) of docs/closure.md. The result is true unless a loop misses or is unclear.
+    See equations (1) to (4) of docs/closure.md. The result is true unless a loop does not close or is unclear.
 
     Examples
     --------
@@ -435,7 +435,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
-        """Indices of the loops that do not close, in descending order of error."""
+        """Indices of the loops that do not close, in descending order of their phase errors."""
         found = [(-abs(float(one.miss)), at) for at, one in enumerate(self.problem.conditions) if one.kind == "misses"]
         return tuple(at for _, at in sorted(found))
 
@@ -470,7 +470,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def worst(self) -> Fraction | float:
-        """Maximum magnitude of the error of a loop's last pair [pitch]."""
+        """Maximum magnitude of the phase error of a loop's last pair [pitch]."""
         misses = [one.miss for one in self.problem.conditions]
         worst = max(misses, key=lambda miss: abs(float(miss)), default=Fraction(0))
         return -worst if worst < 0 else worst
@@ -480,8 +480,9 @@ class MeshPhasing(Result):
         """Angle of the zero mark of every link in the pose in which all teeth mesh [rad], 0 to 2 pi.
 
         Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
-        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If
-        loops miss, errors are distributed. A wheel on the frame is listed like a link, by its own name.
+        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at the zero mark
+        of the link. If loops do not close, their phase errors are distributed. A wheel on the frame is listed like a
+        link, by its own name.
         """
         turns = self.problem.spread_angles if self.missing else self.problem.tree_angles
         parts = self.problem.parts
@@ -505,33 +506,35 @@ class MeshPhasing(Result):
 
     @cached_property
     def errors(self) -> Mapping[str, float]:
-        """Error of every pair if the errors of the loops are distributed by least squares [pitch]."""
+        """Phase error of every pair if the phase errors of the loops are distributed by least squares [pitch]."""
         return self._errors(self.problem.spread_angles)
 
     @property
     def spread_errors(self) -> Mapping[str, float]:
-        """Error of every pair by least squares [pitch], as in `errors`; empty if all loops close."""
+        """Phase error of every pair by least squares [pitch], as in `errors`; empty if all loops close."""
         return self.errors if self.missing else {}
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Error of every pair if the last assembled pair of each loop has the whole error of the loop [pitch]."""
+        """Phase error of every pair if the last assembled pair of each loop has the whole phase error of the loop
+        [pitch].
+        """
         return self._errors(self.problem.tree_angles)
 
     @cached_property
     def last(self) -> float:
-        """Maximum magnitude of `last_errors` [pitch]; 0 if all loops close."""
+        """Maximum magnitude of the phase errors in `last_errors` [pitch]; 0 if all loops close."""
         return max(map(abs, self.last_errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property
     def spread(self) -> float:
-        """Maximum magnitude of the distributed errors [pitch]; 0 if all loops close."""
+        """Maximum magnitude of the phase errors distributed by least squares [pitch]; 0 if all loops close."""
         return max(map(abs, self.errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if the backlash of each pair absorbs its distributed error; None if the backlash of such a pair is
-        unknown.
+        """True if the backlash of each pair absorbs the phase error in `errors`; None if the backlash of a pair with a
+        phase error is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True
@@ -641,7 +644,7 @@ _OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regula
 
 
 class SphericalGears(Protocol):
-    """Protocol of a set of gears whose axes pass through one point.
+    """Interface (`typing.Protocol`) of a set of gears whose axes pass through one point.
 
     See Also
     --------
@@ -753,7 +756,8 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
 
 
 def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRule | None:
-    """Return the rule for the tooth counts with which gears whose axes pass through one point can be assembled.
+    """Return the divisibility rule that tooth counts must satisfy for the assembly of gears whose axes pass
+    through one point.
 
     Parameters
     ----------

@@ -411,14 +411,15 @@ class Solution:
     ratios: Mapping[str, Mapping[str, Fraction]]
     """Link -> input -> speed of the link per unit speed of the input, with the other inputs at rest."""
     signs: Mapping[str, int]
-    """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
+    """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
     loose: FreeForms | None = None
     """Speeds of all links as linear forms of the free unknowns, if the train is free; otherwise None."""
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        It can be determined although both links are free, if the difference is in the row space of the system.
+        The relative speed can be determined although both links are free, if the difference of the speeds is in the row
+        space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.loose is None:

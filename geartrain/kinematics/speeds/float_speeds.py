@@ -512,7 +512,7 @@ def is_regular(system: WillisSystem) -> bool:
     test is inconclusive.
 
     The computed factors of a singular matrix are the exact factors of a regular matrix that differs from it by rounding
-    errors, so their condition number is about 1 / eps. The limit is a thousand times lower.
+    errors, so their condition number is about 1 / eps. The limit for the condition number is a thousand times lower.
     """
     try:
         matrix, _ = prepare(system)

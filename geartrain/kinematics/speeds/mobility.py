@@ -16,8 +16,8 @@ from geartrain.numerics.results import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Mobility of a train by count and by exact rank, with the reasons for the difference; docs/theory.md, (16), (17),
-    (20).
+    """Mobility of a train by count and by exact rank, and the reasons why the two differ; docs/theory.md, (16),
+    (17), (20).
 
     Examples
     --------
@@ -49,7 +49,7 @@ class Mobility(Result):
     gear_pairs: int
     """Number of gear pairs."""
     couplings: int
-    """Number of couplings, such as pins in slots; together with the gear pairs they are j_G."""
+    """Number of couplings, such as pins in slots. The number j_G is the sum of `gear_pairs` and `couplings`."""
     by_rank: int
     """Mobility by rank, links - 1 - rank of all circuits; it is correct for every train."""
     redundant: int

@@ -214,7 +214,7 @@ def _sync_folder(folder: Path) -> None:
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
     """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written to a folder.
 
-    Without `force`, it is also raised for existing files.
+    Without `force`, the error is also raised for existing files.
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
@@ -239,8 +239,8 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
     """Write files by name to a folder, either all of them or none, and return their number.
 
-    The files are created in a temporary folder next to it and moved when all are complete. Existing files are
-    overwritten only with `force`. Raises `GearTrainError`.
+    The files are created in a temporary folder next to the destination, and moved when all files are complete. Existing
+    files are overwritten only with `force`. Raises `GearTrainError`.
     """
     made: list[str] = []
     try:

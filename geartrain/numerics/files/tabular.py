@@ -189,7 +189,7 @@ def csv_line(cells: Iterable[object]) -> str:
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
-    """Format several rows as CSV with `csv_line`."""
+    """Format several rows as lines of CSV text with `csv_line`."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows([_cell(cell) for cell in row] for row in rows)
     return out.getvalue().split("\n")[:-1]

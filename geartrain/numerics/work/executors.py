@@ -36,7 +36,7 @@ def open_executor(
         available to this process. With the default number, processes are started only if the work is not nearly
         finished after one second in this process.
     dask : str, optional
-        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers do the work. Needs the extra `dask`,
+        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers run the tasks. Needs the extra `dask`,
         and the same version of geartrain on the cluster.
     announce : callable, optional
         Function that is called once with (tasks, workers) when other processes begin to work.

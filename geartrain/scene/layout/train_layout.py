@@ -288,7 +288,7 @@ class AxisPlace(Shown):
     label: str
     """Label of the axis in the declaration."""
     point: Vector
-    """Point of the axis [mm]."""
+    """Point on the axis [mm]."""
     direction: Vector
     """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
@@ -315,31 +315,33 @@ class WheelPlace(Shown):
     axis: str
     """Label of the axis about which the wheel turns."""
     centre: Vector
-    """Centre of its pitch circle, on its axis [mm]."""
+    """Centre of the wheel's pitch circle, on the axis of the wheel [mm]."""
     radius: float
     """Pitch radius [mm]; for a bevel wheel, at the wide end."""
     module: float
     """Pitch diameter divided by the tooth count [mm]."""
     thickness: float
-    """Thickness of its rim along the axis [mm]."""
+    """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False
     """True if the module of this wheel, or of a wheel that meshes with it, is declared."""
     cone: float = 0.0
-    """Half angle of its pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
+    """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
-    """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 for a cylinder."""
+    """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
     """Number of the level, from 0 for the level nearest to the origin, increasing along the axis; None for wheels that
     are not on the main axes.
     """
     turn: float = 0.0
-    """Angle of the first tooth from `reference` about the direction of the axis, such that the teeth mesh [rad]."""
+    """Angle of the wheel's first tooth about the direction of the axis, measured from `reference` [rad]. At this
+    angle the teeth mesh.
+    """
     reference: Vector = (1.0, 0.0, 0.0)
-    """Unit vector across the axis from which `turn` is measured."""
+    """Unit vector perpendicular to the axis, from which `turn` is measured."""
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of the wheel body along the direction of the axis, from the centre [mm]."""
+        """Lower and upper end of the wheel body along the direction of the axis, relative to `centre` [mm]."""
         return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 

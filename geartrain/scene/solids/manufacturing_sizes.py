@@ -48,7 +48,9 @@ class ManufacturingSizes(Shown):
     """
 
     module: float | None = None
-    """Module: pitch diameter divided by tooth count [mm], above 0. Only for declarations without sizes."""
+    """Module: pitch diameter divided by tooth count [mm], above 0. It may be given only for declarations without
+    sizes.
+    """
     thickness: float | None = None
     """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
@@ -59,7 +61,7 @@ class ManufacturingSizes(Shown):
     The default is 1/20 of the module.
     """
     process: str | None = None
-    """Manufacturing process: laser, cnc, fdm or hand. It determines kerf, fits and the default backlash."""
+    """Manufacturing process: laser, cnc, fdm or hand. The process determines kerf, fits and the default backlash."""
     arms: int | None = None
     """Number of spokes of wheels with enough space for windows between them, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None

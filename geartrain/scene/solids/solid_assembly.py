@@ -67,9 +67,9 @@ class SolidModel(Shown):
     train: GearTrain
     """Loaded or declared train."""
     making: ManufacturingSizes
-    """Manufacturing sizes."""
+    """Manufacturing sizes of the parts."""
     state: str | None = None
-    """State of the train; by default the first."""
+    """State in which the train is built; by default the first."""
 
     def __post_init__(self) -> None:
         """Unfold equal planets, because each planet is made separately."""
@@ -87,7 +87,7 @@ class SolidModel(Shown):
 
     @cached_property
     def process(self) -> Process:
-        """Manufacturing process."""
+        """Manufacturing process of the parts."""
         return process_named(self.making.process)
 
     @cached_property

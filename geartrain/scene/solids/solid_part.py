@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SolidPart(Shown):
-    """Solid of a body. The point p of the solid is at turn p + place in the zero pose.
+    """Solid part of a body. The point p of the part is at `turn` p + `place` in the zero pose.
 
     See Also
     --------
@@ -29,7 +29,7 @@ class SolidPart(Shown):
     """
 
     body: int
-    """Index of its body in the scene."""
+    """Index in the scene of the body to which the part belongs."""
     name: str
     """Name of the wheel or part."""
     kind: str
@@ -45,13 +45,13 @@ class SolidPart(Shown):
     status: str = ""
     """Declared status of a wheel: surviving, reconstructed, ..."""
     contours: tuple[Contour, ...] = ()
-    """Flat shape from which the solid is made; empty if there is none."""
+    """Flat shape from which the part is made; empty if the part is not flat."""
     height: float = 0.0
     """Thickness of the flat shape [mm]."""
     turned: TurnedPart | None = None
-    """Turned part about its z axis, if the solid is a body of revolution."""
+    """Turned part about its z axis; None if the solid is not a body of revolution."""
     drawn: Solid | None = None
-    """Surface, if the solid is neither flat nor turned: helical teeth, and approximate wheels."""
+    """Surface of a part that is neither flat nor turned: helical teeth, or an approximate wheel."""
 
     @cached_property
     def solid(self) -> Solid:
@@ -62,7 +62,7 @@ class SolidPart(Shown):
 
     @property
     def placed(self) -> Solid:
-        """Solid in the zero pose."""
+        """Solid moved to its position in the zero pose."""
         return self.solid.moved(self.turn, self.place.tolist())
 
 

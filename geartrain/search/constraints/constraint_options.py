@@ -44,7 +44,7 @@ class ConstraintOptions:
     The wheels on the arbors of equal planets must have the same relative orientation.
     """
     clearance: Fraction | None = None
-    """Lower bound of the clearance between the tips of neighbouring planets [modules], not included."""
+    """Lower bound (exclusive) of the clearance between the tips of neighbouring planets [modules]."""
     undercut: Quantity | None = None
     """Pressure angle, above 0 and below 90 deg, at which no external spur wheel may be undercut by a rack."""
     interference: Quantity | None = None

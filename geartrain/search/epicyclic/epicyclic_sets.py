@@ -295,7 +295,7 @@ class EpicyclicSet(CountSizes, Result):
     kind: str
     """Name of the type of epicyclic set, such as "planetary"."""
     mode: EpicyclicMode
-    """Driving, driven and fixed members."""
+    """Operating mode: the driving, driven and fixed members."""
     teeth: Mapping[str, int]
     """Tooth count of each wheel."""
     ratio: Fraction
@@ -322,7 +322,7 @@ class EpicyclicSet(CountSizes, Result):
 
     @property
     def inverse(self) -> Fraction:
-        """Output speed divided by input speed."""
+        """Output speed divided by input speed, exact."""
         return 1 / self.ratio
 
     @property

@@ -230,8 +230,8 @@ def find_orrery(
     first : str
         Name of the first arbor.
     effort : int
-        Maximum width of the beam. The width is increased fourfold from search to search up to this value, and the time
-        nearly in proportion.
+        Maximum width of the beam. Each search has four times the width of the previous search, up to this value; the
+        time increases nearly in proportion.
     walk : int, optional
         Maximum number of arbors without a period in the trees that are enumerated. By default 1, or more if the
         enumeration is fast.

@@ -68,7 +68,7 @@ class WheelPosterior(Result):
     KEYS = (Key("", "uncertainty"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
 
     uncertainty: ToothCountPrior
-    """Possible counts with their prior probabilities."""
+    """Possible tooth counts of the wheel with their prior probabilities."""
     probabilities: tuple[CountProbability, ...]
     """Posterior probability of each count, with sum 1; empty if no combination satisfies the observations."""
     idle: bool
@@ -129,7 +129,7 @@ class CountCombination(Result):
     teeth: Mapping[str, int]
     """Tooth count of each wheel, in the order of declaration."""
     speeds: Mapping[str, Fraction]
-    """Exact speed of each output in the unit of the train."""
+    """Exact speed of each output, in the unit of the train."""
     errors: Mapping[str, Fraction]
     """Relative error of each output with respect to the observation with the largest misfit; the speed itself if the
     observed speed is 0.
@@ -143,7 +143,7 @@ class CountCombination(Result):
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
-        """Speed and error of each output."""
+        """Speed and relative error of each output."""
         return {name: CombinedOutput(speed, self.errors[name]) for name, speed in self.speeds.items()}
 
 
@@ -233,11 +233,11 @@ class ToothCountPosterior(Tabular, Result):
     exp(-misfit / 2).
     """
     turning: CountProbability
-    """Prior probability that the train turns."""
+    """Prior probability that the train can turn."""
     fits: int | None
     """Number of combinations that satisfy all observations; None if it is not known."""
     witnesses: tuple[ObservedOutput, ...]
-    """Outputs with observed speeds."""
+    """Outputs with observed speeds, which are the evidence."""
     alone: Mapping[str, CountProbability]
     """Evidence of each output without the observations of the other outputs."""
     posteriors: Mapping[str, WheelPosterior]
@@ -288,7 +288,7 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """End of the computation: "whole" if it was completed, otherwise "interrupted"."""
+        """Outcome of the computation: "whole" if it was completed, otherwise "interrupted"."""
         return "interrupted" if self.cut else "whole"
 
     @property

@@ -84,9 +84,9 @@ class StageFindings(Tabular, Result):
     stages: int
     """Number of stages."""
     top: Sequence[int]
-    """Admissible counts of the numerator, ascending."""
+    """Tooth counts that are admissible in the numerator of the ratio, ascending."""
     beneath: Sequence[int]
-    """Admissible counts of the denominator, ascending."""
+    """Tooth counts that are admissible in the denominator of the ratio, ascending."""
     fit: StageConstraints
     """Constraints on the counts."""
     by: str
@@ -116,7 +116,7 @@ class StageFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """End of the search: "whole" if it was completed, "interrupted" otherwise."""
+        """Outcome of the search: "whole" if it was completed, "interrupted" otherwise."""
         return "whole" if self.complete else "interrupted"
 
     @property

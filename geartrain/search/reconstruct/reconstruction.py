@@ -142,9 +142,9 @@ class RankedTrain(Result):
     wheels: dict[str, int]
     """Tooth count of each added wheel."""
     doubtful: dict[str, int]
-    """Tooth count in this train of each surviving wheel with an uncertain tooth count."""
+    """Tooth count that this train gives to each surviving wheel with an uncertain tooth count."""
     meshes: tuple[str, ...]
-    """All meshes, each as "driving > driven"."""
+    """All meshes of the train, each as "driving > driven"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,12 +210,12 @@ class ReconstructionAnswer(Result):
 
     @property
     def requested(self) -> RequestedQuestion:
-        """Size of the reconstruction problem."""
+        """Size of the reconstruction problem: numbers of surviving parts, pointers and added wheels."""
         return RequestedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:
-        """Total number of explanations."""
+        """Number of explanations, summed over all numbers of added wheels."""
         return sum(count.solutions for count in self.counts)
 
 

@@ -171,7 +171,7 @@ class SurvivingArbor(Shown):
     name: str
     """Name of the arbor."""
     wheels: tuple[SurvivingWheel, ...]
-    """Wheels that are fixed on the arbor."""
+    """Surviving wheels that are fixed on the arbor."""
 
 
 @dataclass(frozen=True)
@@ -198,7 +198,7 @@ class SearchedDial(Shown):
 
     @property
     def is_exact(self) -> bool:
-        """True if only one speed is accepted."""
+        """True if only one speed of the pointer is accepted."""
         return self.minimum == self.maximum
 
 
@@ -257,17 +257,19 @@ class ReconstructionProblem(Shown):
     arbors: tuple[SurvivingArbor, ...]
     """Other surviving arbors."""
     dials: tuple[SearchedDial, ...]
-    """Pointers with their speeds."""
+    """Pointers with the required ranges of their speeds."""
     additions: Additions
     """Limits of added wheels and arbors."""
     input_speed: Fraction = Fraction(1)
     """Speed of the input arbor [turns per unit]."""
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of names of wheels that were seen in mesh."""
+    """Pairs of wheels, by name, that are known to mesh."""
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of names of wheels that do not mesh."""
+    """Pairs of wheels, by name, that are known not to mesh."""
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of names of arbors on one axis. Wheels on such a pair of arbors, including added wheels, do not mesh."""
+    """Pairs of arbors, by name, that have the same axis. Wheels on two such arbors, including added wheels, do not
+    mesh.
+    """
     use: Literal["wheels", "arbors", "some"] = "wheels"
     """Use of surviving parts: "wheels" if every wheel must mesh, "arbors" if every arbor must be in the train, "some"
     if neither is required.
@@ -275,9 +277,11 @@ class ReconstructionProblem(Shown):
     idlers: bool = False
     """True if a driven wheel may also drive (an idler)."""
     factors: PriorFactors = PriorFactors()
-    """Factors of the prior weight of a candidate reconstruction."""
+    """Factors that reduce the prior weight of a candidate reconstruction."""
     geometry: SurvivingGeometry = NO_GEOMETRY
-    """Measurements of surviving wheels. Pairs that they exclude are already in `apart` and `coaxial`."""
+    """Measurements of surviving wheels. Pairs that these measurements exclude are already in `apart` and
+    `coaxial`.
+    """
 
     @cached_property
     def rings(self) -> frozenset[str]:
@@ -297,7 +301,7 @@ class PlacedWheel:
     name: str | None
     """Name of the surviving wheel; None for an added wheel."""
     teeth: int
-    """Tooth count."""
+    """Tooth count of the wheel in the candidate."""
 
 
 @dataclass(frozen=True)

@@ -356,7 +356,7 @@ def years_and_months() -> Iterator[Row]:
         "period('month_synodic_hipparchus_4267')",
         "29.53059 (Almagest IV 2)",
     )
-    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, which are correct")
+    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, all correct")
     yield words(
         "Results, its name",
         "that month is the sidereal one",
@@ -367,7 +367,7 @@ def years_and_months() -> Iterator[Row]:
     yield outside(
         "Table 5, year",
         "solar year (days)",
-        "an astronomer's datum, the mean year of 1900; shipped is that of 2000, 365.242190402 d",
+        "an astronomical datum (the mean year of 1900); shipped is that of 2000, 365.242190402 d",
         "365.242199",
     )
     yield declared(digits("Table 5, synodic month", "days", "29.53059", "period('month_synodic_J2000')"))
@@ -454,7 +454,7 @@ def missing_parts() -> Iterator[Row]:
     yield outside(
         "Footnote 3",
         "the rows come from Farey series (Di Benedetto, Pennestri 1997)",
-        "that paper is not among the sources; `geartrain teeth train pennestri-2002-missing` finds all sets",
+        "the cited paper is not among the sources;  `geartrain teeth train pennestri-2002-missing` finds all sets",
     )
     yield digits(
         "Missing parts, saros", "6585.32/(4*365.2422)", "4.5075", "Fraction('6585.32') / (4 * Fraction('365.2422'))"

@@ -43,7 +43,9 @@ def introduction() -> Iterator[Row]:
     yield outside("Section 4", "gears of 280 B.C., Archimedes, Desargues, La Hire, Euler, Savary, Sang", HISTORY)
     yield outside("Section 4, wreck", "65 +- 15 B.C., more than 20 bronze gears", HISTORY)
     yield outside("Footnote 2", "harmonic drives of 50-320 to 1, 80-90 %", DATUM)
-    yield words("Section 5", "teeth keep their ratio if the normal goes through the pitch point", "law_of_gearing()")
+    yield words(
+        "Section 5", "teeth transmit a constant ratio if their normal passes through the pitch point", "law_of_gearing()"
+    )
     yield equation(
         "Eq. (4)",
         "the curve of constant torque ratio: modified normals at one distance from the centre",
@@ -72,7 +74,9 @@ def introduction() -> Iterator[Row]:
     )
     for form in ("involute", "cycloid"):
         yield words(
-            f"Section 6, {form}s", "they need no matched pair: any size meshes with any other", f"same_flank('{form}')"
+            f"Section 6, {form}s",
+            "these gears need no matched pair: any size meshes with any other",
+            f"same_flank('{form}')",
         )
     yield words("Section 7, force", "only involutes transmit a constant force", "steady_force()")
     yield words("Section 7, spacing", "only involutes run well at other centre distances", "spacing()")
@@ -291,7 +295,9 @@ def curvatures() -> Iterator[Row]:
 
 def work_and_stress() -> Iterator[Row]:
     """Sections 15 to 17."""
-    yield outside("Section 15, (Wrong)", "work as an integral of force over the tooth", "marked as wrong in the note itself")
+    yield outside(
+        "Section 15, (Wrong)", "work as an integral of force over the tooth", "marked as wrong in the note itself"
+    )
     yield equation(
         "Section 15, spirals",
         "it would give loxodromes 2 arctan(exp(theta)/2), at 45 deg to radii",
@@ -301,7 +307,7 @@ def work_and_stress() -> Iterator[Row]:
     yield equation("Eq. (46)", "work of friction, spur: what stands under the integral", "work('spur')", Equal(ONCE))
     yield words(
         "Section 15, n contacts",
-        "n contacts that share the force do not change W",
+        "n contacts that share the force do not change the work W",
         "shared_work()",
         "the work decreases, since each point of a tooth bears less force",
     )
@@ -389,7 +395,7 @@ def heat_and_optima() -> Iterator[Row]:
     )
     yield words(
         "Theorem 10",
-        "minimum friction between given ends",
+        "the gear has minimum friction between given ends of the path",
         "extremal_is_minimum()",
         why="in closed form: (10) of [Tooth shapes](shapes.md)",
     )
@@ -399,7 +405,9 @@ def heat_and_optima() -> Iterator[Row]:
             yield words(
                 f"Problem {number}, {kind}", f"{name}, {kind}: the gear is found", f"uniform('{form}', '{kind}')"
             )
-    yield outside("Theorem 10, existence", "that a best shape exists", "a qualitative argument; the closed form answers it")
+    yield outside(
+        "Theorem 10, existence", "that a best shape exists", "a qualitative argument; the closed form answers it"
+    )
     yield _OF_AXES.outside(
         "Section 20",
         "n contacts: other constants in other pieces",

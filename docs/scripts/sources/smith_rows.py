@@ -44,7 +44,9 @@ def introduction() -> Iterator[Row]:
     yield outside("Section 4, wreck", "65 +- 15 B.C., more than 20 bronze gears", HISTORY)
     yield outside("Footnote 2", "harmonic drives of 50-320 to 1, 80-90 %", DATUM)
     yield words(
-        "Section 5", "teeth transmit a constant ratio if their normal passes through the pitch point", "law_of_gearing()"
+        "Section 5",
+        "teeth transmit a constant ratio if their normal passes through the pitch point",
+        "law_of_gearing()",
     )
     yield equation(
         "Eq. (4)",

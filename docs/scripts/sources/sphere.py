@@ -218,7 +218,7 @@ def three_types() -> Finding:
 def buckyball() -> Finding:
     """Whether the solid of that name turns."""
     ball = GearSphere(from_polyhedron("truncated icosahedron", "faces"))
-    return Finding(ball.moves, f"it is the truncated icosahedron, which {'turns' if ball.moves else 'is locked'}")
+    return Finding(ball.moves, f"a buckyball (truncated icosahedron) {'turns' if ball.moves else 'is locked'}")
 
 
 def one_apex() -> Finding:

@@ -178,8 +178,8 @@ def digits(value: float) -> str:
 HEAD = """# Budgets of the pointers
 
 How large is the error of a pointer, and what causes it? `geartrain budget TRAIN` computes the contributions of five
-causes separately, in degrees at the pointer and in days, and sorts them by size. If the data for a cause are not
-declared, the command reports "not declared"; it never counts the cause as 0.
+causes separately, in degrees at the pointer and in days, and sorts these contributions by size. If the data for a cause
+are not declared, the command reports "not declared"; it never assumes that the contribution is 0.
 
 ![Causes of the error of each pointer of freeth-2021](images/budget.svg)
 
@@ -212,8 +212,8 @@ $ geartrain budget assumed.yaml --of moon
 | lost motion | backlash of the teeth if the crank is turned back | maximum |
 | cutting | cutting errors of the wheels | central 95 % range of the Monte Carlo trials |
 
-**Ratio.** If $w$ is the mean speed of a pointer (turns per unit of time) and $t$ its target, the pointer gains in the
-time $T$ the angle
+**Ratio.** If $w$ is the mean speed of a pointer (turns per unit of time) and $t$ its target, the angle that the pointer
+gains during the time $T$ is
 
 $$ 360^\\circ\\,(|w| - |t|)\\,T, \\tag{1} $$
 
@@ -223,17 +223,17 @@ a pointer has several targets, an observed period takes precedence over a relati
 **Theory.** If the teeth are perfect, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The
 equation of centre of the true motion is $C(M) = \\nu - M$, where $M$ is the mean anomaly. The true anomaly $\\nu$
 follows from Kepler's equation $M = E - e \\sin E$ and $\\tan(\\nu/2) = \\sqrt{(1 + e)/(1 - e)} \\tan(E/2)$, where the
-eccentricity $e$ is 0.0549 for the Moon and 0.0167 for the Sun. The error is
+eccentricity $e$ is 0.0549 for the Moon and 0.0167 for the Sun. The theory error of the pointer is
 
 $$ d(\\varphi) - C(\\varphi + s) - \\text{mean}, \\tag{2} $$
 
-where $s$ is the phase that minimises the mean square of the error. For a pointer without pins, the error is the whole
-equation of centre $C$. If a pointer is read relative to another moving body, the ranges of both bodies are added.
-Evection (1.3 degrees) and variation (0.7 degrees) of the Moon are not included.
+where $s$ is the phase that minimises the mean square of this error. If no pins drive the pointer, its theory error is
+the whole equation of centre $C$. If a pointer is read relative to another moving body, the ranges of both bodies are
+added. Evection (1.3 degrees) and variation (0.7 degrees) of the Moon are not included.
 
-**Teeth and lost motion.** Let $e_f$ be the error of the pointer if real teeth and pins are in contact on their drive
-flanks, $e_b$ the error if they are in contact on their coast flanks, and $e_0$ the error with pins and perfect teeth
-([motion](motion.md), equation (3)). Then
+**Teeth and lost motion.** Let $e_f$ be the error of the pointer if all real teeth and pins are in contact on their
+drive flanks. Let $e_b$ be the error if they are in contact on their coast flanks, and $e_0$ the error with the same
+pins and perfect teeth ([motion](motion.md), equation (3)). Then
 
 $$ \\text{teeth} = e_f - e_0, \\qquad \\text{lost motion} = |e_b - e_f|. \\tag{3} $$
 
@@ -245,44 +245,47 @@ of cutting is the range from the 2.5th to the 97.5th percentile of
 
 $$ e_c - (e_f - e_0), \\tag{4} $$
 
-and its confidence interval follows from order statistics. If nearly all trials jam, the errors are computed from the
-pushing flanks as if jamming teeth could pass.
+and the confidence interval of this range follows from order statistics. If nearly all trials jam, the errors are
+computed from the pushing flanks as if jamming teeth could pass.
 
-The value in days is the value in degrees divided by the mean speed of the pointer relative to the body against which
-it is read. The total is the sum of the contributions of all causes, which is an upper bound of the error.
+The value of a contribution in days is its value in degrees divided by the mean speed of the pointer relative to the
+body against which it is read. The total is the sum of the contributions of all causes, which is an upper bound of the
+error.
 
 ## Largest error of each train
 
 For each shipped train in its first state, the table lists the pointer with the largest total error and its two largest
-causes in degrees. "Assumed" means that the train declares no teeth; the teeth of the example are assumed, with bearing
-friction at every pointer. "None" means that triangular teeth with these counts cannot turn.
+causes in degrees. "Assumed" means that the train declares no teeth, so the budget assumes the teeth of the example and
+bearing friction at every pointer. "None" means that triangular teeth cannot be assumed, because they cannot turn with
+the tooth counts of the train.
 """
 
 PUBLISHED = """## Published statements
 
-Several publications assess the accuracy of the mechanism. The results in the table are for `freeth-2021` with the teeth
-assumed above. No depth, radius or clearance of a tooth in mesh has survived, so other assumptions give other results.
+Several publications assess the accuracy of the Antikythera mechanism. The results in the table are for `freeth-2021`
+with the teeth assumed above. The original depths, radii and clearances of the teeth in mesh have not survived, and
+other assumptions give other results.
 """
 
 STATEMENTS = (
     (
         '"The triangular shape of the teeth alone produces negligible errors" (Szigety and Arenas 2025, abstract)',
-        "Correct for slow pointers: Saros {saros_teeth}. Not for the Moon: {moon_teeth}, or {true_teeth} with"
-        " pitch-true radii; its theory error is {moon_theory}",
+        "Correct for slow pointers: Saros {saros_teeth}. Incorrect for the Moon: {moon_teeth}, or {true_teeth}"
+        " with pitch-true radii, whereas the theory error is {moon_theory}",
     ),
     (
         '"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement" (same)',
-        "Confirmed: a pair jams in {jams} % of the trials. Only a few pairs of very unequal wheels jam",
+        "Confirmed: at least one pair jams in {jams} % of the trials. Only a few pairs of very unequal wheels jam",
     ),
     (
         '"Significant mechanical inaccuracies" besides the errors of theory (Freeth and Jones 2012, second-hand)',
-        "Correct for the Moon: teeth {moon_teeth}, cutting {moon_cutting}. Not for Mars: {mars_teeth} and"
+        "Correct for the Moon: teeth {moon_teeth}, cutting {moon_cutting}. Incorrect for Mars: {mars_teeth} and"
         " {mars_cutting}, whereas the theory error is nearly 38 deg",
     ),
     (
         'Inaccuracies "would have cancelled out many of the subtle anomalies" (Wikipedia 2017, second-hand)',
-        "Not so for the Moon's anomaly ({uniform_theory} peak to peak), which remains visible. Its agreement with the"
-        " true Moon to within {moon_theory} does not",
+        "Incorrect for the Moon's anomaly ({uniform_theory} peak to peak), which remains visible. Correct for the"
+        " agreement of this anomaly with the true Moon to within {moon_theory}",
     ),
     (
         "The indicated Moon could be wrong by 20 degrees (Edmunds and Freeth 2011, second-hand)",
@@ -291,7 +294,7 @@ STATEMENTS = (
     ),
 )
 
-REST = """Lost motion is the largest error of nearly every pointer. To avoid it, always turn the crank forward.
+REST = """Lost motion is the largest error of nearly every pointer. To avoid lost motion, always turn the crank forward.
 
 ## Assumptions
 
@@ -299,7 +302,7 @@ REST = """Lost motion is the largest error of nearly every pointer. To avoid it,
   arbors are rigid. Bearings have no clearance unless `fitting` declares it.
 - The eccentricities are modern values (NASA's planetary fact sheets). Two thousand years ago, the eccentricity of the
   Sun was 0.0176, which changes its equation of centre by one twentieth.
-- The true motion of planets is not modelled.
+- The true motions of the planets are not modelled.
 
 This page is written by `python docs/scripts/make_budgets.py`.
 """

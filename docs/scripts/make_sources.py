@@ -21,10 +21,10 @@ SOURCES: tuple[Source, ...] = (sorge.SOURCE, pennestri.SOURCE, smith_rows.SOURCE
 HEAD = """# Sources and their errata
 
 This page compares every number, equation and statement of four sources with the values that geartrain computes. The
-tests recompute each value. A number counts as reproduced if it is equal to within half a unit of the last printed
-digit, and an equation if its two sides are equal at many positions. A number counts as read if the shipped train or
-table declares it, so that it is not computed. The errata of each source are numbered; their evidence is the computed
-value. The last section lists errata of other publications.
+tests recompute each value. A number is classified as reproduced if the computed value agrees with it to within half a
+unit of the last printed digit, and an equation if its two sides are equal at many positions. A number is classified as
+read if the shipped train or table declares it; such a number is not computed. The errata of each source are numbered,
+and the evidence for each erratum is the computed value. The last section lists errata of other publications.
 
 To see how a value is computed, run, for example, `python docs/scripts/make_sources.py 'Sorge Eq. (12)'`.
 """

@@ -166,13 +166,15 @@ def rows() -> Iterator[Row]:
     claim = "equal pairs of Mars and Jupiter"
     yield words("Freeth and Jones 2012", claim, "pairs_of_wheels()", "table and diagram differ")
     place = "Freeth et al. 2021"
-    yield words(f"{place}, Fig. S22e", "Mercury's train ends in 40 ~ 24", "mercury()", "40 ~ 20")
+    yield words(f"{place}, Fig. S22e", "Mercury's train ends with the pair 40 ~ 24", "mercury()", "40 ~ 20")
     yield words(f"{place}, S4", "ratio (g1 g3)/(g2 g4)", "idler()", "(g1 g3)/(g2 g5)")
-    yield words(f"{place}, 6.3", "29 wheels behind and including a1 and b1", "surviving()", "28; only 28 + 7 + 34 = 69")
+    claim = "29 wheels behind and including a1 and b1"
+    yield words(f"{place}, 6.3", claim, "surviving()", "28, because 28 + 7 + 34 = 69")
     claim = "periods of 762 and 742 years (Psi for Upsilon)"
     yield words(f"{place}, numerals", claim, "numerals()", "462 and 442 (Author Correction, August 2021)")
-    yield exact(f"{place}, total", "wheels", "69", "len(load('freeth-2021').declaration.wheels)")
-    yield words(f"{place}, Jupiter", "the relation 315/344", "jupiter()", "two other admissible relations are closer")
+    yield exact(f"{place}, total", "number of wheels", "69", "len(load('freeth-2021').declaration.wheels)")
+    claim = "the period relation is 315/344"
+    yield words(f"{place}, Jupiter", claim, "jupiter()", "two other admissible relations are closer")
     yield words("Voulgaris et al. 2022", "the draconic pointer needs 225 teeth for b1", "needs_225()")
     yield digits("Price 1974", "days per turn of the crank", "73", "days_per_turn(45)")
     yield words("Price 1974, wheel A", "45 teeth, also read as 48", "wheel_a()")
@@ -188,7 +190,7 @@ def rows() -> Iterator[Row]:
 
 SOURCE = Source(
     "Other publications",
-    "Other shipped trains are declared from these publications",
+    "Other shipped trains are based on these publications",
     "`geartrain report TRAIN` lists the errata of a train with their reasons.",
     tuple(rows()),
 )

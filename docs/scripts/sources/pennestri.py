@@ -356,18 +356,18 @@ def years_and_months() -> Iterator[Row]:
         "period('month_synodic_hipparchus_4267')",
         "29.53059 (Almagest IV 2)",
     )
-    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, which are correct")
+    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, all correct")
     yield words(
         "Results, its name",
-        "that month is the sidereal one",
+        "Hipparchus' month is the sidereal month",
         "sidereal()",
-        "the synodic one",
+        "the synodic month",
     )
     yield words("Footnote 1", "the Julian year is more than 11 minutes too long; 10 days in all", "calendar()")
     yield outside(
         "Table 5, year",
         "solar year (days)",
-        "an astronomer's datum, the mean year of 1900; shipped is that of 2000, 365.242190402 d",
+        "an astronomical datum (the mean year of 1900); shipped is that of 2000, 365.242190402 d",
         "365.242199",
     )
     yield declared(digits("Table 5, synodic month", "days", "29.53059", "period('month_synodic_J2000')"))
@@ -387,16 +387,16 @@ def results() -> Iterator[Row]:
     yield digits("Results 2, w5", "year over sidereal month", "13.3684", "speed(5)")
     yield digits(
         "Results 2, actual",
-        "the actual value of this ratio",
+        "actual ratio of year and sidereal month",
         "13.3676",
         "period('year_tropical_J2000') / period('month_sidereal_J2000')",
         "13.3682; 13.3676 follows from the month of Table 5",
     )
     yield words(
         "Results 3, wheel 19",
-        "turns once in a synodic month",
+        "wheel 19 turns once in a synodic month",
         "counts_months(19, 1)",
-        "link 17 does (235/19 per year)",
+        "link 17 does (235/19 turns per year)",
     )
     yield digits(
         "Results 3, actual",
@@ -409,9 +409,9 @@ def results() -> Iterator[Row]:
     yield digits("Results 3, Price", "Price's ratio 236/19", "12.4210", "price_ratio()", "12.3684 = 235/19")
     yield words(
         "Results 4, wheel 9",
-        "turns once in a lunar year",
+        "wheel 9 turns once in a lunar year",
         "counts_months(9, 12)",
-        "link 19 does (235/228 per year)",
+        "link 19 does (235/228 turns per year)",
     )
     yield digits(
         "Results 4, actual",
@@ -435,7 +435,7 @@ def missing_parts() -> Iterator[Row]:
     yield declared(exact("Missing parts, N", "teeth of wheel N", "64", "count('N', price())"))
     yield digits("Missing parts, speed of N", "turns per year", "0.25", "speed(8)")
     yield declared(exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()"))
-    yield declared(digits("Footnote 2, days", "its days", "6585.32", "period('saros_223_synodic_modern')"))
+    yield declared(digits("Footnote 2, days", "days of a saros", "6585.32", "period('saros_223_synodic_modern')"))
     yield words("Footnote 2, years", "18 years and about 11 days", "saros_of_years()")
     yield words("Fig. 4", "N drives O1; O2 on the same arbor drives X", "fig_4()")
     for planet, rows in {"venus": ("32 50 40", "31 52 43", "32 48 41"), "mars": ("30 50 57", "31 48 53"),
@@ -445,7 +445,7 @@ def missing_parts() -> Iterator[Row]:
             wrong = "30 48 41" if row == "32 48 41" else ""
             yield Row(
                 f"Table 6, {planet.capitalize()} {number}",
-                "teeth of O1, O2, X that give its synodic period",
+                "teeth of O1, O2, X that give the synodic period",
                 row,
                 call("misprint()" if wrong else f"missing('{planet}', {given})"),
                 Found(),
@@ -454,7 +454,7 @@ def missing_parts() -> Iterator[Row]:
     yield outside(
         "Footnote 3",
         "the rows come from Farey series (Di Benedetto, Pennestri 1997)",
-        "that paper is not among the sources; `geartrain teeth train pennestri-2002-missing` finds all sets",
+        "the cited paper is not among the sources;  `geartrain teeth train pennestri-2002-missing` finds all sets",
     )
     yield digits(
         "Missing parts, saros", "6585.32/(4*365.2422)", "4.5075", "Fraction('6585.32') / (4 * Fraction('365.2422'))"

@@ -15,10 +15,11 @@ from sources.ways import Call, Way
 REPRODUCED, DECLARED, ERRATUM, OUTSIDE = "reproduced", "declared", "erratum", "out of scope"
 VERDICTS = (REPRODUCED, DECLARED, ERRATUM, OUTSIDE)
 NOT_COMPUTED = (
-    *("history", "a guess at history", "a measurement", "fits to measurements", "an astronomer's datum"),
-    *("the copy has no pictures", "no values", "definitions", "a definition", "an assumption", "an argument"),
-    *("a method, not a result", "a proof", "a local proof", "given by the note as wrong", "not teeth", "left open"),
-    *("that paper is not among the sources", "a choice of the note", "oil is not computed"),
+    *("history", "a historical conjecture", "a measurement", "fits to measurements", "an astronomical datum"),
+    *("the copy has no pictures", "contain no numerical values", "definitions", "a definition", "an assumption"),
+    *("a method, not a result", "a proof", "local proofs", "marked as wrong in the note itself", "left open"),
+    *("the cited paper is not among the sources", "neglected in the note", "lubrication is not modelled"),
+    *("a qualitative argument", "outside the scope"),
 )
 """How a reason begins that speaks of the source only; any other one has a `check`."""
 

@@ -9,7 +9,7 @@ from sources.row import Corrected, Equal, Row, Source, Statements, outside
 from sources.smith import BOTH, ONCE, TWICE
 
 HISTORY = "history"
-DATUM = "a measurement that the note quotes, not computed"
+DATUM = "a measurement quoted in the note"
 
 
 _OF_SMITH = Statements(vars(smith))
@@ -43,7 +43,11 @@ def introduction() -> Iterator[Row]:
     yield outside("Section 4", "gears of 280 B.C., Archimedes, Desargues, La Hire, Euler, Savary, Sang", HISTORY)
     yield outside("Section 4, wreck", "65 +- 15 B.C., more than 20 bronze gears", HISTORY)
     yield outside("Footnote 2", "harmonic drives of 50-320 to 1, 80-90 %", DATUM)
-    yield words("Section 5", "teeth keep their ratio if the normal goes through the pitch point", "law_of_gearing()")
+    yield words(
+        "Section 5",
+        "teeth transmit a constant ratio if their normal passes through the pitch point",
+        "law_of_gearing()",
+    )
     yield equation(
         "Eq. (4)",
         "the curve of constant torque ratio: modified normals at one distance from the centre",
@@ -72,7 +76,9 @@ def introduction() -> Iterator[Row]:
     )
     for form in ("involute", "cycloid"):
         yield words(
-            f"Section 6, {form}s", "they need no matched pair: any size meshes with any other", f"same_flank('{form}')"
+            f"Section 6, {form}s",
+            "these gears need no matched pair: any size meshes with any other",
+            f"same_flank('{form}')",
         )
     yield words("Section 7, force", "only involutes transmit a constant force", "steady_force()")
     yield words("Section 7, spacing", "only involutes run well at other centre distances", "spacing()")
@@ -159,7 +165,7 @@ def conjugates() -> Iterator[Row]:
     yield outside(
         "Theorems 2, 3",
         "gears of one symmetric rack mate with each other",
-        "a local proof; what follows from it is seen on the flanks in section 6 above",
+        "local proofs, with nothing to compute; what follows from it is seen on the flanks in section 6 above",
     )
     for theorem, shape in (("10", "friction"), ("11", "temperature")):
         yield words(
@@ -197,7 +203,7 @@ def friction() -> Iterator[Row]:
     yield words(
         "Theorem 4", "sliding is unavoidable; it is 0 only at the pitch point, where it reverses", "sliding_turns()"
     )
-    yield outside("Section 10, bearings", "pins with ball bearings, belts", "not teeth")
+    yield outside("Section 10, bearings", "pins with ball bearings, belts", "outside the scope (bearings, not teeth)")
     for place, what, printed in (
         ("teflon", "mu of teflon on teflon", "0.04"),
         ("soap", "mu of metals with stearic acid", "0.05"),
@@ -223,10 +229,10 @@ def friction() -> Iterator[Row]:
     yield outside(
         "Section 11, formulas",
         "mu = c2 exp(-c1 sqrt V) + c3 sqrt V; rises as V^p, 0.51 <= p <= 0.60; worms V^-p, 0.5 < p < 1",
-        "fits to measurements, whose constants the note does not give; what the law here puts between the three values "
+        "fits to measurements (the note does not give the constants); what the law here puts between the three values "
         "is (17) of [Tooth shapes](shapes.md)",
     )
-    yield outside("Section 11, oil", "what fails at high power", "oil is not computed")
+    yield outside("Section 11, oil", "what fails at high power", "lubrication is not modelled")
 
 
 def curvatures() -> Iterator[Row]:
@@ -291,7 +297,9 @@ def curvatures() -> Iterator[Row]:
 
 def work_and_stress() -> Iterator[Row]:
     """Sections 15 to 17."""
-    yield outside("Section 15, (Wrong)", "work as an integral of force over the tooth", "given by the note as wrong")
+    yield outside(
+        "Section 15, (Wrong)", "work as an integral of force over the tooth", "marked as wrong in the note itself"
+    )
     yield equation(
         "Section 15, spirals",
         "it would give loxodromes 2 arctan(exp(theta)/2), at 45 deg to radii",
@@ -301,7 +309,7 @@ def work_and_stress() -> Iterator[Row]:
     yield equation("Eq. (46)", "work of friction, spur: what stands under the integral", "work('spur')", Equal(ONCE))
     yield words(
         "Section 15, n contacts",
-        "n contacts that share the force do not change W",
+        "n contacts that share the force do not change the work W",
         "shared_work()",
         "the work decreases, since each point of a tooth bears less force",
     )
@@ -389,7 +397,7 @@ def heat_and_optima() -> Iterator[Row]:
     )
     yield words(
         "Theorem 10",
-        "minimum friction between given ends",
+        "the gear has minimum friction between given ends of the path",
         "extremal_is_minimum()",
         why="in closed form: (10) of [Tooth shapes](shapes.md)",
     )
@@ -399,11 +407,13 @@ def heat_and_optima() -> Iterator[Row]:
             yield words(
                 f"Problem {number}, {kind}", f"{name}, {kind}: the gear is found", f"uniform('{form}', '{kind}')"
             )
-    yield outside("Theorem 10, existence", "that a best shape exists", "an argument; the closed form answers it")
+    yield outside(
+        "Theorem 10, existence", "that a best shape exists", "a qualitative argument; the closed form answers it"
+    )
     yield _OF_AXES.outside(
         "Section 20",
         "n contacts: other constants in other pieces",
-        "geartrain constructs these shapes for one tooth pair in contact",
+        "shapes are constructed only for a single tooth pair in contact",
         "one_pair()",
     )
     for shape, tilt in (("stress", 45), ("temperature", 80)):
@@ -413,11 +423,11 @@ def heat_and_optima() -> Iterator[Row]:
             f"minimum_height('{shape}')",
             f"not without a bound on the pressure angle, here {tilt} deg",
         )
-    yield outside("Section 21, pieces", "where pieces join, collisions", "left open by the note; here every form says")
+    yield outside("Section 21, pieces", "where pieces join, collisions", "left open in the note; here every form says")
     yield outside(
         "Figs. 1 to 5",
         "drawings for the derivations",
-        "no values; `geartrain mesh 24 36 --compare --plot forms.svg` draws shapes",
+        "contain no numerical values; `geartrain mesh 24 36 --compare --plot forms.svg` draws shapes",
     )
 
 

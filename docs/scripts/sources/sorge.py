@@ -567,7 +567,7 @@ def power_loss() -> Iterator[Row]:
     yield outside(
         "IV, other losses",
         "supports, air drag and others are left aside",
-        "a choice of the note; links of a train may declare `bearing` friction and `drag`",
+        "neglected in the note; links of a train may declare `bearing` friction and `drag`",
     )
     yield words(
         "IV, pressure angle",
@@ -815,7 +815,7 @@ def conclusions() -> Iterator[Row]:
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
-        "a guess at history; impacts are in `geartrain mesh 48 96 --form triangular -p clearance_factor=1.01 "
+        "a historical conjecture; impacts are in `geartrain mesh 48 96 --form triangular -p clearance_factor=1.01 "
         "--inertia '20 g cm2' --rate 1rpm`",
     )
     yield words(

@@ -218,7 +218,7 @@ def three_types() -> Finding:
 def buckyball() -> Finding:
     """Whether the solid of that name turns."""
     ball = GearSphere(from_polyhedron("truncated icosahedron", "faces"))
-    return Finding(ball.moves, f"that is the truncated icosahedron, which {'turns' if ball.moves else 'is locked'}")
+    return Finding(ball.moves, f"a buckyball (truncated icosahedron) {'turns' if ball.moves else 'is locked'}")
 
 
 def one_apex() -> Finding:
@@ -253,7 +253,7 @@ def introduction() -> Iterator[Row]:
     )
     yield words(
         "Introduction, name",
-        "such a solid is a buckyball",
+        "the solid of the models is a buckyball",
         "buckyball()",
         "the models are the icosidodecahedron and the rhombicosidodecahedron",
     )
@@ -325,7 +325,7 @@ def angles() -> Iterator[Row]:
     )
     yield digits(
         "Step 4, value of beta",
-        "that angle (deg)",
+        "angle between two triangles (deg)",
         "41.8103148828",
         "right_beta()",
         "41.8103148958, from the note's own formula",
@@ -350,9 +350,9 @@ def sizes() -> Iterator[Row]:
         "this is not the reason, although multiples of 5 and 3 are correct here",
     )
     yield words("Step 5, 5/3", "the ratio 5/3 is possible with 20 and 12 teeth", "fits(20, 12)")
-    yield words("Step 5, 5/6", "this ratio could be chosen", "fits(5, 6)", "tips collide")
-    yield words("Step 5, 10/3", "this ratio could be chosen", "fits(10, 3)", "tips collide")
-    yield words("Step 5, 45/33", "this ratio could be chosen", "fits(45, 33)")
+    yield words("Step 5, 5/6", "the ratio 5/6 could be chosen", "fits(5, 6)", "tips collide")
+    yield words("Step 5, 10/3", "the ratio 10/3 could be chosen", "fits(10, 3)", "tips collide")
+    yield words("Step 5, 45/33", "the ratio 45/33 could be chosen", "fits(45, 33)")
     yield words("Step 5, overlap", "the gears of a 45/33 pair do not overlap their neighbours", "window()")
     yield number(
         "Step 5, a",

@@ -26,7 +26,8 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class CountRuns(Sequence[int]):
-    """Tooth counts as runs of consecutive integers. Its memory does not depend on the length of the runs.
+    """Set of tooth counts, stored as runs of consecutive integers. Memory use does not depend on the length of the
+    runs.
 
     The object is a sequence of integers: it iterates in ascending order, has a length, and can be indexed.
     `read_counts` parses it from text, and `CountRuns.of` builds it from any counts.
@@ -63,7 +64,7 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def joined(cls, spans: Iterable[tuple[int, int]]) -> CountRuns:
-        """Build runs from the union of some spans.
+        """Build runs from the union of one or more spans.
 
         Parameters
         ----------

@@ -42,17 +42,20 @@ class ConjugatePair(Shown):
     path: PathOfContact
     """Path of contact of the pair."""
     halves: Halves
-    """Half the tooth thickness of gear 1 and gear 2 as an arc X on the pitch surface [module; rad for bevels]."""
+    """Half the tooth thickness of gear 1 and of gear 2, as an arc X on the pitch surface [module; rad for bevel gears].
+    """
     given: tuple[ToothFault, ...] | None = None
-    """Complete list of faults, for forms that determine it; None if the faults follow from path and thickness."""
+    """Complete list of design faults, if the tooth form determines the list; None if the faults follow from the path of
+    contact and the tooth thickness.
+    """
     extra: tuple[ToothFault, ...] = ()
-    """Faults in addition to those that follow from path and thickness."""
+    """Design faults in addition to those that follow from the path of contact and the tooth thickness."""
     solid: tuple[bool, bool] = (True, True)
-    """True for each of gear 1 and gear 2 that has teeth, False if it has round pins."""
+    """Flag for gear 1 and for gear 2: True if the gear has teeth, False if it has round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:
-        """Faults that prevent the pair from running; empty if it can run."""
+        """Design faults that prevent the pair from running; empty if the pair can run."""
         if self.given is not None:
             return self.given
         first, second = (half if solid else inf for half, solid in zip(self.halves, self.solid, strict=True))
@@ -107,7 +110,7 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict: the pair runs, or the fault that prevents it from running."""
+        """Verdict on the pair: either the pair runs, or a fault prevents it from running."""
         return verdict_of_faults(self.pair.faults, self._backlash)
 
     @property
@@ -134,7 +137,9 @@ class ConjugateTransmission(ExactRatio):
         return self._constant(S, self._advance)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error [rad], which are equal."""
+        """Return the minimum and the maximum of the transmission error [rad]. They are equal, because the speed ratio
+        is constant.
+        """
         return self._advance, self._advance
 
     def error_moments(self) -> tuple[float, float]:
@@ -201,7 +206,7 @@ class ConjugateTransmission(ExactRatio):
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds and friction terms of all tooth pairs in contact at driver angles S [rad].
+        """Return the sliding speeds and the friction terms of all tooth pairs in contact, at driver angles S [rad].
 
         The tooth pairs share the driver's torque equally.
         """

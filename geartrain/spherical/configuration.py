@@ -183,9 +183,9 @@ class MeshKind:
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     """Return the declaration of the set as plain data, for `GearTrain.declare`.
 
-    Links, wheels and axes have the names of the gears. With outward axes every mesh reverses the sense of rotation, z_i
-    w_i + z_j w_j = 0 (docs/sphere.md, section 1): the wheels are on the positive sides of their axes (`facing` 1, the
-    default). The first gear is the input, at speed 1. The directions are floats with all digits.
+    Links, wheels and axes have the names of the gears. All axes point outwards and the wheels are on the positive sides
+    of their axes (`facing` 1, the default). Every mesh therefore reverses the sense of rotation: z_i w_i + z_j w_j = 0
+    (docs/sphere.md, section 1). The first gear is the input, at speed 1. The directions are floats with all digits.
 
     Parameters
     ----------

@@ -53,9 +53,9 @@ def from_polyhedron(
     Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides of the
     face, v for a vertex, or e for an edge. Kinds with equal names get an additional letter, in ascending order of the
     number of gears, then of the distance from the smallest orbit. Gears are numbered within their kind in descending
-    order of height (z), and at equal heights counterclockwise from x. A gear on an edge is placed where both its
-    pitches are equal, which depends on the tooth numbers. If these are not chosen, the gear is in the middle of the
-    edge (two gears on one edge: at a quarter and at three quarters).
+    order of height (z), and at equal heights counterclockwise from x. The position of a gear on an edge depends on the
+    tooth numbers: both its pitches are equal there. If tooth numbers are not chosen, the gear is in the middle of the
+    edge, or two gears are at a quarter and at three quarters of the edge.
 
     Parameters
     ----------

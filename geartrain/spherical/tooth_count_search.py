@@ -53,8 +53,8 @@ def suggest_tooth_counts(
 ) -> ToothCountSuggestions:
     """Find the best sets of tooth numbers that close all loops and leave clearance between tips, by exhaustive search.
 
-    The run time is proportional to the product of the ranges. Tips have clearance if there are at least two modules
-    between the largest operating pitch cones of gears that do not mesh.
+    The run time is proportional to the product of the ranges. Tips are considered to have clearance if the largest
+    operating pitch cones of gears that do not mesh are at least two modules apart.
 
     Parameters
     ----------
@@ -352,7 +352,7 @@ class NeighbourRatioWindow(Shown):
     low: float
     """Lower bound of the tooth ratio z_a / z_b."""
     high: float
-    """Upper bound of the tooth ratio z_a / z_b; `inf` if there is no upper bound."""
+    """Upper bound of the tooth ratio z_a / z_b; `inf` if the ratio is unbounded."""
 
     def __str__(self) -> str:
         return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"

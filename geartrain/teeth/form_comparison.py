@@ -144,7 +144,7 @@ def compare_forms(
     Returns
     -------
     FormComparison
-        Results of the involute, and of each form its ratios or the faults that prevent it from running.
+        Results of the involute, and for each other form its ratios, or the faults that prevent the form from running.
 
     Raises
     ------

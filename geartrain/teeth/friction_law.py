@@ -260,7 +260,9 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at speeds [m/s], interpolated linearly; outside the table it is constant."""
+        """Return the coefficient of friction at speeds [m/s], by linear interpolation; it is constant outside the
+        table.
+        """
         import numpy as np
 
         found: Floats = np.interp(

@@ -88,7 +88,7 @@ class GearMesh(Shown, ABC):
     def losses(self) -> TransmissionFunction:
         """Transmission function of the pair, including the friction losses of the teeth.
 
-        It has no losses if friction depends on a speed that is not known.
+        The function has no losses if friction depends on a speed that is not known.
         """
         return self._with_friction(self.transmission)
 
@@ -311,8 +311,8 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         gap : float
-            Distance by which the wheels are too far apart [module], negative if they are too close. A wheel in a ring
-            is too far from the ring if the centre distance is too short.
+            Distance by which the wheels are too far apart [module], negative if they are too close. In an internal
+            pair, the wheels are too far apart if the centre distance is too short.
 
         Returns
         -------
@@ -400,7 +400,7 @@ class GearMesh(Shown, ABC):
     def efficiency_texts(self) -> tuple[str, str]:
         """Mean efficiency with the actual driver and with the other wheel driving, as texts.
 
-        Both are "-" if no friction is declared or the pair jams.
+        Both texts are "-" if no friction is declared or the pair jams.
         """
         if not self.tells_losses or not self.verdict:
             return "-", "-"

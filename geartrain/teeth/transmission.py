@@ -68,8 +68,9 @@ class TransmissionFunction(Shown, ABC):
     """Transmission function of a pair. It gives the driven angle q, the speed ratio and the efficiency as functions of
     the driver's forward angle S.
 
-    The transmission error is q - ratio S, positive if the driven side is ahead of uniform motion. Its mean is a
-    constant lag that depends on the zero of the angles. The lag is included in the error but not in the rms value.
+    The transmission error is q - ratio S, positive if the driven side is ahead of uniform motion. The mean of the
+    transmission error is a constant lag that depends on the zero of the angles. This lag is included in the
+    transmission error but not in its rms value.
 
     Attributes
     ----------

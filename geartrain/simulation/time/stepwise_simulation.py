@@ -33,8 +33,8 @@ class Simulation(Shown):
     """Simulation that a caller advances step by step, for coupling to other programs. The drive and the loads may be
     changed between steps.
 
-    The time step is constant and does not depend on the requested times. Between two steps angles are extrapolated
-    linearly, so that the motion does not depend on the times at which it is read.
+    The time step is constant and does not depend on the requested times. Between two steps the angles are extrapolated
+    linearly. The motion therefore does not depend on the times at which a caller reads the angles.
 
     Attributes
     ----------

@@ -188,8 +188,8 @@ def step_to_separation(
     Returns
     -------
     SteppedSeparation
-        Input speed with its error, from successively shorter time steps at the positions where pairs carry the minimum
-        torque.
+        Input speed and the bound of its error. The time step is shortened successively at the positions where pairs
+        carry the minimum torque.
 
     Raises
     ------

@@ -63,12 +63,12 @@ class ConjugatePair(Shown):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess with gear 1 driving [module; rad for bevels]. One of them may be negative."""
+        """Arcs X of approach and recess with gear 1 driving [module; rad for bevel gears]. One arc may be negative."""
         return self.path.arcs
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface [module; rad for bevels]; 0 if it is within rounding errors."""
+        """Circumferential backlash on the pitch surface [module; rad for bevel gears]; 0 if within rounding errors."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -77,9 +77,10 @@ class ConjugatePair(Shown):
 class ConjugateTransmission(ExactRatio):
     """Transmission function of a conjugate gear pair at its design distance.
 
-    The speed ratio is constant. Tooth pairs in contact at the same time share the driver's torque equally, so that the
-    efficiency is the mean of their efficiencies, which are exact functions of friction. If the pair cannot run, the
-    function describes the flanks ignoring interference; it is NaN where no flanks touch.
+    The speed ratio is constant. Tooth pairs in contact at the same time are assumed to share the driver's torque
+    equally. The efficiency is therefore the mean of the efficiencies of these tooth pairs, which are exact functions of
+    the friction coefficient. If the pair cannot run, the function describes the motion of the flanks without regard to
+    interference. Its values are NaN where no flanks touch.
 
     Parameters
     ----------
@@ -148,13 +149,13 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess of the driver [module; rad for bevels]."""
+        """Arcs X of approach and recess of the driver [module; rad for bevel gears]."""
         approach, recess = self.pair.arcs
         return (approach, recess) if self.driver == 1 else (recess, approach)
 
     def contacts(self, S: ArrayLike) -> Floats:
-        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels]; negative in
-        approach.
+        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevel gears]; negative
+        in approach.
 
         Parameters
         ----------

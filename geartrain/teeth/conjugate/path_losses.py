@@ -69,8 +69,8 @@ class PathLosses(Result):
     loss: float
     """Mean loss divided by the friction coefficient, to first order.
 
-    One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path (Buckingham). Shared load: the mean over a
-    pitch (Ohlendorf).
+    If one tooth pair carries the load, this is the mean along its path, (A + B) (J_a + J_r) / (X_a + X_r) (Buckingham).
+    If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
     """
     stress: float
     """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite where psi is

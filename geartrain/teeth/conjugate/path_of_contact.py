@@ -251,7 +251,7 @@ class PathContact(Shown):
     """
 
     X: Floats
-    """Arc along the pitch surfaces from the pitch point [module; rad for bevels]."""
+    """Arc along the pitch surfaces from the pitch point [module; rad for bevel gears]."""
     d: Floats
     """Signed distance of the contact from the pitch point [module; rad for bevel gears]."""
     sin_psi: Floats
@@ -325,7 +325,8 @@ class PathOfContact(Shown):
     real: tuple[float, float] | None = None
     """Arcs X of approach and recess in which the teeth touch [module], if these arcs are shorter than the two sides.
 
-    One is negative if contact begins or ends beyond the pitch point. None if the teeth touch along both whole sides.
+    One of the arcs is negative if contact begins or ends beyond the pitch point. The field is None if the teeth touch
+    along the whole length of both sides.
     """
 
     @cached_property
@@ -358,7 +359,7 @@ class PathOfContact(Shown):
     def contact_ratio(self) -> float:
         """Contact ratio: arc of contact divided by pitch.
 
-        It is negative if the teeth do not reach each other.
+        The value is negative if the teeth do not reach each other.
         """
         return sum(self.arcs) / self.pitch.p
 

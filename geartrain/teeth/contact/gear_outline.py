@@ -144,7 +144,8 @@ def _rotation(angle: float) -> Callable[[Floats], Floats]:
 class ToothFlanks(Shown):
     """Flanks of a tooth. Each flank is a chain of curves from root to tip or from tip to root.
 
-    Tip lands and bottoms can be omitted, because an arc about the axle never comes into contact before its ends.
+    Tip lands and bottom lands can be omitted, because an arc about the axle never comes into contact before its ends
+    do.
 
     See Also
     --------

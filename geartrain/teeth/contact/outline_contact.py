@@ -268,8 +268,8 @@ def solve(
     The driven angle is the maximum of the angles that the points of the driver's outline require. Normals and a path of
     contact are not used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
     polynomials to within rounding errors (`GearOutline.ahead.error`). At angles far from 0 the rounding of phi1 itself
-    dominates. Both angles are 0 where tooth 0 is on the line of centres, and increase forward; tooth 0 of the driver
-    pushes tooth 0 of the driven wheel.
+    dominates. The angle of each wheel is 0 where its tooth 0 is on the line of centres, and increases forward. Tooth 0
+    of the driver pushes tooth 0 of the driven wheel.
 
     Parameters
     ----------

@@ -84,8 +84,8 @@ class Contour(Shown):
         """Return the enclosed area [mm2] and its polar second moment about the origin [mm4], computed exactly by
         Green's theorem.
 
-        The result is the sum of the polygon of the vertices and the circular segments of all arcs. It is negative if
-        the contour is clockwise.
+        Each result is the value of the polygon of the vertices plus the values of the circular segments of all arcs.
+        Both results are negative if the contour is clockwise.
         """
         (x, y), (u, v) = self.points.T, np.roll(self.points, -1, axis=0).T
         cross = x * v - y * u

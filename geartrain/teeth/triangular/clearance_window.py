@@ -228,8 +228,8 @@ class ClearanceWindow(Shown):
     """Range of clearances, from `jam` to `run`, in which a pair of triangular teeth turns. The bounds are values of
     `TriangularSizes.excess`.
 
-    It is false if `run` is below `jam`, so that the pair turns at no clearance. If a pair turns in several ranges of
-    clearance, this is the first range.
+    The truth value of a window is False if `run` is below `jam`: the pair then turns at no clearance. If a pair turns
+    in several ranges of clearance, the window is the first range.
 
     See Also
     --------
@@ -255,7 +255,7 @@ class ClearanceWindow(Shown):
         Parameters
         ----------
         excess : float
-            Fraction as in `TriangularSizes.excess`.
+            Relative deviation of the centre distance, as in `TriangularSizes.excess`.
         """
         return 1 + self.side * excess
 
@@ -296,7 +296,7 @@ class ClearanceWindow(Shown):
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
     """Return the clearance window of a pair. The declared clearance of the pair has no effect on it.
 
-    The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
+    The bounds are roots of the backlash of the coast flanks and of the margins at entry and exit, found by bracketing.
 
     Parameters
     ----------

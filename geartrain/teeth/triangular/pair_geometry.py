@@ -58,8 +58,9 @@ class TriangularSizes(Shown):
     """Geometry of a pair of wheels with triangular teeth, of which the first drives. All lengths are in the same
     arbitrary unit.
 
-    At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance R1 + R2 - (the smaller
-    depth) of an external pair, and the maximum distance R_ring - R_pinion + (the smaller depth) of an internal pair.
+    At `deepest_distance` a tip touches the bottom between two teeth. For an external pair this is the minimum centre
+    distance, R1 + R2 - (the smaller depth). For an internal pair it is the maximum centre distance, R_ring - R_pinion +
+    (the smaller depth).
 
     Raises
     ------
@@ -233,8 +234,8 @@ class TriangularSizes(Shown):
         """Matching position alpha_1m of Eq. (10) [rad], at which the flanks coincide. It is also defined for unequal
         aperture angles.
 
-        Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The sine of alpha_1m
-        is written without the difference of nearly equal angles. Infinite if no such position exists.
+        Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
+        sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
         """
         mirror, D, R2 = self.signs[0], self.side * self.D, self.signed_radii[1]
         first = mirror * sin(self.beta1)
@@ -250,8 +251,8 @@ class TriangularSizes(Shown):
     def lean(self) -> tuple[bool, bool]:
         """Overhang of the flanks of both wheels: True if they extend beyond the perpendicular where tips meet.
 
-        This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn in
-        the same sense.
+        Flanks overhang in wheels with few, deep teeth. They never overhang in an internal pair, because flank and
+        driven radius turn in the same sense.
         """
         if self.ring:
             return False, False
@@ -262,7 +263,8 @@ class TriangularSizes(Shown):
     def entry(self) -> float:
         """Angle alpha_1 at which a tooth pair comes into contact [rad].
 
-        It is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that position.
+        The angle is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that
+        position.
         """
         if not self.lean[0]:
             return self.reach1
@@ -272,7 +274,7 @@ class TriangularSizes(Shown):
     def exit(self) -> float:
         """Angle alpha_1 at which a tooth pair ceases to drive [rad].
 
-        It is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
+        The angle is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
         """
         if not self.lean[1]:
             return -self.reach1

@@ -44,8 +44,8 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
 class TriangularTransmission(TransmissionFunction):
     """Transmission function of a pair of wheels with triangular teeth.
 
-    If the driven wheel dwells in each pitch, the function includes these dwells. If the pair jams or clashes, the
-    function describes only the drive flanks.
+    The function includes the dwells of the driven wheel, if any. If the pair jams or clashes, the function describes
+    only the contact of the drive flanks.
 
     Parameters
     ----------
@@ -337,7 +337,7 @@ class TriangularTransmission(TransmissionFunction):
     def efficiency_mean(self) -> float:
         """Return the mean efficiency over the driver angles with contact at constant driver torque, Eq. (34).
 
-        It is NaN if friction locks the teeth.
+        The mean is NaN if friction locks the teeth.
         """
         if self.friction >= self.locking_friction:
             return nan
@@ -378,7 +378,7 @@ class TriangularTransmission(TransmissionFunction):
         """Minimum friction coefficient that locks the pair at some point of the real path; infinite if the pair never
         locks.
 
-        Friction locks where f tan = 1 before the line of centres.
+        Friction locks the pair at a point before the line of centres where f tan = 1.
         """
         steepest = 0.0
         for interval, high, low in self.stretches:

@@ -83,7 +83,7 @@ class WeightDrive(Result):
     needed: float | None = None
     """Torque at the drum that starts the train from its worst position under its declared loads [N m].
 
-    None without declared loads, or if friction locks the train.
+    The value is None without declared loads, or if friction locks the train.
     """
     wheel: str | None = None
     """Name of the escape wheel's link; None without an escapement, or if loads are declared."""
@@ -150,7 +150,8 @@ class CrankLoad(Result):
     torque: float | None
     """Torque under the declared loads [N m, or the unit of the loads]; None without loads.
 
-    It is positive if it acts in the sense of rotation of the link and so supplies power, as in `over_turn`.
+    The torque is positive if it acts in the sense of rotation of the link and therefore supplies power, as in
+    `over_turn`.
     """
     efficiency: float | None
     """Output power divided by input power. None if neither friction nor an efficiency is declared, or if the value is

@@ -50,7 +50,7 @@ class BudgetCause(Result):
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 
-    It is None if the pointer does not turn, or if no unit of time is declared.
+    The value is None if the pointer does not turn, or if no unit of time is declared.
     """
     interval: tuple[float, float] | None = None
     """95 % confidence interval of `degrees` [deg]; None if the value is not a statistical estimate."""

@@ -124,7 +124,8 @@ def find_budget(
     Parameters
     ----------
     train : GearTrain
-        Train to analyse. Causes for which it declares no data are reported as not declared, and not counted as 0.
+        Train to analyse. Causes for which the train declares no data are reported as "not declared"; their size is not
+        set to 0.
     requested : BudgetQuestion, optional
         Pointers, span, positions and cutting errors.
     state : str, optional

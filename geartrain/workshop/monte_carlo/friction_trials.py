@@ -100,8 +100,8 @@ class FrictionPlan(Shown):
 
     @cached_property
     def study(self) -> FrictionStudy | None:
-        """Part of the computation that is common to all trials in which the same sides drive; None if there is no
-        common part.
+        """Part of the computation that is common to all trials in which the same sides drive; None if nothing is
+        common.
         """
         from geartrain.dynamics.turn.train_turn import study_friction
 

@@ -94,7 +94,8 @@ def find_sobol_indices(
     by : {"wheel", "kind"}
         Grouping of errors into input variables: all errors of one wheel, or one kind of error of all wheels.
     trials : int
-        Number of base samples, 1 to 10^9. Each base sample requires two trials, and one for each input variable.
+        Number of base samples, 1 to 10^9. Each base sample requires two trials, and one further trial for each input
+        variable.
     seed : int
         Random seed.
     means : Execution, optional

@@ -332,7 +332,7 @@ class TrialPlan(Shown):
     def position(self) -> int:
         """Number of the random stream for the positions of the input.
 
-        The first streams are for the wheels, the next for the pairs, and the last for the positions.
+        The first streams belong to the wheels, the next streams to the pairs, and the last stream to the positions.
         """
         return len(self.wheels) + len(self.pairs)
 
@@ -410,7 +410,7 @@ def find_trial_plan(
     state : str, optional
         Name of a declared state. Required if the train declares states.
     without : sequence of str
-        Names of pairs to ignore, so that real teeth do not overconstrain a loop.
+        Names of pairs to ignore; real teeth in every pair could overconstrain a loop.
 
     Returns
     -------
@@ -420,7 +420,7 @@ def find_trial_plan(
     Raises
     ------
     QuestionError
-        If the train has no such teeth, or if no errors are given.
+        If the train has no triangular or conjugate teeth, or if no errors are given.
     RangeError
         If errors are larger than a tooth.
     GearTrainError

@@ -339,7 +339,7 @@ class FirstOrderError(NamedTuple):
 class PointerErrorStatistics(Result):
     """Statistics of the pointer error of one output at random positions of the input.
 
-    The error is measured from the mean position with perfect teeth.
+    The pointer error is the deviation from the mean position that the pointer would have with perfect teeth.
 
     See Also
     --------

@@ -69,7 +69,7 @@ def find_train_sizes(
     limits : sequence of SizeLimit
         Limits for each pair.
     state : str, optional
-        Name of a declared state, by default the first.
+        Name of a declared state; by default the first declared state.
     on_step : callable
         Progress function, called after each evaluation of the train and after each pair that is optimised separately.
 
@@ -81,7 +81,8 @@ def find_train_sizes(
     Raises
     ------
     QuestionError
-        If the output does not depend on a pair with triangular teeth, or if the pairs turn with no sizes.
+        If the output does not depend on a pair with triangular teeth, or if no sizes are found with which the pairs
+        turn.
 
     Notes
     -----

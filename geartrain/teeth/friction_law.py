@@ -310,8 +310,7 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """Friction law of a pair whose pitch-line speed is known, as a function of the ratio of sliding speed to pitch-line
-    speed.
+    """Friction law of a pair with known pitch-line speed, as a function of the sliding speed divided by that speed.
 
     Examples
     --------

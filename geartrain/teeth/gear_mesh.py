@@ -296,7 +296,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact with displaced flanks and the present driver; None for tooth forms without such a model."""
+        """Model of the contact with displaced flanks and the present driver; None for tooth forms without one."""
         return None
 
     @abstractmethod

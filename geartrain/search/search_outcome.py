@@ -13,11 +13,11 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Numbers of rejected candidates by reason, which explain an empty or short list of solutions.
+    """Counts of the candidates that a search rejected, by reason; they explain an empty or short list of solutions.
 
     See Also
     --------
-    geartrain.search.find_stages, geartrain.search.find_sets : Searches that report it.
+    geartrain.search.find_stages, geartrain.search.find_sets : Searches that report these counts.
     """
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
@@ -27,15 +27,15 @@ class Shortfall(Result):
     removed: Mapping[str, int] | None = None
     """Number of rejected candidates by reason. A candidate is counted under the first constraint that it violates."""
     nearest: str = ""
-    """Description of the candidate with the smallest violation, with its tooth counts and error; "" if there is a
-    solution.
+    """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
+    ratio error; "" if there is a solution.
     """
     advice: str = ""
     """Suggestions of constraints to relax, with the effect of each; "" if there is a solution."""
 
     @property
     def removals(self) -> Mapping[str, int]:
-        """Mapping `removed`, or an empty mapping if rejected candidates were not counted."""
+        """Number of rejected candidates by reason, as in `removed`; an empty mapping if they were not counted."""
         return self.removed or {}  # None means that rejected candidates were not counted
 
 

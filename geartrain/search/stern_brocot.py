@@ -29,7 +29,7 @@ _MOST_LISTED = 10**5  # a single run may have as many fractions as the bound
 
 @dataclass(frozen=True, slots=True)
 class Approximant(Result):
-    """Fraction on the path to a number in the Stern-Brocot tree.
+    """Fraction that approximates a given number and is on the path to that number in the Stern-Brocot tree.
 
     See Also
     --------
@@ -39,9 +39,9 @@ class Approximant(Result):
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
 
     value: Fraction
-    """Positive fraction."""
+    """Value of the fraction, positive."""
     error: Fraction
-    """Relative error: `value` divided by the number, minus 1; exact."""
+    """Exact relative error of the fraction: `value` divided by the approximated number, minus 1."""
     kind: ApproximantKind
     """Type of the approximation. "convergent": a convergent of the continued fraction. "best": another fraction that is
     nearer than every other positive fraction whose denominator is not larger (a best approximation of the first kind).

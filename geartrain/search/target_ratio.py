@@ -53,15 +53,16 @@ class TargetRatio(Result):
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
-    """Magnitude of the ratio, exact and positive: tooth count of the numerator divided by tooth count of the
-    denominator.
+    """Magnitude of the ratio, exact and positive: product of the tooth counts of the numerator divided by the product
+    of the tooth counts of the denominator.
     """
     sense: Literal[-1, 0, 1] = 0
-    """Sense of rotation of the output: 1 if equal to the sense of the input, -1 if opposite, 0 if not requested."""
+    """Requested sense of rotation of the output: 1 for the sense of the input, -1 for the opposite sense, 0 for either.
+    """
     label: str = ""
-    """Text of the ratio as it was given."""
+    """Text from which the ratio was parsed."""
     note: str = ""
-    """Origin of the number and its source."""
+    """Derivation of the ratio, with the source of its data."""
 
     def __post_init__(self) -> None:
         if self.value <= 0:
@@ -89,7 +90,7 @@ class _Term:
 
 
 def read_ratio(text: str, per: str | None = None) -> TargetRatio:
-    """Parse a requested ratio from text; its value is exact.
+    """Parse a requested ratio from text, as an exact fraction.
 
     Parameters
     ----------

@@ -26,10 +26,11 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class CountRuns(Sequence[int]):
-    """Tooth counts as runs of consecutive integers. Its memory does not depend on the length of the runs.
+    """Set of tooth counts, stored as runs of consecutive integers. Memory use does not depend on the length of the
+    runs.
 
-    The object is a sequence of integers: it iterates in ascending order, has a length, and can be indexed.
-    `read_counts` parses it from text, and `CountRuns.of` builds it from any counts.
+    The object is a sequence of integers in ascending order, with a length and indices. `read_counts` parses such an
+    object from text, and `CountRuns.of` builds one from any counts.
 
     Examples
     --------
@@ -39,7 +40,9 @@ class CountRuns(Sequence[int]):
     """
 
     spans: tuple[tuple[int, int], ...]
-    """First and last count of each run, both inclusive; in ascending order, with a gap between any two runs."""
+    """First and last count of each run, both inclusive. The runs are in ascending order, with a gap between any two of
+    them.
+    """
     _before: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -53,7 +56,7 @@ class CountRuns(Sequence[int]):
         Parameters
         ----------
         counts : iterable of int
-            At least one tooth count, each from 1 to 10^12; `QuestionError` otherwise.
+            One or more tooth counts, each from 1 to 10^12. Other values raise `QuestionError`.
         """
         if isinstance(counts, CountRuns):
             return counts
@@ -63,12 +66,13 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def joined(cls, spans: Iterable[tuple[int, int]]) -> CountRuns:
-        """Build runs from the union of some spans.
+        """Build runs from the union of one or more spans.
 
         Parameters
         ----------
         spans : iterable of (int, int)
-            First and last count of each span, both inclusive, from 1 to 10^12; in any order, may overlap.
+            First and last count of each span, both inclusive, from 1 to 10^12. The spans may be in any order and may
+            overlap.
         """
         found: list[tuple[int, int]] = []
         for first, last in sorted(spans):
@@ -128,7 +132,7 @@ class CountRuns(Sequence[int]):
             at += 1
 
     def as_array(self) -> NDArray[np.int64]:
-        """Return the counts as an ascending array; `RangeError` if there are more than a million."""
+        """Return the counts as an ascending array. Raises `RangeError` if there are more than a million counts."""
         import numpy as np
 
         if len(self) > _MOST_LISTED:
@@ -169,7 +173,7 @@ class CountRuns(Sequence[int]):
         return ",".join(f"{first}:{last}" if last > first else f"{first}" for first, last in self.spans)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return the counts as plain data for JSON."""
         return {"counts": str(self), "minimum": self.minimum, "most": self.most, "number": len(self)}
 
 

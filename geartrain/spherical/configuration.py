@@ -39,7 +39,7 @@ _SHORT = 1 << 20  # largest denominator of coordinates such as 3/4 that floats r
 
 @dataclass(frozen=True)
 class Configuration(Shown):
-    """Set of gears whose axes pass through one point: unit axes, meshing pairs, and the kind of each gear.
+    """Set of gears whose axes pass through one point, described by unit axes, meshing pairs, and the kind of each gear.
 
     Axes point outwards. Angles about them are counterclockwise as seen from outside.
 
@@ -56,7 +56,7 @@ class Configuration(Shown):
     names: tuple[str, ...]
     """Names of the gears."""
     axes: Floats
-    """Unit vectors of the axes, outwards, shape (gears, 3)."""
+    """Unit vectors of the axes, directed outwards, shape (gears, 3)."""
     meshes: tuple[tuple[int, int], ...]
     """Meshing pairs of gears, by index."""
     kinds: tuple[str, ...]
@@ -68,7 +68,7 @@ class Configuration(Shown):
     only as floats.
     """
     teeth: Mapping[str, int] = field(default_factory=dict)
-    """Kind -> tooth number, for the kinds whose tooth numbers are chosen."""
+    """Mapping from kind to tooth number, for the kinds whose tooth number is chosen."""
     title: str = ""
     """Title of the set for display."""
 
@@ -88,7 +88,7 @@ class Configuration(Shown):
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Return the direction from one gear to another about the axis of the first gear [rad].
+        """Return the direction from one gear to another, as an angle about the axis of the first gear [rad].
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class Configuration(Shown):
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))
 
     def frame(self, i: int) -> tuple[Floats, Floats]:
-        """Return two unit vectors perpendicular to an axis that form a right-handed frame with it.
+        """Return two unit vectors that form a right-handed frame with the axis of a gear.
 
         Parameters
         ----------
@@ -181,11 +181,11 @@ class MeshKind:
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
-    """Return the gears as a declaration in plain data, for `GearTrain.declare`.
+    """Return the declaration of the set as plain data, for `GearTrain.declare`.
 
-    Links, wheels and axes have the names of the gears. With outward axes every mesh reverses the sense of rotation, z_i
-    w_i + z_j w_j = 0 (docs/sphere.md, section 1): the wheels are on the positive sides of their axes (`facing` 1, the
-    default). The first gear is the input, at speed 1. The directions are floats with all digits.
+    Links, wheels and axes have the names of the gears. All axes point outwards and the wheels are on the positive sides
+    of their axes (`facing` 1, the default). Every mesh therefore reverses the sense of rotation: z_i w_i + z_j w_j = 0
+    (docs/sphere.md, section 1). The first gear is the input, at speed 1. The directions are floats with all digits.
 
     Parameters
     ----------

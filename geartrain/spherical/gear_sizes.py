@@ -78,7 +78,7 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
 
 
 def one_pitch(configuration: Configuration) -> float:
-    """Return lambda, half the common module of all meshes, for the chosen tooth numbers; equation (1) of
+    """Return lambda, half the module that all meshes have in common, for the chosen tooth numbers; equation (1) of
     docs/sphere.md.
 
     Parameters
@@ -197,11 +197,11 @@ class MeshSize(NamedTuple):
 
 @dataclass(frozen=True)
 class SphereSizing(Result):
-    """Sizes of a set of gears on a sphere for chosen tooth numbers. Arrays have one row for each mesh or gear.
+    """Sizes of the gears of a set on a sphere, for chosen tooth numbers. Arrays have one row for each mesh or gear.
 
     See Also
     --------
-    size_gears : returns it
+    size_gears : Returns such an object.
     """
 
     KEYS = (
@@ -223,9 +223,10 @@ class SphereSizing(Result):
     pitches: Floats
     """Operating pitch lambda (half the module) of each mesh [radii of the sphere], shape (meshes,)."""
     base: float
-    """Common base pitch c of all gears [radii of the sphere]; a base cone has the half-angle g with sin g = c z."""
+    """Common base pitch c of all gears [radii of the sphere]. The half-angle g of a base cone follows from sin g = c z.
+    """
     pressure: Floats
-    """Operating pressure angle of each mesh [rad], shape (meshes,); nan if involutes with the common base pitch cannot
+    """Operating pressure angle of each mesh [rad], shape (meshes,). NaN if involutes with the common base pitch cannot
     mesh.
     """
 
@@ -249,13 +250,13 @@ class SphereSizing(Result):
 
     @property
     def module(self) -> float:
-        """Module, 2 lambda, from the geometric mean of the pitches [radii of the sphere]."""
+        """Mean module of the meshes: twice the geometric mean of the pitches lambda [radii of the sphere]."""
         return 2 * self.pitch
 
     @cached_property
     def outer(self) -> Floats:
-        """Half-angle of each gear's largest operating cone [rad], shape (gears,). Gears that do not mesh with it must
-        not overlap this cone.
+        """Half-angle of each gear's largest operating pitch cone [rad], shape (gears,). Two gears that do not mesh with
+        each other must have cones that do not overlap.
         """
         # a gear without a mesh has the cone of the mean pitch
         alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
@@ -266,12 +267,12 @@ class SphereSizing(Result):
 
     @property
     def by_gear(self) -> dict[str, int]:
-        """Gear -> tooth number."""
+        """Mapping from the name of each gear to its tooth number."""
         return dict(zip(self.configuration.names, self.teeth.tolist(), strict=True))
 
     @property
     def mesh_sizes(self) -> list[MeshSize]:
-        """Sizes of every mesh."""
+        """Operating sizes of every mesh."""
         names = self.configuration.names
         cones, pressure = np.degrees(self.cones).tolist(), np.degrees(self.pressure).tolist()
         return [
@@ -301,7 +302,9 @@ class SphereSizing(Result):
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Kind -> virtual tooth number, for kinds that are undercut by a rack with the mean pressure angle."""
+        """Mapping from kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
+        undercut.
+        """
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
         return {kind: float(count) for kind, count in pairs if count < limit}

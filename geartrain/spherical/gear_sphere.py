@@ -26,7 +26,7 @@ _SPREAD = Key("pitch_spread", "spread")
 
 @dataclass(frozen=True)
 class GearSphere(Result):
-    """Set of gears on a sphere with its analyses, each computed when it is first read.
+    """Set of gears on a sphere, with its analyses. Each analysis is computed when its property is first read.
 
     Examples
     --------
@@ -63,7 +63,7 @@ class GearSphere(Result):
     configuration: Configuration
     """Axes, meshes, kinds and tooth numbers of the set."""
     radius: float = 1.0
-    """Radius of the sphere in any unit of length, which is also the unit of the pitch radii."""
+    """Radius of the sphere, in any unit of length; the pitch radii have the same unit."""
     graph: GraphSet | None = None
     """Result of the construction from a graph; None if the set was not made from a graph."""
 
@@ -90,18 +90,20 @@ class GearSphere(Result):
 
     @cached_property
     def sizing(self) -> SphereSizing | None:
-        """Cones, pitches and pressure angles; None if a tooth number is missing."""
+        """Pitch cones, pitches and pressure angles of the gears; None if a tooth number is missing."""
         return size_gears(self.configuration) if self.chosen else None
 
     @cached_property
     def closure(self) -> MeshPhasing | None:
-        """Phasing of the meshes around every loop; None if a tooth number is missing, or if the set cannot turn."""
+        """Phases of the meshes around every loop; None if a tooth number is missing, or if the set cannot turn."""
         from geartrain.kinematics.phasing import spherical_phasing
 
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
-        """Return the data of a picture: the set, half-angles of pitch cones [rad], and phases of the teeth [pitch]."""
+        """Return the data of a picture: the set, the half-angles of the pitch cones [rad], and the phases of the teeth
+        [pitch].
+        """
         sizing = self.sizing
         if sizing is None:
             raise QuestionError(
@@ -119,7 +121,9 @@ class GearSphere(Result):
 
     @cached_property
     def rule(self) -> str | None:
-        """Divisibility condition on the tooth numbers; None if contacts are not at known fractions of a revolution."""
+        """Divisibility condition that the tooth numbers must satisfy to close the loops; None if the contacts are not
+        at known fractions of a revolution.
+        """
         from geartrain.kinematics.phasing import spherical_divisibility_rule
 
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None
@@ -142,27 +146,31 @@ class GearSphere(Result):
 
     @property
     def gridlock(self) -> Gridlock | None:
-        """Locked parts of the set, and meshes to remove; None if the set turns."""
+        """Locked parts of the set and the meshes to remove; None if the set can turn."""
         return None if self.moves else self.train.kinematics.gridlock
 
     @property
     def closes(self) -> bool | None:
-        """True if the teeth of all loops mesh; None if this cannot be checked."""
+        """True if the teeth mesh correctly around all loops; None if the loops cannot be checked."""
         return None if self.closure is None else bool(self.closure)
 
     @property
     def residue(self) -> float | None:
-        """Maximum error of the last assembled meshes [pitch], if gears are assembled one after another."""
+        """Maximum phase error of the meshes that are closed last when the gears are assembled one after another
+        [pitch].
+        """
         return None if self.closure is None else self.closure.last
 
     @property
     def loop_residue(self) -> float | None:
-        """Maximum closing error of a loop [pitch]."""
+        """Maximum closing error of the loops [pitch]."""
         return None if self.closure is None else float(self.closure.worst)
 
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
-        """Kind -> half-angle of its largest operating pitch cone [rad]; None if a tooth number is missing."""
+        """Mapping from kind to the half-angle of its largest operating pitch cone [rad]; None if a tooth number is
+        missing.
+        """
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
             return dict.fromkeys(kinds)
@@ -172,10 +180,10 @@ class GearSphere(Result):
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Kind -> pitch radius, in the unit of the sphere's radius; None if a tooth number is missing."""
+        """Mapping from kind to pitch radius, in the unit of the sphere's radius; None if a tooth number is missing."""
         return {kind: None if cone is None else wheel_radius(self.radius, cone) for kind, cone in self.cones.items()}
 
     @property
     def angles(self) -> Mapping[str, float]:
-        """Kind of mesh -> angle between the axes [rad]."""
+        """Mapping from kind of mesh to the angle between the two axes [rad]."""
         return {f"{each.a}-{each.b}": each.angle for each in mesh_kinds(self.configuration)}

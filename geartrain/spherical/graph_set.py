@@ -244,7 +244,8 @@ def from_graph(
     upto: int | None = None,
     teeth: Mapping[Hashable, int] | None = None,
 ) -> GraphSet:
-    """Return a set of gears on a sphere that mesh as in a graph, with exactly one pitch or with exactly closed loops.
+    """Return a set of gears on a sphere whose meshes are the edges of a graph. Either all pitches are equal, or all
+    loops close exactly.
 
     The algorithm computes a circle packing of the graph (Koebe, Andreev and Thurston), rounds tooth numbers in
     proportion to the circles, and moves the axes as little as possible until the condition named by `aim` is satisfied
@@ -352,7 +353,7 @@ class GraphSet(Result):
 
     See Also
     --------
-    from_graph : returns it
+    from_graph : Returns such an object.
     """
 
     KEYS = (
@@ -373,9 +374,9 @@ class GraphSet(Result):
     """Circle packing before the adjustment of the axes. Additional circles next to idlers are listed after the gears.
     """
     sizing: SphereSizing
-    """Cones, pitches and pressure angles."""
+    """Pitch cones, pitches and pressure angles of the gears."""
     residue: float
-    """Maximum closing error of a loop [pitch]."""
+    """Maximum closing error of the loops [pitch]."""
     moved: Floats
     """Displacement of each axis from its direction in the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
@@ -397,7 +398,7 @@ class GraphSet(Result):
 
     @property
     def axes_by_gear(self) -> dict[str, list[float]]:
-        """Gear -> unit vector of its axis."""
+        """Mapping from the name of each gear to the unit vector of its axis."""
         return dict(zip(self.configuration.names, self.configuration.axes.tolist(), strict=True))
 
     @property

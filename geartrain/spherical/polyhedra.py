@@ -103,11 +103,11 @@ class Polyhedron(Shown):
 
     See Also
     --------
-    polyhedron, solid : return it
+    polyhedron, solid : Return such an object.
     """
 
     vertices: Floats
-    """Vertices as given, in any unit, shape (vertices, 3)."""
+    """Coordinates of the vertices as given, in any unit, shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
     """Indices of the vertices of each face, counterclockwise seen from outside. Faces are in descending order of height
     (z), and at equal heights counterclockwise from x.
@@ -145,7 +145,7 @@ class Polyhedron(Shown):
 
     @cached_property
     def symmetries(self) -> Floats:
-        """All rotations and reflections about the origin that map the solid to itself, shape (order, 3, 3).
+        """Matrices of all rotations and reflections about the origin that map the solid to itself, shape (order, 3, 3).
 
         Rounding errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices
         of one face). All symmetries are therefore found by examining all corners that are congruent to the first.
@@ -201,8 +201,8 @@ class Polyhedron(Shown):
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """Return the polar dual, whose vertices are along the normals of this solid, and whose normals are along its
-        vertices.
+        """Return the polar dual: its vertices are along the normals of this solid, and its normals are along the
+        vertices of this solid.
 
         Parameters
         ----------
@@ -225,7 +225,8 @@ class Polyhedron(Shown):
 
 
 def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> Polyhedron:
-    """Return the convex polyhedron with the given vertices, from the convex hull (Qhull), with coplanar facets merged.
+    """Return the convex polyhedron with the given vertices. Qhull computes the convex hull, and coplanar facets are
+    merged.
 
     Points are considered equal, and faces plane, within a millionth of the size. The result is checked by Euler's
     formula.

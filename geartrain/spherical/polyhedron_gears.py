@@ -53,9 +53,9 @@ def from_polyhedron(
     Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides of the
     face, v for a vertex, or e for an edge. Kinds with equal names get an additional letter, in ascending order of the
     number of gears, then of the distance from the smallest orbit. Gears are numbered within their kind in descending
-    order of height (z), and at equal heights counterclockwise from x. A gear on an edge is placed where both its
-    pitches are equal, which depends on the tooth numbers. If these are not chosen, the gear is in the middle of the
-    edge (two gears on one edge: at a quarter and at three quarters).
+    order of height (z), and at equal heights counterclockwise from x. The position of a gear on an edge depends on the
+    tooth numbers: both its pitches are equal there. If tooth numbers are not chosen, the gear is in the middle of the
+    edge, or two gears are at a quarter and at three quarters of the edge.
 
     Parameters
     ----------
@@ -424,7 +424,7 @@ class SurveyRow(Result):
 
     See Also
     --------
-    survey : returns one for each solid
+    survey : Returns one for each solid.
     """
 
     KEYS = (
@@ -448,9 +448,11 @@ class SurveyRow(Result):
     meshes: int
     """Number of meshes, one on each edge."""
     bipartite: bool
-    """True if all neighbours can turn in opposite senses, so that the set has one degree of freedom."""
+    """True if the graph of the meshes is bipartite: all neighbours can turn in opposite senses, and the set has one
+    degree of freedom.
+    """
     gruebler: int
-    """Degrees of freedom by count: number of gears minus number of meshes."""
+    """Degrees of freedom by Gruebler's count: number of gears minus number of meshes."""
     drop: int
     """Minimum number of meshes to remove so that the set can turn."""
     types: int
@@ -458,9 +460,11 @@ class SurveyRow(Result):
     mesh_kinds: int
     """Number of kinds of mesh: orbits under the symmetries of the solid."""
     positions: int
-    """Number of free parameters of the axes if all symmetries are preserved."""
+    """Number of free parameters of the axes if the set keeps all symmetries of the solid."""
     angles: tuple[float, ...]
-    """Distinct angles between the axes of meshes [deg], ascending; angles are equal within 1e-9 deg."""
+    """Distinct angles between the axes of meshing gears [deg], ascending. Angles that differ by less than 1e-9 deg are
+    equal.
+    """
 
     @property
     def exact(self) -> bool:
@@ -471,7 +475,8 @@ class SurveyRow(Result):
 
 
 def survey(solids: Iterable[str | Polyhedron] = SURVEYED) -> tuple[SurveyRow, ...]:
-    """Return mobility, number of meshes to remove, and possibility of one pitch for each solid with gears on all faces.
+    """Return the mobility, the number of meshes to remove, and whether one pitch is possible, for each solid with gears
+    on all faces.
 
     Parameters
     ----------

@@ -51,10 +51,10 @@ def suggest_tooth_counts(
     tolerance: float = 1e-9,
     fixed: Mapping[str, int] | None = None,
 ) -> ToothCountSuggestions:
-    """Find the best sets of tooth numbers with closed loops and tip clearance, by exhaustive search.
+    """Find the best sets of tooth numbers that close all loops and leave clearance between tips, by exhaustive search.
 
-    The run time is proportional to the product of the ranges. Tips have clearance if there are at least two modules
-    between the largest operating pitch cones of gears that do not mesh.
+    The run time is proportional to the product of the ranges. Tips are considered to have clearance if the largest
+    operating pitch cones of gears that do not mesh are at least two modules apart.
 
     Parameters
     ----------
@@ -168,14 +168,14 @@ class ToothCountCompromise(Shown):
 
     See Also
     --------
-    suggest_tooth_counts : returns them
+    suggest_tooth_counts : Returns such objects.
     """
 
     teeth: Mapping[str, int]
-    """Kind -> tooth number."""
+    """Mapping from kind to tooth number."""
     mismatch: float
-    """Logarithm of the ratio of the pitch of the first kind of mesh to the pitch of the second; with more than two
-    kinds, of the maximum to the minimum pitch.
+    """Logarithm of the ratio of two pitches. With two kinds of mesh, the pitch of the first is divided by the pitch of
+    the second. With more kinds, the maximum pitch is divided by the minimum.
     """
     pitches: tuple[float, ...]
     """Operating pitch of each kind of mesh [radii of the sphere]."""
@@ -186,7 +186,7 @@ class ToothCountCompromise(Shown):
     room: float
     """Minimum distance between the pitch circles of gears that do not mesh [modules]."""
     residue: float
-    """Maximum closing error of a loop [pitch]; 0 if all loops close exactly."""
+    """Maximum closing error of the loops [pitch]; 0 if all loops close exactly."""
 
     @property
     def total(self) -> int:
@@ -206,7 +206,7 @@ class ToothCountSuggestions(Result):
 
     See Also
     --------
-    suggest_tooth_counts : returns it
+    suggest_tooth_counts : Returns such objects.
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -232,13 +232,14 @@ class ToothCountSuggestions(Result):
     configuration: Configuration
     """Set of gears for which tooth numbers were searched."""
     meshes: tuple[MeshKind, ...]
-    """Kinds of mesh in the set of gears."""
+    """Kinds of mesh that occur in the set of gears."""
     found: tuple[ToothCountCompromise, ...]
     """Sets of tooth numbers, best first."""
     considered: int
     """Number of sets of tooth numbers within the bounds."""
     removed: Mapping[str, int]
-    """Condition -> number of sets that it rejected, in the order in which the conditions are tested."""
+    """Mapping from condition to the number of sets that it rejected, in the order in which the conditions are tested.
+    """
     beyond: int
     """Number of further sets that satisfy every condition but are not listed in `found`."""
 
@@ -336,11 +337,12 @@ class _Search:
 
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
-    """Range of the ratio of two tooth numbers in which equal neighbouring gears do not overlap, ignoring addenda.
+    """Range of the ratio of two tooth numbers in which neighbouring gears of the same kind do not overlap. Addenda are
+    ignored.
 
     See Also
     --------
-    ratio_windows : returns them
+    ratio_windows : Returns such objects.
     """
 
     a: str
@@ -348,17 +350,17 @@ class NeighbourRatioWindow(Shown):
     b: str
     """Kind of the second gear."""
     low: float
-    """Lower bound of z_a / z_b."""
+    """Lower bound of the tooth ratio z_a / z_b."""
     high: float
-    """Upper bound of z_a / z_b; `inf` if it is unbounded."""
+    """Upper bound of the tooth ratio z_a / z_b; `inf` if the ratio is unbounded."""
 
     def __str__(self) -> str:
         return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"
 
 
 def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
-    """Return the range of the tooth ratio in which equal neighbouring gears do not overlap, for each kind of mesh
-    between unlike gears.
+    """Return the range of the tooth ratio in which neighbouring gears of the same kind do not overlap, for each kind of
+    mesh between different kinds of gear.
 
     With several kinds of mesh, each range is valid for the operating cones of its own mesh.
 

@@ -124,7 +124,8 @@ def compare_forms(
     arcs: tuple[float, float] = (0.5, 0.5),
     pressure_angle: Quantity | None = None,
 ) -> FormComparison:
-    """Return loss, stress, heat, flash temperature and depth of tooth forms as ratios to the 20 degree involute.
+    """Return the loss, stress, heat, flash temperature and depth of tooth forms, each divided by its value for the 20
+    degree involute.
 
     The quantities are defined in docs/shapes.md and computed to first order in friction. The criteria are from W. D.
     Smith (1993).
@@ -143,7 +144,7 @@ def compare_forms(
     Returns
     -------
     FormComparison
-        Results of the involute, and of each form its ratios or the faults that prevent it from running.
+        Results of the involute, and for each other form its ratios, or the faults that prevent the form from running.
 
     Raises
     ------

@@ -117,7 +117,8 @@ Speeds = Literal["sliding", "pitch_line"]
 
 
 class FrictionLaw(BaseModel, ABC):
-    """Friction coefficient of teeth as a function of the sliding speed at each contact, or of the pitch-line speed.
+    """Law for the friction coefficient of teeth as a function of speed: the sliding speed at each contact, or the
+    pitch-line speed.
 
     See Also
     --------
@@ -142,12 +143,12 @@ class FrictionLaw(BaseModel, ABC):
 
     @property
     def of_pitch_line(self) -> bool:
-        """True if the law depends on the pitch-line speed, so that the coefficient is equal at all contacts."""
+        """True if the coefficient depends on the pitch-line speed. It is then equal at all contacts."""
         return False
 
     @property
     def at_rest(self) -> float:
-        """Coefficient of friction at speed 0, which must be overcome at the start."""
+        """Coefficient of friction at speed 0, which applies when the train starts."""
         import numpy as np
 
         return float(self.coefficient(np.zeros(1))[0])
@@ -259,7 +260,9 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at speeds [m/s] by linear interpolation, constant outside the table."""
+        """Return the coefficient of friction at speeds [m/s], by linear interpolation; it is constant outside the
+        table.
+        """
         import numpy as np
 
         found: Floats = np.interp(
@@ -307,7 +310,7 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """Friction law of a pair with known pitch-line speed: coefficient as a function of the relative sliding speed.
+    """Friction law of a pair with known pitch-line speed, as a function of the sliding speed divided by that speed.
 
     Examples
     --------

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GearMesh(Shown, ABC):
-    """Gear pair with real teeth of any form, with the interface that trains, reports and exports use.
+    """Gear pair with teeth of any real form. Trains, reports and exports access the teeth through this interface.
 
     See Also
     --------
@@ -43,11 +43,11 @@ class GearMesh(Shown, ABC):
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
     tooth_form: NamedForm
-    """Tooth form of the teeth."""
+    """Tooth form of the pair."""
     who: MeshDriver
-    """Driving wheel, and how it was determined."""
+    """Name of the driving wheel, and how the driver was determined."""
     transmission: TransmissionFunction
-    """Transmission function with the driving wheel turning forwards.
+    """Transmission function of the pair while the driving wheel turns forwards.
 
     `coast` is the transmission function of the coast flanks, and `reversed` the transmission function with the other
     wheel driving.
@@ -86,9 +86,9 @@ class GearMesh(Shown, ABC):
 
     @cached_property
     def losses(self) -> TransmissionFunction:
-        """Transmission function that includes the friction losses of the teeth.
+        """Transmission function of the pair, including the friction losses of the teeth.
 
-        It has no losses if friction depends on a speed that is not known.
+        The function has no losses if friction depends on a speed that is not known.
         """
         return self._with_friction(self.transmission)
 
@@ -149,7 +149,7 @@ class GearMesh(Shown, ABC):
         """Verdict on whether these teeth can run."""
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth, with texts that do not mention the pair or its file."""
+        """Yield all faults of these teeth. The texts do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
@@ -185,8 +185,8 @@ class GearMesh(Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; by default
-        empty.
+        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; empty by
+        default.
         """
         return {}
 
@@ -283,7 +283,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def has_cut_sizes(self) -> bool:
-        """True for teeth whose manufacturing errors are modelled tooth by tooth."""
+        """True for a tooth form whose manufacturing errors are modelled tooth by tooth."""
         return False
 
     @property
@@ -296,12 +296,12 @@ class GearMesh(Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Contact with displaced flanks and this wheel driving; None for tooth forms for which it is not modelled."""
+        """Model of the contact with displaced flanks and the present driver; None for tooth forms without one."""
         return None
 
     @abstractmethod
     def account(self) -> PairAccount:
-        """Return the report of the pair with this driver: table rows and results."""
+        """Return the report of the pair with its present driver: table rows and results."""
 
     def backlash_apart(self, gap: float) -> float | None:
         """Return the backlash at a centre distance other than the declared one.
@@ -309,8 +309,8 @@ class GearMesh(Shown, ABC):
         Parameters
         ----------
         gap : float
-            Distance by which the wheels are too far apart [module], negative if they are too close. A wheel in a ring
-            is too far from the ring if the centre distance is too short.
+            Distance by which the wheels are too far apart [module], negative if they are too close. In an internal
+            pair, the wheels are too far apart if the centre distance is too short.
 
         Returns
         -------
@@ -323,7 +323,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def label(self) -> str:
-        """Text that names the pair in messages."""
+        """Name of the pair as used in messages."""
         return f"pair '{self.name}'"
 
     @cached_property
@@ -348,7 +348,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def rigid(self) -> bool:
-        """True if the speed ratio is constant, so that only the backlash of the pair affects motion."""
+        """True if the speed ratio is constant. Only the backlash of such a pair affects the motion."""
         return isinstance(self.transmission, ExactRatio)
 
     @property
@@ -388,7 +388,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def tells_losses(self) -> bool:
-        """True if the losses can be computed.
+        """True if the friction losses of the pair can be computed.
 
         The computation needs a declared coefficient, or a friction law and the pitch-line speed.
         """
@@ -398,7 +398,7 @@ class GearMesh(Shown, ABC):
     def efficiency_texts(self) -> tuple[str, str]:
         """Mean efficiency with the actual driver and with the other wheel driving, as texts.
 
-        Both are "-" if no friction is declared or the pair jams.
+        Both texts are "-" if no friction is declared or the pair jams.
         """
         if not self.tells_losses or not self.verdict:
             return "-", "-"

@@ -50,7 +50,7 @@ class Ideal(ToothForm):
         """
 
     def transmission(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
-        """Return the transmission function of a pair: its constant ratio.
+        """Return the transmission function of a pair, which has a constant speed ratio.
 
         Parameters
         ----------

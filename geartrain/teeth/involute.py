@@ -116,7 +116,7 @@ class Involute(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its declared centre distance, by default the distance without backlash.
+        """Return the pair at its declared centre distance; by default, at the distance without backlash.
 
         Raises
         ------
@@ -128,7 +128,7 @@ class Involute(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the involute pair with the given arcs of contact, regardless of its addenda.
+        """Return the involute pair with the given arcs of contact. The declared addenda are ignored.
 
         Parameters
         ----------

@@ -146,7 +146,7 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair whose arc of contact is the sum of `arcs`, all of it in recess.
+        """Return the pair whose arc of contact is the sum of `arcs`. All contact is in recess.
 
         The arc is extended by the part of the mate's flanks that the approaching pins cut off.
 

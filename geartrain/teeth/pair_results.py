@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair over a period: driven speed divided by driver speed, without sign.
+    """Speed ratio of a pair over a period: the driven speed divided by the driver speed, always positive.
 
     See Also
     --------
@@ -37,11 +37,11 @@ class SpeedRatio(Result):
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
 
     mean: Fraction
-    """Mean ratio: the ratio of tooth numbers, or the winding number of a pin coupling."""
+    """Mean speed ratio: the ratio of the tooth numbers, or the winding number of a pin coupling."""
     minimum: float
-    """Minimum ratio over a period."""
+    """Minimum speed ratio over a period."""
     maximum: float
-    """Maximum ratio over a period."""
+    """Maximum speed ratio over a period."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
@@ -61,7 +61,7 @@ class SpeedRatio(Result):
 
     @property
     def relative(self) -> tuple[float, float]:
-        """Minimum and maximum ratio divided by the mean ratio."""
+        """Minimum and maximum speed ratio, each divided by the mean ratio."""
         return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
@@ -85,15 +85,15 @@ class TransmissionError(Result):
     KEYS = ("peak_to_peak", "rms", "mean")
 
     peak_to_peak: float
-    """Maximum minus minimum [rad of the driven side]."""
+    """Maximum minus minimum transmission error [rad of the driven side]."""
     rms: float
-    """Root mean square deviation from the mean [rad of the driven side]."""
+    """Root mean square deviation of the transmission error from its mean [rad of the driven side]."""
     mean: float
-    """Mean [rad of the driven side], a constant that depends on the zero of the angles."""
+    """Mean transmission error [rad of the driven side], a constant that depends on the zero of the angles."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
-        """Return the results for a transmission function.
+        """Return the statistics of the transmission error of a transmission function.
 
         Parameters
         ----------
@@ -117,8 +117,8 @@ class TransmissionError(Result):
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Efficiency of a pair with friction (output power divided by input power), computed from its transmission function
-    on request.
+    """Efficiency of a pair with friction: output power divided by input power. It is computed on request from the
+    transmission function.
 
     The torques on both sides cannot be constant at the same time. `mean` is the efficiency at constant torque of the
     driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None if friction
@@ -145,7 +145,7 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction; if it depends on speed, its mean over the driver angle."""
+        """Coefficient of friction. If the coefficient depends on speed, the value is its mean over the driver angle."""
         return self.transmission.friction
 
     @property
@@ -172,7 +172,7 @@ class SlidingEfficiency(Result):
 
     @property
     def locking_friction(self) -> float | None:
-        """Minimum coefficient of friction that locks the pair; None if no coefficient locks it."""
+        """Minimum coefficient of friction that locks the pair; None if the pair never locks."""
         return finite(self.transmission.locking_friction)
 
     @property
@@ -216,7 +216,7 @@ class ToothFault(Result):
 
 @dataclass(frozen=True, slots=True)
 class PairVerdict(Result):
-    """Verdict on whether a pair of wheels can run. It is true if the pair can run.
+    """Verdict on whether a pair of wheels can run. Its truth value is True if the pair can run.
 
     See Also
     --------
@@ -235,7 +235,7 @@ class PairVerdict(Result):
     kind: str
     """Kind of the verdict: "runs", or the kind of the first fault."""
     text: str
-    """Verdict in words."""
+    """Sentence that states the verdict."""
     backlash: float
     """Minimum backlash of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
@@ -255,7 +255,7 @@ class PairVerdict(Result):
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """Return the verdict with a single fault, which has the given cause and remedy.
+        """Return a verdict with one fault, to which the given cause and remedy belong.
 
         Parameters
         ----------

@@ -75,7 +75,7 @@ class PinRing(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of results that includes the loads on the pins."""
+        """Return the class of the results of this form, which includes the loads on the pins."""
         from geartrain.teeth.cycloidal_disc import DiscFigures
 
         return DiscFigures
@@ -227,7 +227,7 @@ class PinRing(ToothForm):
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:
-        """Return a copy whose clearance from the pins gives the given backlash.
+        """Return a copy with the clearance between lobes and pins that gives the required backlash.
 
         Parameters
         ----------

@@ -225,7 +225,7 @@ class PinToSlotTransmission(PinTransmission):
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r.
 
-        It is 0 for a follower with friction, which has dead points.
+        The minimum is 0 for a follower with friction, which has dead points.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -310,7 +310,7 @@ class SlotToPinTransmission(PinTransmission):
         Returns
         -------
         ndarray
-            Efficiency, of the shape of S; 0 where friction locks.
+            Efficiency, of the shape of S; 0 where friction locks the pin.
         """
         across, along = self._sides(S)
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
@@ -319,7 +319,7 @@ class SlotToPinTransmission(PinTransmission):
         """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot at constant torque on the
         slot.
 
-        It is NaN if friction locks.
+        The mean is NaN if friction locks the pin at some angle.
         """
         return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
 

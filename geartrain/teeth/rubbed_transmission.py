@@ -36,11 +36,11 @@ class _Nodes(NamedTuple):
 
 
 class RubbedTransmission(DerivedTransmission):
-    """Transmission function of a pair with friction that depends on speed.
+    """Transmission function of a pair whose friction coefficient depends on speed.
 
-    The motion is equal to the motion of the given transmission function. Losses are computed at each contact: for the
-    sliding speed v, the coefficient is mu(v), and the contact transmits the fraction (1 + mu out) / (1 + mu into) of
-    its power (docs/shapes.md, section 15). Simultaneous contacts share the driver's torque equally.
+    The angles and the speed ratio are the same as in the given transmission function. Losses are computed at each
+    contact: for the sliding speed v, the coefficient is mu(v), and the contact transmits the fraction (1 + mu out) / (1
+    + mu into) of its power (docs/shapes.md, section 15). Simultaneous contacts share the driver's torque equally.
 
     Parameters
     ----------

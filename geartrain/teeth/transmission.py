@@ -65,11 +65,12 @@ class ContactRubbing(NamedTuple):
 
 
 class TransmissionFunction(Shown, ABC):
-    """Transmission function of a pair: driven angle q, speed ratio and efficiency as functions of the driver's forward
-    angle S.
+    """Transmission function of a pair. It gives the driven angle q, the speed ratio and the efficiency as functions of
+    the driver's forward angle S.
 
-    The transmission error is q - ratio S, positive if the driven side is ahead of uniform motion. Its mean is a
-    constant lag that depends on the zero of the angles. The lag is included in the error but not in the rms value.
+    The transmission error is q - ratio S, positive if the driven side is ahead of uniform motion. The mean of the
+    transmission error is a constant lag that depends on the zero of the angles. This lag is included in the
+    transmission error but not in its rms value.
 
     Attributes
     ----------
@@ -175,9 +176,7 @@ class TransmissionFunction(Shown, ABC):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction that locks the pair at some driver angle; infinite if no coefficient locks
-        it.
-        """
+        """Minimum coefficient of friction that locks the pair at some driver angle; infinite if it never locks."""
         return inf
 
     @property
@@ -186,7 +185,8 @@ class TransmissionFunction(Shown, ABC):
         return self.friction >= self.locking_friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speeds and friction terms of the teeth, independent of their coefficient of friction.
+        """Return the sliding speeds and the friction terms of the teeth, which do not depend on the coefficient of
+        friction.
 
         Parameters
         ----------
@@ -215,14 +215,14 @@ class TransmissionFunction(Shown, ABC):
         return None
 
     def kinks(self) -> list[float]:
-        """Return the driver angles at which the function or a derivative is discontinuous [rad]; by default an empty
-        list.
+        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous; by default
+        an empty list.
         """
         return []
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return all upward steps of the speed ratio within one pitch, which are impacts of teeth; None if they are not
-        computed.
+        """Return all upward steps of the speed ratio within one pitch, at which the teeth impact; None if the steps are
+        not computed.
         """
         return None
 
@@ -236,7 +236,7 @@ class TransmissionFunction(Shown, ABC):
         return None
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission error and speed ratio, computed together where that is faster.
+        """Return the transmission error and the speed ratio, computed together if this is faster.
 
         Parameters
         ----------
@@ -251,7 +251,7 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function for a driver that turns backwards, which differs for teeth with backlash."""
+        """Return the transmission function while the driver turns backwards. It differs for teeth with backlash."""
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:

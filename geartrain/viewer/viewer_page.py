@@ -38,7 +38,8 @@ _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 def page(
     scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
 ) -> str:
-    """Build a self-contained HTML page with animated trains, which works as a local file and makes no network requests.
+    """Build a self-contained HTML page with animated trains. The page works as a local file and makes no network
+    requests.
 
     Parameters
     ----------
@@ -135,9 +136,9 @@ class EmbeddedPage:
     """
 
     train: GearTrain
-    """Train to show."""
+    """Train that the page shows."""
     state: str | None = None
-    """Name of a state; by default all states can be selected."""
+    """Name of the state that the page shows; by default the viewer can select any state."""
     height: int = 620
     """Height of the frame [px]."""
 

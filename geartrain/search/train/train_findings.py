@@ -57,7 +57,7 @@ class Assignment(CountSizes, Result):
     teeth: Mapping[str, int]
     """Tooth count of each wheel, in the order of declaration."""
     outputs: Mapping[str, ReachedSpeed]
-    """Speed and error of each output. For a train with several states the names are "state: output"."""
+    """Speed and error of each output. If the train has several states, the names have the form "state: output"."""
     changed: tuple[str, ...] = ()
     """Wheels whose tooth count differs from the declared count."""
 
@@ -180,15 +180,17 @@ class TrainFindings(Tabular, Result):
     name: str
     """Name of the train."""
     by: By
-    """Order of the solutions."""
+    """Criterion by which the solutions are sorted."""
     best: int
-    """Requested number of solutions."""
+    """Maximum number of solutions that was requested."""
     parts: tuple[PartFindings, ...]
     """Results of the independent parts, whose solutions can be combined freely."""
     links: Mapping[str, str]
-    """Link of each varied wheel."""
+    """Name of the link of each varied wheel."""
     remarks: tuple[str, ...] = ()
-    """Remarks, for example on outputs that no varied wheel influences and that violate their requirements."""
+    """Remarks on the search, for example on outputs that violate their requirements and that no varied wheel
+    influences.
+    """
     where: tuple[Standing, ...] = ()
     """Ranks of the assignments for which a rank was requested."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
@@ -210,7 +212,9 @@ class TrainFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """End of the search: "interrupted", or "whole", which includes the search of a sample only."""
+        """Way in which the search ended: "interrupted" or "whole". A completed search of a random sample is also
+        "whole".
+        """
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
@@ -220,8 +224,8 @@ class TrainFindings(Tabular, Result):
 
     @property
     def count(self) -> int:
-        """Number of assignments of all varied wheels that satisfy all requirements: the product of the numbers of all
-        parts.
+        """Number of assignments of all varied wheels that satisfy all requirements: the product of the numbers for the
+        independent parts.
         """
         return prod(part.count for part in self.parts)  # parts are independent
 
@@ -236,8 +240,8 @@ class TrainFindings(Tabular, Result):
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
-        """Return the rank, errors and violated constraints of an assignment in each part for whose wheels it gives
-        counts.
+        """Return the rank, errors and violated constraints of an assignment, for each part whose wheels have counts in
+        it.
 
         Parameters
         ----------
@@ -255,7 +259,7 @@ class TrainFindings(Tabular, Result):
         return tuple(self._stand(at, teeth) for at in whole)
 
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:
-        """Return a declaration of a solution, as plain data that extends the original train.
+        """Return a declaration with the tooth counts of a solution, as plain data that extends the original train.
 
         Parameters
         ----------

@@ -345,19 +345,19 @@ def search_train(
 ) -> TrainFindings:
     """Find, count and rank all tooth counts of the varied wheels of a train that satisfy all requirements.
 
-    The algorithm is an exact join of lists of products of counts, along the factors that the outputs share. It can
-    count many more assignments than it can list; all comparisons are in integers. The requirements on an output are its
-    `expect` and `published` values, at their written digits and with their signs, and every target with a tolerance. If
-    no target has a tolerance and `tolerance` is given, the first target is a requirement. The error of an output that
-    has targets but none of these requirements is minimised: the `best` assignments by error are found, and proved to be
-    the best by increasing a common tolerance.
+    The algorithm is an exact join of lists of products of counts, along the factors that the outputs share. The join
+    can count many more assignments than it can list. All comparisons use integers. The requirements on an output are
+    its `expect` and `published` values, at their written digits and with their signs, and every target with a
+    tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. The error of an
+    output that has targets but none of these requirements is minimised: the `best` assignments by error are found, and
+    proved to be the best by increasing a common tolerance.
 
     Parameters
     ----------
     train : Train
         Declaration of the train, such as `geartrain.load(name).declaration`.
     state : str, optional
-        State of a train with states; by default the requirements of all states.
+        State of a train with states; by default the requirements of all states apply.
     free : str or sequence of str
         Wheels to vary. "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": these wheels, and all wheels
         whose count has a `range` or `choices`. Otherwise names of wheels, each with a `search`, `range` or `choices`.
@@ -385,7 +385,8 @@ def search_train(
     Returns
     -------
     TrainFindings
-        Results part by part. After a keyboard interrupt they include the finished tasks, with `complete` False.
+        Results of each independent part. After a keyboard interrupt the results are from the finished tasks, and
+        `complete` is False.
 
     Raises
     ------

@@ -34,9 +34,9 @@ class LinkInertia(Result):
     link: str
     """Name of the link."""
     value: float
-    """Moment of inertia about the link's own axis [kg m2], including the planets that it carries; 0 if unknown."""
+    """Moment of inertia about the link's axis, including the planets that the link carries [kg m2]; 0 if unknown."""
     source: Literal["declared", "outlines", "unknown"]
-    """Source of the link's own inertia: declaration, outlines of its wheels, or unknown."""
+    """Source of the inertia of the link without its planets: declaration, outlines of its wheels, or unknown."""
     carried: float = 0.0
     """Part of `value` due to the masses of planets [kg m2]."""
     missing: tuple[str, ...] = ()
@@ -66,7 +66,7 @@ def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: f
 def find_link_inertias(
     train: TrainMechanics, state: str | None = None, with_inputs: bool = False
 ) -> tuple[LinkInertia, ...]:
-    """Return the moment of inertia of every moving link whose motion is not prescribed, with its source.
+    """Return the moment of inertia of every moving link whose motion is not prescribed, with the source of each value.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ _MOST_KINKS = 80_000  # maximum product of kinks and pairs by default; takes som
 def find_separation(
     train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
 ) -> SeparationRates:
-    """Return the input speeds at which flanks first separate, by pair; `motion` is valid below the lowest of them.
+    """Return the input speed at which the flanks of each pair first separate; `motion` is valid below the lowest speed.
 
     The computation includes inertia, loads, a driving weight or torque, friction of bearings and of teeth with a
     variable ratio, viscous drag, and impacts at speed jumps (docs/dynamics.md, section 3).
@@ -112,7 +112,8 @@ def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
 
 
 def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mapping[str, ToothImpact]:
-    """Return the impacts of triangular teeth by pair, with the power that they dissipate (docs/motion.md, equation 7).
+    """Return the impacts of triangular teeth by pair, with the power that the impacts dissipate (docs/motion.md,
+    equation 7).
 
     The result is empty unless inertias and a `rate` are declared.
 
@@ -173,12 +174,13 @@ class PairSeparation(Result):
     at: float
     """Position of the input at which the flanks first separate [turn]."""
     leap: bool = False
-    """True if a speed jump at that position would require a tensile impulse."""
+    """True if the contact would need a tensile impulse to follow a jump of the speed ratio at the position `at`."""
 
 
 @dataclass(frozen=True)
 class SeparationRates(Result):
-    """Input speeds at which the flanks of a train first separate; `motion` is valid below the lowest of them.
+    """Input speeds at which the flanks of each pair in a train first separate; `motion` is valid below the lowest
+    speed.
 
     See Also
     --------
@@ -190,28 +192,28 @@ class SeparationRates(Result):
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
-    """Name of the requested state."""
+    """Name of the declared state for which the speeds were computed."""
     input: str
-    """Link whose speed is given: the input."""
+    """Name of the input link, whose speed the results give."""
     turns: float
     """Searched range of the input [turn]."""
     complete: bool
     """True if the searched range is a full period of the train."""
     pairs: tuple[PairSeparation, ...]
-    """Results by pair, in ascending order of the input speed."""
+    """Separation speeds of the pairs and couplings, in ascending order of the input speed."""
     inertias: tuple[LinkInertia, ...]
-    """Moments of inertia that were used."""
+    """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
-    """Names of pairs and pins whose friction is not included: pairs with a constant ratio, and pins."""
+    """Names of the pairs with a constant ratio and of the pins; the computation neglects their friction."""
 
     @property
     def first(self) -> PairSeparation | None:
-        """Pair that separates first; None if no pair separates."""
+        """Separation speed of the pair that separates first; None if no pair separates."""
         return self.pairs[0] if self.pairs and self.pairs[0].rate is not None else None
 
     @property
     def rate(self) -> float | None:
-        """Input speed up to which all flanks remain in contact [turn/s]; None if they never separate."""
+        """Input speed up to which all flanks remain in contact [turn/s]; None if the flanks never separate."""
         return None if self.first is None else self.first.rate
 
     @property

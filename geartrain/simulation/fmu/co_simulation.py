@@ -38,7 +38,7 @@ _MODULE = "geartrain_slave"
 
 @dataclass(frozen=True)
 class CoSimulationCase(Shown):
-    """Settings of a functional mock-up unit (FMU) for co-simulation. Fields that are None take the declared value.
+    """Settings of a functional mock-up unit (FMU) for co-simulation. A field that is None has the declared value.
 
     See Also
     --------
@@ -54,7 +54,7 @@ class CoSimulationCase(Shown):
     restitution: float | None = None
     """Coefficient of restitution of every impact, 0 to 1."""
     without: Sequence[str] = ()
-    """Names of pairs to ignore."""
+    """Names of pairs to omit from the simulation."""
 
 
 def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:

@@ -80,7 +80,7 @@ class StrengthReport(Result):
 
     See Also
     --------
-    describe_strength : Its document.
+    describe_strength : Returns a document with these results.
     """
 
     PAGE = "simulation.strength.strength_report:describe_strength"

@@ -27,7 +27,7 @@ NO_WEAR = WearRange(0.0, 0.0)
 
 @dataclass(frozen=True)
 class TrainStrength(FrozenFields, Tabular, TrainResult):
-    """Contact pressures, stresses, safety factors and wear of a train in one state (docs/strength.md).
+    """Contact pressures, stresses, safety factors and wear of the parts of a train in one state (docs/strength.md).
 
     See Also
     --------
@@ -68,28 +68,29 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on the torques; if the loads do not determine them, the other fields are empty."""
+    """Verdict on whether the loads determine the torques. If they do not, the other fields are empty."""
     pairs: Mapping[str, PairStrength] = field(default_factory=dict)
     """Strength of the loaded gear pairs by name."""
     arbors: tuple[ArborStrength, ...] = ()
-    """Strength of the declared arbors."""
+    """Strength of the arbors with declared sizes."""
     turns: float | None = None
     """Revolutions of the input over which wear accumulates; None if no service life is given."""
     wear_coefficients: WearRange = NO_WEAR
     """Minimum and maximum wear coefficient K of Archard's law."""
     neglected: tuple[NeglectedEffect, ...] = ()
-    """Pairs without results, with the reasons."""
+    """Reasons why pairs have no results, by name of the pair."""
     forces: tuple[WheelForce, ...] = ()
-    """Forces of all pairs that carry a torque and whose module is known."""
+    """Tooth forces of all pairs that carry a torque and whose module is known."""
     points: Mapping[str, PointContact] = field(default_factory=dict)
     """Strength of the loaded gear pairs with point contact, by name."""
     over: float | None = None
-    """Number of revolutions in the run whose maximum torques determine the stresses; None for mean torques.
+    """Number of revolutions over which the maximum torques were determined; None if the stresses are from mean torques.
 
     Wear is always computed from mean torques.
     """
     pins: Mapping[str, PinContact] = field(default_factory=dict)
-    """Strength of lobes on pins and of pins in holes, by the name of the pair or coupling."""
+    """Strength of the contacts between lobes and pins or between pins and holes, by the name of the pair or coupling.
+    """
 
     def _summary(self) -> str:
         weakest = self.weakest
@@ -178,19 +179,19 @@ class PairStrength(Result):
     pair: str
     """Name of the pair."""
     form: str
-    """Name of its tooth form."""
+    """Name of the tooth form of the pair."""
     module: float
-    """Module [mm]."""
+    """Module of the pair [mm]."""
     face_width: float
     """Face width of the narrower wheel [mm]."""
     tangential: float
     """Tangential force at the pitch line [N]."""
     elasticity: float
-    """Elasticity factor ZE of the pair of materials [sqrt(MPa)]."""
+    """Elasticity factor ZE of the materials of the two wheels [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
     """Contact pressures along the path of contact, the highest last; empty for a form without a path of contact."""
     iso: IsoContact | None
-    """Contact stress by ISO 6336-2; None unless the teeth are external spur or helical involutes."""
+    """Contact stress according to ISO 6336-2; None unless the teeth are external spur or helical involutes."""
     wheels: tuple[WheelStrength, ...]
     """Strength of both wheels, in the order of the pair."""
     notes: tuple[str, ...] = ()
@@ -199,7 +200,8 @@ class PairStrength(Result):
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
-    """Strength of an arbor between two bearings, for any positions of its wheels: docs/strength.md (16), (17) and (26).
+    """Strength of an arbor that is supported by two bearings, with wheels at any positions; docs/strength.md (16),
+    (17), (26).
 
     See Also
     --------
@@ -212,25 +214,26 @@ class ArborStrength(Result):
     )
 
     link: str
-    """Name of the link."""
+    """Name of the link to which the arbor belongs."""
     material: str
     """Material of the arbor."""
     force: float
-    """Sum of the magnitudes of the transverse forces of all its meshes, as if they acted in one direction [N]."""
+    """Sum of the magnitudes of the transverse forces of all meshes on the arbor, as if all acted in one direction [N].
+    """
     thrust: float
-    """Resultant axial force of all its meshes, which a shoulder supports [N]."""
+    """Resultant axial force of all meshes on the arbor, which one shoulder supports [N]."""
     bending: float
-    """Maximum bending stress, including the axial stress of the thrust [MPa]."""
+    """Maximum bending stress of the arbor, including the axial stress due to the thrust [MPa]."""
     torsion: float
-    """Maximum torsional stress [MPa]."""
+    """Maximum torsional stress of the arbor [MPa]."""
     stress: float
     """Von Mises equivalent stress of bending and torsion [MPa]."""
     pivot_pressure: float
-    """Contact pressure on one pivot: total force divided by pivot diameter times length [MPa]."""
+    """Bearing pressure on one pivot: total force divided by the product of pivot diameter and pivot length [MPa]."""
     shoulder_pressure: float | None
-    """Contact pressure of the axial force on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
+    """Contact pressure of the thrust on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
     strength: float | None
-    """Strength of the material [MPa]; None if it is not known."""
+    """Strength of the material of the arbor [MPa]; None if it is not known."""
 
     @property
     def safety(self) -> float | None:
@@ -259,37 +262,37 @@ class WheelStrength(Result):
     torque: float
     """Torque on the wheel [N m]."""
     section: float
-    """Distance of the section with the maximum bending stress from the axis of the wheel [mm]."""
+    """Distance of the tooth section with the maximum bending stress from the axis of the wheel [mm]."""
     thickness: float
-    """Thickness of the tooth at that section [mm]."""
+    """Thickness of the tooth at the section with the maximum bending stress [mm]."""
     lewis: float
-    """Lewis form factor Y for a load at the tip."""
+    """Lewis form factor Y of the tooth for a load at its tip."""
     tip_stress: float
     """Root stress if one tooth pair carries the whole load at the tip [MPa]."""
     shared_stress: float | None
     """Maximum root stress if tooth pairs share the load equally [MPa]; None without a path of contact."""
     pressure: float | None
-    """Maximum contact pressure while one tooth pair is in contact [MPa]; None without a path of contact, or if it is
-    unbounded.
+    """Maximum contact pressure while one tooth pair is in contact [MPa]; None if the pressure is unbounded or the form
+    has no path of contact.
     """
     strength: float | None
-    """Strength of the material [MPa]; None if it is not known."""
+    """Strength of the material of the wheel [MPa]; None if it is not known."""
     spread: float | None
-    """Relative uncertainty of the strength; None if it is not known."""
+    """Relative uncertainty of the material's strength; None if it is not known."""
     iso: IsoRoot | None = None
-    """Root stress by ISO 6336-3 for a wheel cut by a hob."""
+    """Root stress according to ISO 6336-3, for a wheel that is cut with a hob."""
     wear: FlankWear | None = None
     """Wear of the flanks of the wheel; None if the service life or the hardness is unknown."""
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength divided by `tip_stress`; None if one is unknown."""
+        """Safety factor of the tooth root: `strength` divided by `tip_stress`; None if either value is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield below the surface divided by `pressure`; None if one is
-        unknown.
+        """Safety factor of the flank: contact pressure at first yield below the surface divided by `pressure`; None if
+        either value is unknown.
         """
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
@@ -306,11 +309,11 @@ class FlankWear(Result):
     passages: float
     """Number of meshing cycles of each tooth."""
     volume: WearRange
-    """Volume that is worn from all teeth [mm3]."""
+    """Volume of material worn from all teeth of the wheel [mm3]."""
     mean_depth: WearRange
     """Mean wear depth of the flanks [mm]."""
     depth: WearRange | None
-    """Maximum wear depth [mm]; None without a path of contact."""
+    """Maximum wear depth of the flanks [mm]; None without a path of contact."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces
@@ -349,7 +352,7 @@ class WheelForce(Result):
 
 @dataclass(frozen=True)
 class FlankStrength(Result):
-    """Strength of a wheel with point contact.
+    """Strength of one wheel of a pair with point contact.
 
     See Also
     --------
@@ -361,11 +364,11 @@ class FlankStrength(Result):
     wheel: str
     """Name of the wheel."""
     material: str
-    """Name of its material."""
+    """Name of the material of the wheel."""
     strength: float | None
-    """Strength of the material [MPa]; None if it is not known."""
+    """Strength of the material of the wheel [MPa]; None if it is not known."""
     spread: float | None
-    """Relative uncertainty of the strength; None if it is not known."""
+    """Relative uncertainty of the material's strength; None if it is not known."""
     safety: float | None
     """Safety factor of the flank: pressure at first yield below the surface divided by the contact pressure; None if
     unknown.
@@ -376,13 +379,14 @@ class FlankStrength(Result):
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength divided by `tip_stress`; None if one is unknown."""
+        """Safety factor of the tooth root: `strength` divided by `tip_stress`; None if either value is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
 
 @dataclass(frozen=True)
 class PointContact(Result):
-    """Strength of helical wheels on crossed axes, or of a worm and its wheel: docs/strength.md (24) and (25).
+    """Strength of crossed helical gears or of a worm gear pair, whose flanks have point contact; docs/strength.md (24),
+    (25).
 
     See Also
     --------
@@ -392,7 +396,7 @@ class PointContact(Result):
     pair: str
     """Name of the pair."""
     contact_ratio: float
-    """Contact ratio."""
+    """Contact ratio of the pair: mean number of tooth pairs in contact."""
     normal_force: float
     """Total normal force on the flanks of all tooth pairs in contact [N]."""
     pitch_pressure: float
@@ -411,7 +415,7 @@ class PointContact(Result):
 
 @dataclass(frozen=True)
 class PinContact(Result):
-    """Strength of pins on the lobes of a disc, or in its holes: docs/strength.md (28) to (30).
+    """Strength of the contact between pins and the lobes or holes of a disc: docs/strength.md (28) to (30).
 
     See Also
     --------
@@ -426,23 +430,23 @@ class PinContact(Result):
     name: str
     """Name of the pair or coupling."""
     disc: str
-    """Wheel with the lobes or holes."""
+    """Name of the wheel that has the lobes or holes."""
     material: str
-    """Material of that wheel."""
+    """Name of the material of the disc."""
     pins: int
     """Number of pins."""
     width: float
-    """Width of contact [mm]."""
+    """Axial width of the contact [mm]."""
     force: float
     """Force on the pin at the instant of maximum contact pressure [N]."""
     radius: float
-    """Radius of an equivalent cylinder in contact with a plane [mm]."""
+    """Radius of the cylinder whose contact with a plane is equivalent to the contact of pin and disc [mm]."""
     pressure: float
     """Maximum contact pressure [MPa]."""
     strength: float | None
     """Strength of the weaker of the two materials [MPa]; None if it is not known."""
     pin_stress: float | None = None
-    """Equivalent stress at the root of a cantilever pin [MPa]; None for pins that are supported by their ring."""
+    """Equivalent stress at the root of a cantilever pin [MPa]; None if a ring supports the pins."""
     pin_strength: float | None = None
     """Strength of the material of the pins [MPa]; None if it is not known."""
 
@@ -455,5 +459,5 @@ class PinContact(Result):
 
     @property
     def pin_safety(self) -> float | None:
-        """Safety factor of the pins: strength divided by `pin_stress`; None if one is unknown."""
+        """Safety factor of the pins: `pin_strength` divided by `pin_stress`; None if either value is unknown."""
         return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

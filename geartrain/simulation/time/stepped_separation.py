@@ -217,29 +217,31 @@ class SteppedSeparation(Result):
     """
 
     input: str
-    """Link whose speed is given: the input."""
+    """Name of the input link, whose speed the results give."""
     turns: float
-    """Simulated range of the input from the start [turn]."""
+    """Range of the input over which the motion was simulated, from the start [turn]."""
     predicted: float
-    """Input speed from the closed-form condition for the same range [turn/s]."""
+    """Separation speed of the input according to the closed-form condition, for the same range [turn/s]."""
     rate: float | None
-    """Input speed found with successively shorter time steps [turn/s]; None if no separation was found near the
-    predicted speed.
+    """Separation speed of the input, found with successively shorter time steps [turn/s]; None if no separation
+    occurred near the predicted speed.
     """
     error: float | None
-    """Error bound due to the time step [turn/s]."""
+    """Bound of the error of `rate` due to the time step [turn/s]."""
     pair: str | None
     """Name of the pair that separates."""
     at: float | None
     """Position of the input at which the pair separates [turn]."""
     holds: float | None
-    """Maximum tested input speed at which all flanks remain in contact, with the shortest time step [turn/s]."""
+    """Maximum input speed at which all flanks remained in contact in the simulation with the shortest time step
+    [turn/s].
+    """
     parts: float | None
-    """Minimum tested input speed at which flanks separate, with the shortest time step [turn/s]."""
+    """Minimum input speed at which flanks separated in the simulation with the shortest time step [turn/s]."""
     flight: float
-    """Minimum duration of a separation that is reliably detected [turn of the input]."""
+    """Duration above which the simulation reliably detects a separation [turn of the input]."""
     complete: bool = True
-    """False if the search was stopped."""
+    """False if the search was stopped before its end."""
 
 
 def find_stepped_separation(

@@ -30,11 +30,11 @@ _EARLY = 1e-6  # relative to a step: a time this little before the end of a step
 
 
 class Simulation(Shown):
-    """Simulation of a train that advances step by step, for coupling to other programs. Its drive and loads may be
+    """Simulation that a caller advances step by step, for coupling to other programs. The drive and the loads may be
     changed between steps.
 
-    The time step is constant and does not depend on the requested times. Between two steps angles are extrapolated
-    linearly, so that the motion does not depend on the times at which it is read.
+    The time step is constant and does not depend on the requested times. Between two steps the angles are extrapolated
+    linearly. The motion therefore does not depend on the times at which a caller reads the angles.
 
     Attributes
     ----------
@@ -164,7 +164,7 @@ class Simulation(Shown):
 
     @property
     def angles(self) -> dict[str, float]:
-        """Angles of outputs by name [rad], including their initial angles."""
+        """Angles of the outputs by name, including their initial angles [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
         turned = self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
         start = self._of.problem.angles
@@ -172,24 +172,24 @@ class Simulation(Shown):
 
     @property
     def speeds(self) -> dict[str, float]:
-        """Speeds of outputs by name [rad/s]."""
+        """Angular speeds of the outputs by name [rad/s]."""
         return self._by_output(self._of.speeds @ self._state.speed[self._place])
 
     @property
     def angle(self) -> float:
-        """Angle through which the link at the power input has turned since the start [rad]."""
+        """Angle through which the link at which power enters has turned since the start [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
         row = self._of.speeds[self._of.index[self.drive_link]]
         return float(row @ (self._state.angle + late * self._state.speed)[self._place])
 
     @property
     def speed(self) -> float:
-        """Speed of the link at the power input [rad/s]."""
+        """Angular speed of the link at which power enters [rad/s]."""
         return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed[self._place])
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """Names of the links of the outputs."""
+        """Names of the links that are declared as outputs."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
     def _by_output(self, links: Floats) -> dict[str, float]:
@@ -200,7 +200,7 @@ class Simulation(Shown):
         }
 
     def set_drive(self, value: float) -> None:
-        """Set the control value of the drive from the present time.
+        """Set the control value of the drive: a speed or a torque, which applies from the present time.
 
         Parameters
         ----------
@@ -227,7 +227,7 @@ class Simulation(Shown):
             self._set_torques()
 
     def set_load(self, link: str, torque: float) -> None:
-        """Set the load torque on a link from the present time.
+        """Set the load torque on a link, which applies from the present time.
 
         Parameters
         ----------

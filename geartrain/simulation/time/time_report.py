@@ -41,8 +41,8 @@ class TimeReport(Result):
     title: str
     """Title of the train in one line."""
     separation: SeparationRates | None
-    """Input speeds at which teeth first separate, from the closed-form condition; None without inertias or units of
-    torques.
+    """Input speeds at which teeth first separate, from the closed-form condition; None if no inertia is declared or the
+    torques have no unit.
     """
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the moving links."""
@@ -55,7 +55,7 @@ class TimeReport(Result):
 def collect_time_report(
     train: GearTrain, run: TimeRun, without: tuple[str, ...] = (), stepped: SteppedSeparation | None = None
 ) -> TimeReport:
-    """Return the report on a run, with the input speeds at which teeth first separate.
+    """Return the report on a simulation in time, with the input speeds at which teeth first separate.
 
     Parameters
     ----------
@@ -91,7 +91,8 @@ def collect_time_report(
 
 
 def describe_time_run(found: TimeReport) -> Document:
-    """Return a document on a run: separation rate, contacts, drive, outputs, energy, spectra, convergence and inertias.
+    """Return a document on a simulation in time: separation speed, contacts, drive, outputs, energy, spectra,
+    convergence and inertias.
 
     Parameters
     ----------

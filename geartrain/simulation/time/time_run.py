@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeRun(Tabular, Pictured, TrainResult):
-    """Motion of a train in time, simulated with a constant time step; all data are from the run with the shorter step.
+    """Motion of a train in time, simulated with a constant time step h and again with h/2. All data are from the run
+    with h/2.
 
     See Also
     --------
@@ -79,11 +80,11 @@ class TimeRun(Tabular, Pictured, TrainResult):
     state: str | None
     """Name of the declared state; None for a train without states."""
     driving_link: str
-    """Link to whose mean speed the time scale refers."""
+    """Name of the link whose mean speed defines the time scale."""
     rate: float
-    """Mean speed of the driving link in the evaluated part of the run [rad/s]; negative if it turns backwards."""
+    """Mean speed of the driving link in the evaluated part of the run [rad/s]; negative if the link turns backwards."""
     link: str
-    """Link at which power enters."""
+    """Name of the link at which power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
     """Kind of drive: prescribed speed, torque (including the torque of a weight), spring, or compliant hand."""
     step: float
@@ -101,7 +102,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     speeds: LabelledArray
     """Speeds of all links [rad/s]. Shape (link, time)."""
     torques: LabelledArray
-    """Torques on the driven sides, averaged between samples [N m]. Shape (contact, time)."""
+    """Torque on the driven side of each contact, averaged between samples [N m]. Shape (contact, time)."""
     gaps: LabelledArray
     """Gap between the driven side and its drive flank [rad]. Shape (pair, time).
 
@@ -118,7 +119,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     torque: float
     """Mean torque at the power input in the evaluated part [N m]: work divided by angle."""
     contacts: tuple[ContactInTime, ...]
-    """Results by pair, pin and escapement."""
+    """Results of every pair, pin and escapement."""
     impacts: ImpactList
     """Impacts in the evaluated part of the run."""
     energy: EnergyAccount
@@ -128,20 +129,20 @@ class TimeRun(Tabular, Pictured, TrainResult):
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
     """Spectral lines by output, in descending order of amplitude."""
     figures: tuple[ConvergedFigure, ...]
-    """Main results with time steps h and h/2."""
+    """Main results with time steps h and h/2, for a convergence check."""
     unsolved: int
     """Number of steps without a consistent set of contacts, in which the last iterate was used."""
     notes: tuple[str, ...]
-    """Descriptions of the effects that are not included."""
+    """Descriptions of the effects that the simulation neglects."""
     complete: bool = True
-    """False if the run was stopped.
+    """False if the run was stopped before its end.
 
     If it is False, all data are from the completed part of the run with the longer step, without a comparison.
     """
     model: Literal["rigid", "compliant"] = "rigid"
     """Model of the teeth, rigid or compliant."""
     assumed: tuple[str, ...] = ()
-    """Descriptions of the estimates that replace missing declarations."""
+    """Descriptions of the estimates that were used for undeclared quantities."""
     restitution: float = 0.0
     """Maximum coefficient of restitution of the contacts."""
     _without: tuple[str, ...] = field(default=(), kw_only=True, repr=False, compare=False)
@@ -198,7 +199,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
 @dataclass(frozen=True)
 class ContactInTime(Result):
-    """Results of one pair, pin or escapement over a run.
+    """Results of one pair, pin or escapement in a simulation in time.
 
     See Also
     --------
@@ -214,15 +215,15 @@ class ContactInTime(Result):
     impact_rate: float
     """Number of impacts per second [1/s]."""
     power: float
-    """Power lost in impacts [W]."""
+    """Mean power lost in impacts [W]."""
     hardest: float
-    """Maximum closing speed of an impact [rad/s of the driven side]."""
+    """Maximum closing speed of the impacts, as an angular speed of the driven side [rad/s]."""
     torque: float
-    """Mean torque on the driven side [N m], positive in its direction of motion."""
+    """Mean torque on the driven side, positive in its direction of motion [N m]."""
     rubbed: float
-    """Power lost to friction [W]."""
+    """Mean power lost to friction [W]."""
     gap: float
-    """Maximum gap to the nearer flank [rad of the driven side]."""
+    """Maximum gap between the driven side and the nearer flank, as an angle of the driven side [rad]."""
     changes: float
     """Number of changes per second from one flank to the other without separation [1/s]."""
     peak: float | None = None
@@ -233,7 +234,7 @@ class ContactInTime(Result):
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """Impacts in the order of time, up to a storage limit.
+    """Impacts of a run in the order of time, up to a storage limit.
 
     See Also
     --------
@@ -243,7 +244,7 @@ class ImpactList(Result):
     KEYS = ("total",)
 
     total: int
-    """Total number of impacts."""
+    """Number of all impacts, including those beyond the storage limit."""
     contact: tuple[str, ...]
     """Name of the pair, pin or escapement of each stored impact."""
     time: Floats
@@ -258,7 +259,7 @@ class ImpactList(Result):
 
 @dataclass(frozen=True)
 class EnergyAccount(Result):
-    """Energy balance [J]: the input work equals the losses plus the increase of stored energy.
+    """Energy balance of a run [J]: the input work equals the losses plus the increase of stored energy.
 
     See Also
     --------
@@ -299,18 +300,18 @@ class EnergyAccount(Result):
     kinetic: float
     """Increase of kinetic energy [J]."""
     stored: float
-    """Kinetic energy at the end [J]."""
+    """Kinetic energy at the end of the run [J]."""
     elastic: float = 0.0
     """Increase of the elastic energy of compliant teeth [J]."""
 
     @property
     def put_in(self) -> float:
-        """Work input of drive, loads and springs [J]."""
+        """Total work of the drive, the loads and the springs [J]."""
         return self.drive + self.loads + self.springs
 
     @property
     def closure(self) -> float:
-        """Relative error of the balance: error divided by the sum of all its terms and the stored energy."""
+        """Relative error of the energy balance: residual divided by the sum of all terms and the stored energy."""
         # the balance is closed by the numerical dissipation `steps`
         taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
@@ -331,16 +332,16 @@ class OutputDeviation(Result):
     output: str
     """Name of the output."""
     ahead: float
-    """Maximum angle by which the output is ahead of that motion [rad], 0 or more."""
+    """Maximum angle by which the output is ahead of the motion with all drive flanks in contact [rad], 0 or more."""
     behind: float
-    """Maximum angle by which the output is behind that motion [rad], 0 or more."""
+    """Maximum angle by which the output is behind the motion with all drive flanks in contact [rad], 0 or more."""
     rms: float
     """Root mean square of the deviation [rad]."""
 
 
 @dataclass(frozen=True)
 class ConvergedFigure(Result):
-    """Result with time steps h and h/2, for a convergence check, and its confidence interval.
+    """Result of two simulations, with time steps h and h/2, for a convergence check.
 
     See Also
     --------
@@ -361,14 +362,14 @@ class ConvergedFigure(Result):
     A mean over the run converges with the time step. An extreme depends on single separations, which are chaotic.
     """
     converged: bool
-    """True if both values agree within the tolerance, and the confidence interval of a mean is not wider than the
+    """True if the two values agree within the tolerance and, for a mean, the confidence interval is not wider than the
     tolerance.
 
     The tolerance is 5 % of a mean, 1 % of an extreme, 0.005 for a fraction of time, and at least 1e-6 rad for an angle.
     """
     interval: float | None = None
-    """Half-width of the 95 % confidence interval of a mean, from batches of whole turns; None for an extreme, or for
-    fewer than 5 turns.
+    """Half-width of the 95 % confidence interval of a mean, from batches of whole turns. None for an extreme, and for a
+    run of fewer than 5 turns.
     """
 
 
@@ -382,10 +383,12 @@ class SpectrumPeak(Result):
     """
 
     order: float
-    """Number of periods per revolution of the driving link."""
+    """Number of vibration periods per revolution of the driving link."""
     frequency: float
-    """Frequency [Hz]."""
+    """Frequency of the line [Hz]."""
     amplitude: float
-    """Amplitude of the angle [rad]."""
+    """Amplitude of the output's angle at this frequency [rad]."""
     source: str
-    """Pair (or beat frequency) and harmonic at this frequency, such as `c2~d1 x1`; empty if none matches."""
+    """Pair (or beat frequency) and harmonic at this frequency, such as `c2~d1 x1`; empty if no source has this
+    frequency.
+    """

@@ -188,8 +188,8 @@ def step_to_separation(
     Returns
     -------
     SteppedSeparation
-        Input speed with its error, from successively shorter time steps at the positions where pairs carry the minimum
-        torque.
+        Input speed and the bound of its error. The time step is shortened successively at the positions where pairs
+        carry the minimum torque.
 
     Raises
     ------
@@ -281,13 +281,13 @@ class VibrationModes(Tabular, Result):
     damping: Floats
     """Damping ratio of each mode; 0 for modes of 0 Hz. Shape (mode,)."""
     shapes: LabelledArray
-    """Mode shapes: angles of links, normalised to a maximum of 1 in each mode. Shape (link, mode)."""
+    """Mode shapes: angle amplitudes of the links, normalised to a maximum of 1 in each mode. Shape (link, mode)."""
     stiffness: dict[str, float]
-    """Stiffness of each pair, as torsional stiffness about its driven side [N m/rad]."""
+    """Torsional stiffness of each pair about the axis of its driven side [N m/rad]."""
     notes: tuple[str, ...]
-    """Descriptions of the effects that are not included."""
+    """Descriptions of the effects that the analysis neglects."""
     assumed: tuple[str, ...]
-    """Descriptions of the estimates that replace missing declarations."""
+    """Descriptions of the estimates that were used for undeclared quantities."""
 
     def _summary(self) -> str:
         shown = ", ".join(f"{each:.4g}" for each in self.frequencies[:4])
@@ -295,7 +295,7 @@ class VibrationModes(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each mode: number, frequency, damping, and angles of links."""
+        """Table with a row for each mode: number, natural frequency, damping ratio, and angles of the links."""
         angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
         return {
             "mode": [*range(1, len(self.frequencies) + 1)],

@@ -42,7 +42,7 @@ class ConjugateToothForm(ToothForm):
 
     conjugate: ClassVar[bool] = True
     matched: ClassVar[str] = ""
-    """Description of the quantities that are made equal in comparisons of forms, in addition to the arcs of contact."""
+    """Description of the quantities, besides the arcs of contact, that a comparison makes equal for all tooth forms."""
 
     backlash: Length = Field(
         "0",
@@ -60,7 +60,7 @@ class ConjugateToothForm(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of results that includes the path of contact."""
+        """Return the class of the results of this form, which includes the path of contact."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateFigures
 
         return ConjugateFigures
@@ -210,7 +210,8 @@ class ConjugateToothForm(ToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair with the given arcs of contact. Raises `GearTrainError` if no such pair exists.
+        """Return the pair whose arcs of approach and recess have the given lengths. Raises `GearTrainError` if no such
+        pair exists.
 
         Parameters
         ----------
@@ -316,7 +317,7 @@ class ConjugateToothForm(ToothForm):
         return OffDesignTransmission(pair, distance, friction, driver, direction)
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return the declared centre distance if it differs from the design distance; otherwise None.
+        """Return the declared centre distance if it differs from the design distance.
 
         Parameters
         ----------

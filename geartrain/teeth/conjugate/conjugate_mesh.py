@@ -334,7 +334,7 @@ class PairDesign(Result):
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
-        """Pitch radii of gear 1 and gear 2 [module; rad for bevels]; negative for a ring gear."""
+        """Pitch radii of gear 1 and gear 2 [module; rad for bevel gears]; negative for a ring gear."""
         return self.path.pitch.R1, self.path.pitch.R2
 
     @cached_property

@@ -42,17 +42,20 @@ class ConjugatePair(Shown):
     path: PathOfContact
     """Path of contact of the pair."""
     halves: Halves
-    """Half the tooth thickness of gear 1 and gear 2 as an arc X on the pitch surface [module; rad for bevels]."""
+    """Half the tooth thickness of gear 1 and of gear 2, as an arc X on the pitch surface [module; rad for bevel gears].
+    """
     given: tuple[ToothFault, ...] | None = None
-    """Complete list of faults, for forms that determine it; None if the faults follow from path and thickness."""
+    """Complete list of design faults, if the tooth form determines the list; None if the faults follow from the path of
+    contact and the tooth thickness.
+    """
     extra: tuple[ToothFault, ...] = ()
-    """Faults in addition to those that follow from path and thickness."""
+    """Design faults in addition to those that follow from the path of contact and the tooth thickness."""
     solid: tuple[bool, bool] = (True, True)
-    """True for each of gear 1 and gear 2 that has teeth, False if it has round pins."""
+    """Flag for gear 1 and for gear 2: True if the gear has teeth, False if it has round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:
-        """Faults that prevent the pair from running; empty if it can run."""
+        """Design faults that prevent the pair from running; empty if the pair can run."""
         if self.given is not None:
             return self.given
         first, second = (half if solid else inf for half, solid in zip(self.halves, self.solid, strict=True))
@@ -60,12 +63,12 @@ class ConjugatePair(Shown):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess with gear 1 driving [module; rad for bevels]. One of them may be negative."""
+        """Arcs X of approach and recess with gear 1 driving [module; rad for bevel gears]. One arc may be negative."""
         return self.path.arcs
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface [module; rad for bevels]; 0 if it is within rounding errors."""
+        """Circumferential backlash on the pitch surface [module; rad for bevel gears]; 0 if within rounding errors."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -74,9 +77,10 @@ class ConjugatePair(Shown):
 class ConjugateTransmission(ExactRatio):
     """Transmission function of a conjugate gear pair at its design distance.
 
-    The speed ratio is constant. Tooth pairs in contact at the same time share the driver's torque equally, so that the
-    efficiency is the mean of their efficiencies, which are exact functions of friction. If the pair cannot run, the
-    function describes the flanks ignoring interference; it is NaN where no flanks touch.
+    The speed ratio is constant. Tooth pairs in contact at the same time are assumed to share the driver's torque
+    equally. The efficiency is therefore the mean of the efficiencies of these tooth pairs, which are exact functions of
+    the friction coefficient. If the pair cannot run, the function describes the motion of the flanks without regard to
+    interference. Its values are NaN where no flanks touch.
 
     Parameters
     ----------
@@ -107,7 +111,7 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict: the pair runs, or the fault that prevents it from running."""
+        """Verdict on the pair: either the pair runs, or a fault prevents it from running."""
         return verdict_of_faults(self.pair.faults, self._backlash)
 
     @property
@@ -134,7 +138,9 @@ class ConjugateTransmission(ExactRatio):
         return self._constant(S, self._advance)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error [rad], which are equal."""
+        """Return the minimum and the maximum of the transmission error [rad]. They are equal, because the speed ratio
+        is constant.
+        """
         return self._advance, self._advance
 
     def error_moments(self) -> tuple[float, float]:
@@ -143,13 +149,13 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess of the driver [module; rad for bevels]."""
+        """Arcs X of approach and recess of the driver [module; rad for bevel gears]."""
         approach, recess = self.pair.arcs
         return (approach, recess) if self.driver == 1 else (recess, approach)
 
     def contacts(self, S: ArrayLike) -> Floats:
-        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels]; negative in
-        approach.
+        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevel gears]; negative
+        in approach.
 
         Parameters
         ----------
@@ -201,7 +207,7 @@ class ConjugateTransmission(ExactRatio):
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds and friction terms of all tooth pairs in contact at driver angles S [rad].
+        """Return the sliding speeds and the friction terms of all tooth pairs in contact, at driver angles S [rad].
 
         The tooth pairs share the driver's torque equally.
         """

@@ -137,11 +137,11 @@ class CornerLag:
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevels]."""
+    """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
 
     z: int
     depth: float
-    """Radial extent of the active flank [module; rad for bevels]."""
+    """Radial extent of the active flank [module; rad for bevel gears]."""
     half_angle: float
     """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
     modules: float = 1.0

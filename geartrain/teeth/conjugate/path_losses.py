@@ -52,37 +52,42 @@ _STEP, _STEPS = 1.25, 40  # growth factor of the bracket, and maximum number of 
 
 @dataclass(frozen=True, slots=True)
 class PathLosses(Result):
-    """Loss, stress, heat and flash temperature of a path of contact, for one assumption on load sharing.
+    """Loss, stress, heat and flash temperature along a path of contact, for one assumption on the load sharing of tooth
+    pairs.
 
     All quantities are normalised by friction and load. Lengths are in modules, or in radians for bevel gears.
 
     See Also
     --------
-    measure : Computes them.
+    measure : Computes these quantities.
     """
 
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
 
     assumption: str
-    """Assumption on the load sharing of tooth pairs, in words."""
+    """Description of the assumption on the load sharing of tooth pairs."""
     loss: float
     """Mean loss divided by the friction coefficient, to first order.
 
-    One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path (Buckingham). Shared load: the mean over a
-    pitch (Ohlendorf).
+    If one tooth pair carries the load, this is the mean along its path, (A + B) (J_a + J_r) / (X_a + X_r) (Buckingham).
+    If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
     """
     stress: float
     """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite where psi is
     0.
     """
     off_pitch: float
-    """Maximum of the same quantity at contacts more than a tenth of a pitch away from the pitch point."""
+    """Maximum of the quantity in `stress` over contacts that are more than a tenth of a pitch away from the pitch
+    point.
+    """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
     Q.
     """
     flash: float
-    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature is proportional."""
+    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path; Blok's flash temperature is proportional to
+    this quantity.
+    """
 
     def over(self, other: PathLosses) -> dict[str, float]:
         """Return the ratio of each quantity to the same quantity of another path of contact.
@@ -97,11 +102,11 @@ class PathLosses(Result):
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures(Result):
-    """Losses, loads and geometry of one path of contact. Lengths in modules, or in radians for bevel gears.
+    """Losses, loads and geometry of one path of contact. Lengths are in modules, or in radians for bevel gears.
 
     See Also
     --------
-    measure : Computes them.
+    measure : Computes these quantities.
     """
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
@@ -111,9 +116,9 @@ class PathMeasures(Result):
     shared: PathLosses
     """Losses and loads if the tooth pairs in contact share the load equally."""
     depth: float
-    """Working depth |eta_a| + eta_r [module; rad for bevels]."""
+    """Working depth |eta_a| + eta_r [module; rad for bevel gears]."""
     slowest: float
-    """Minimum contact speed along a dedendum divided by the pitch-line speed."""
+    """Minimum speed of the contact point along a dedendum, divided by the pitch-line speed."""
     contact_ratio: float
     """Contact ratio: arc of contact divided by pitch."""
 
@@ -335,7 +340,7 @@ def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: 
 
 
 def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> Floats:
-    """Return the efficiency at contacts of conjugate teeth, an exact function of the friction coefficient.
+    """Return the efficiency of conjugate teeth at given contacts, as an exact function of the friction coefficient.
 
     Parameters
     ----------

@@ -242,8 +242,8 @@ def none(psi: float) -> PathSide:
 
 @dataclass(frozen=True)
 class PathContact(Shown):
-    """Contact quantities at pitch-line displacements X, as arrays of the same shape: approach at X < 0, recess at X >
-    0.
+    """Geometry, speeds, stress and heat of the contact at given pitch-line displacements X. All arrays have the same
+    shape; X < 0 is in approach, X > 0 in recess.
 
     See Also
     --------
@@ -251,48 +251,57 @@ class PathContact(Shown):
     """
 
     X: Floats
-    """Arc along the pitch surfaces from the pitch point [module; rad for bevels]."""
+    """Arc along the pitch surfaces from the pitch point [module; rad for bevel gears]."""
     d: Floats
-    """Signed distance from the pitch point [module; rad for bevels]."""
+    """Signed distance of the contact from the pitch point [module; rad for bevel gears]."""
     sin_psi: Floats
-    """Sine of the pressure angle."""
+    """Sine of the pressure angle psi."""
     cos_psi: Floats
-    """Cosine of the pressure angle."""
+    """Cosine of the pressure angle psi."""
     q: Floats
     """Derivative d(psi)/dX of the pressure angle [rad per module]."""
     w: Floats
     """Derivative d(S sin psi)/dd, where S is d, or sin d for bevel gears."""
     U1: Floats
-    """Speed of the contact along the profile of gear 1, divided by the pitch-line speed."""
+    """Speed of the contact point along the profile of gear 1, divided by the pitch-line speed."""
     U2: Floats
-    """Speed of the contact along the profile of gear 2, divided by the pitch-line speed."""
+    """Speed of the contact point along the profile of gear 2, divided by the pitch-line speed."""
     k1: Floats
-    """Curvature of the profile of gear 1, geodesic for bevel gears [1/module]; positive where the profile is convex."""
+    """Curvature of the profile of gear 1 [1/module]; positive where the profile is convex. For bevel gears, the
+    geodesic curvature on the sphere.
+    """
     k2: Floats
-    """Curvature of the profile of gear 2, geodesic for bevel gears [1/module]; negative where the profile is convex."""
+    """Curvature of the profile of gear 2 [1/module]; negative where the profile is convex. For bevel gears, the
+    geodesic curvature on the sphere.
+    """
     kr: Floats
-    """Relative curvature k1 - k2 [1/module]."""
+    """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Ratio kr / cos psi. The Hertzian pressure is proportional to its square root."""
+    """Ratio kr / cos psi. The Hertzian pressure is proportional to the square root of this ratio."""
     Q1: Floats
     """Frictional heat per area of the profile of gear 1, divided by friction coefficient times tangential force."""
     Q2: Floats
     """Frictional heat per area of the profile of gear 2, divided by friction coefficient times tangential force."""
     flash: Floats
-    """F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|. Blok's flash temperature of equal materials is proportional to it."""
+    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|. Blok's flash temperature of equal materials is proportional to
+    it.
+    """
     rub: Floats
-    """Quantity |S| / cos psi. The friction loss is proportional to its integral over X."""
+    """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to its integral
+    over X.
+    """
 
     @property
     def psi(self) -> Floats:
-        """Pressure angle [rad]."""
+        """Pressure angle at the contact [rad]."""
         found: Floats = np.arctan2(self.sin_psi, self.cos_psi)
         return found
 
 
 @dataclass(frozen=True)
 class PathOfContact(Shown):
-    """Path of contact of a pair: an approach side and a recess side. Lengths in modules, or in rad for bevel gears.
+    """Path of contact of a pair, with an approach side and a recess side. Lengths are in modules, or in rad for bevel
+    gears.
 
     See Also
     --------
@@ -308,15 +317,16 @@ class PathOfContact(Shown):
     """
 
     pitch: PitchSurfaces
-    """Pitch cylinders or cones of both gears."""
+    """Pitch surfaces of both gears: cylinders, or cones for bevel gears."""
     approach: PathSide
     """Approach side: the part of the path before the pitch point."""
     recess: PathSide
     """Recess side: the part of the path after the pitch point."""
     real: tuple[float, float] | None = None
-    """Arcs X of approach and recess in which the teeth touch, if they are shorter than the sides [module].
+    """Arcs X of approach and recess in which the teeth touch [module], if these arcs are shorter than the two sides.
 
-    One is negative if contact begins or ends beyond the pitch point. None if the teeth touch along both whole sides.
+    One of the arcs is negative if contact begins or ends beyond the pitch point. The field is None if the teeth touch
+    along the whole length of both sides.
     """
 
     @cached_property
@@ -325,7 +335,8 @@ class PathOfContact(Shown):
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
-        """Return the range of distances d in which the teeth touch on one side; None if they do not touch there.
+        """Return the range of distances d in which the teeth touch on one side; None if the teeth do not touch on that
+        side.
 
         Parameters
         ----------
@@ -348,7 +359,7 @@ class PathOfContact(Shown):
     def contact_ratio(self) -> float:
         """Contact ratio: arc of contact divided by pitch.
 
-        It is negative if the teeth do not reach each other.
+        The value is negative if the teeth do not reach each other.
         """
         return sum(self.arcs) / self.pitch.p
 
@@ -364,8 +375,8 @@ class PathOfContact(Shown):
         return (-approach, recess) if gear == 1 else (recess, -approach)
 
     def radii(self, gear: int) -> tuple[float, float]:
-        """Return the radii at which the active flank of a gear begins (root side) and ends (tip side) [module; rad for
-        bevels].
+        """Return the radii of the active flank of a gear at its beginning (root side) and its end (tip side) [module;
+        rad for bevel gears].
 
         Parameters
         ----------
@@ -376,7 +387,7 @@ class PathOfContact(Shown):
         return float(low), float(high)
 
     def at(self, X: ArrayLike) -> PathContact:
-        """Return the contact quantities at given arcs X.
+        """Return the contact quantities at given pitch-line displacements X.
 
         Parameters
         ----------
@@ -401,7 +412,7 @@ class PathOfContact(Shown):
         return self._contact(X, d, sine, q)
 
     def along(self, d: ArrayLike, recess: bool) -> PathContact:
-        """Return the contact quantities at given distances from the pitch point.
+        """Return the contact quantities at given distances d from the pitch point.
 
         Parameters
         ----------

@@ -83,7 +83,7 @@ class PitchSurfaces:
 
     @property
     def p(self) -> float:
-        """Circular pitch as an arc X [module; rad for bevels]."""
+        """Circular pitch as an arc X [module; rad for bevel gears]."""
         return 2 * pi * self.reach / self.z1
 
     @property

@@ -19,7 +19,7 @@ _MINIMUM_ANGLE = 1e-6  # rad: axes at a smaller angle are practically parallel, 
 
 @dataclass(frozen=True, slots=True)
 class WheelPair(Shown):
-    """Tooth numbers, axes and module of a pair of wheels with conjugate teeth.
+    """Tooth numbers, arrangement of the axes, and module of a pair of wheels with conjugate teeth.
 
     See Also
     --------
@@ -42,7 +42,7 @@ class WheelPair(Shown):
     shaft_angle: float | None = None
     """Shaft angle of bevel gears [rad]; None for parallel axes."""
     module: float | None = None
-    """Transverse module [m], in which all lengths of the pair are expressed; None if it is unknown."""
+    """Transverse module [m], the unit of length of the pair; None if the module is unknown."""
     helix: float = 0.0
     """Helix angle of helical wheels [rad], 0 or more."""
 
@@ -76,12 +76,14 @@ class WheelPair(Shown):
 
     @property
     def bevel(self) -> bool:
-        """True if the axes intersect."""
+        """True if the axes intersect, that is, for bevel gears."""
         return self.shaft_angle is not None
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """Pitch surfaces at the design distance. Raises `GearTrainError` if the wheels cannot form a pair."""
+        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` if the wheels cannot form a
+        pair.
+        """
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
         self.check()

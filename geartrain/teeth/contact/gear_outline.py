@@ -30,7 +30,7 @@ _STILL = 1e-3  # of its second derivative: a smaller slope does not determine th
 
 @dataclass(frozen=True)
 class OutlineCurve(Shown):
-    """Smooth curve of a tooth outline, from parameter `start` to `end`.
+    """Smooth curve of a tooth outline, as a function of a parameter from `start` to `end`.
 
     See Also
     --------
@@ -38,7 +38,7 @@ class OutlineCurve(Shown):
     """
 
     points: Callable[[Floats], Floats]
-    """Function from parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevels.
+    """Function that maps parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevel wheels.
 
     The x axis points forward, the y axis outward along the middle of the tooth, and the axle is at the origin. For
     bevel wheels the axis is along z.
@@ -64,7 +64,7 @@ class OutlineCurve(Shown):
         return np.asarray(self.points(np.asarray(t, dtype=float)), dtype=float)
 
     def polar(self, t: ArrayLike) -> Floats:
-        """Return radius and azimuth of points of the curve.
+        """Return the radius and the azimuth of points of the curve.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class OutlineCurve(Shown):
         return np.stack([np.arctan2(radius, points[:, 2]) if points.shape[1] == 3 else radius, np.arctan2(x, y)])
 
     def mapped(self, change: Callable[[Floats], Floats]) -> OutlineCurve:
-        """Return the curve with a transformation applied to its points.
+        """Return a curve whose points are the transformed points of this curve.
 
         Parameters
         ----------
@@ -98,7 +98,8 @@ class OutlineCurve(Shown):
 
 
 def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
-    """Return the straight segments through the given points; on the sphere, arcs of great circles.
+    """Return the straight segments that join the given points in order; on the sphere, the segments are great-circle
+    arcs.
 
     Parameters
     ----------
@@ -141,9 +142,10 @@ def _rotation(angle: float) -> Callable[[Floats], Floats]:
 
 @dataclass(frozen=True)
 class ToothFlanks(Shown):
-    """Flanks of a tooth, each a chain of curves from root to tip or from tip to root.
+    """Flanks of a tooth. Each flank is a chain of curves from root to tip or from tip to root.
 
-    Tip lands and bottoms can be omitted, because an arc about the axle never comes into contact before its ends.
+    Tip lands and bottom lands can be omitted, because an arc about the axle never comes into contact before its ends
+    do.
 
     See Also
     --------
@@ -151,9 +153,9 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Leading flank when the wheel turns forward, which has the larger azimuths."""
+    """Flank that leads when the wheel turns forward; its azimuths are larger than those of the other flank."""
     behind: tuple[OutlineCurve, ...]
-    """Trailing flank when the wheel turns forward."""
+    """Flank that trails when the wheel turns forward."""
 
     @classmethod
     def symmetric(cls, ahead: Sequence[OutlineCurve], middle: float = 0.0) -> ToothFlanks:
@@ -176,7 +178,7 @@ class ToothFlanks(Shown):
         return cls(tuple(ahead), behind)
 
     def mapped(self, change: Callable[[Floats], Floats]) -> ToothFlanks:
-        """Return the tooth with a transformation applied to every point.
+        """Return a tooth whose points are the transformed points of this tooth.
 
         Parameters
         ----------
@@ -191,7 +193,7 @@ class ToothFlanks(Shown):
         return ToothFlanks(*(tuple(curve.mapped(change) for curve in side) for side in (self.ahead, self.behind)))
 
     def turned(self, angle: float) -> ToothFlanks:
-        """Return the tooth rotated forward about the axle.
+        """Return the tooth rotated forward about the axle by an angle.
 
         Parameters
         ----------
@@ -208,7 +210,7 @@ class ToothFlanks(Shown):
 
 @dataclass(frozen=True)
 class GearOutline(Shown):
-    """Wheel with z teeth about its axle. Tooth k is rotated forward by k pitches.
+    """Outline of a wheel with z teeth about its axle. Tooth k is rotated forward by k pitches.
 
     Raises
     ------
@@ -225,11 +227,11 @@ class GearOutline(Shown):
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """Pitch deviations: angle by which each tooth is ahead of its nominal position [rad], z values; empty for equal
-    pitches.
+    """Pitch deviations [rad], z values: the angle by which each tooth is ahead of its nominal position. Empty if all
+    pitches are equal.
     """
     ring: bool = False
-    """True if the teeth point inwards."""
+    """True for a ring gear, whose teeth point inwards."""
 
     def __post_init__(self) -> None:
         for name, number, few in (("teeth", len(self.teeth), (1, self.z)), ("turns", len(self.turns), (0, self.z))):
@@ -247,7 +249,7 @@ class GearOutline(Shown):
 
     @property
     def pitch(self) -> float:
-        """Angular pitch [rad]."""
+        """Angular pitch of the teeth [rad]."""
         return 2 * pi / self.z
 
     @property
@@ -257,7 +259,7 @@ class GearOutline(Shown):
 
     @cached_property
     def bevel(self) -> bool:
-        """True if the points are on the sphere."""
+        """True for a bevel wheel, whose points are on the unit sphere."""
         curve = self.teeth[0].ahead[0]
         return bool(curve.at([curve.start]).shape[1] == 3)
 
@@ -272,7 +274,7 @@ class GearOutline(Shown):
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
-        """Return the same wheel on an eccentric axle, with a separate shape for each tooth.
+        """Return the wheel on an eccentric axle. Each tooth then has its own shape.
 
         Parameters
         ----------

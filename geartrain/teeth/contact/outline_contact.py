@@ -199,8 +199,7 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
 
 @dataclass(frozen=True, slots=True)
 class FlankContact(Shown):
-    """Position of the driven wheel in contact with one flank of the driver's teeth. Arrays have the shape of the driver
-    angles.
+    """Contact of the driven wheel with one flank of the driver's teeth. Arrays have the shape of the driver angles.
 
     See Also
     --------
@@ -208,26 +207,29 @@ class FlankContact(Shown):
     """
 
     angle: Floats
-    """Driven angle [rad]; NaN where no tooth is within reach."""
+    """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
     """Speed ratio: derivative of the driven angle with respect to the driver angle."""
     pair: Indices
-    """Number of the driver's tooth in contact, counted forward from tooth 0 without wrapping around."""
+    """Number of the driver's tooth that is in contact. Teeth are counted forward from tooth 0, beyond z after a
+    revolution.
+    """
     kind: Indices
-    """Kind of contact, an index into `KINDS`: flanks or corners."""
+    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`."""
     radius1: Floats
-    """Radius of the contact about the driver's axle, in the unit of the outlines; polar angle [rad] for bevel wheels.
+    """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
     radius2: Floats
-    """Radius of the contact about the driven axle, in the unit of the outlines; polar angle [rad] for bevel wheels."""
+    """Distance of the contact from the driven axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
+    """
     sharing: Indices
-    """Number of tooth pairs within the tolerance of contact."""
+    """Number of tooth pairs that are in contact within the tolerance."""
     curves: Indices
     """Numbers of the curves in contact on both outlines, counted through all teeth; -1 without contact. Shape (2, ...).
     """
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return the contact as plain data for JSON."""
         names = ("angle", "speed", "pair", "radius1", "radius2", "sharing")
         kinds = np.array([*KINDS, "none"])[self.kind].tolist()
         return {**{name: getattr(self, name).tolist() for name in names}, "kind": kinds}
@@ -249,25 +251,25 @@ class TwoFlankContact(Shown):
 
     @property
     def backlash(self) -> Floats:
-        """Backlash of the driven wheel [rad]. If it is negative, the teeth interfere by this angle."""
+        """Backlash of the driven wheel [rad]. If the value is negative, the teeth interfere by this angle."""
         found: Floats = self.back.angle - self.front.angle
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return both contacts as plain data for JSON."""
         return {"front": self.front.to_dict(), "back": self.back.to_dict(), "backlash": self.backlash.tolist()}
 
 
 def solve(
     first: GearOutline, second: GearOutline, distance: float, phi1: ArrayLike, within: float = 1e-9
 ) -> TwoFlankContact:
-    """Return the position of the second wheel for given angles of the first wheel, which drives.
+    """Return the contacts of two wheels on both flanks, at given angles of the first wheel, which drives.
 
     The driven angle is the maximum of the angles that the points of the driver's outline require. Normals and a path of
     contact are not used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
     polynomials to within rounding errors (`GearOutline.ahead.error`). At angles far from 0 the rounding of phi1 itself
-    dominates. Both angles are 0 where tooth 0 is on the line of centres, and increase forward; tooth 0 of the driver
-    pushes tooth 0 of the driven wheel.
+    dominates. The angle of each wheel is 0 where its tooth 0 is on the line of centres, and increases forward. Tooth 0
+    of the driver pushes tooth 0 of the driven wheel.
 
     Parameters
     ----------
@@ -321,7 +323,7 @@ def contact(
     side: Literal["front", "back"] = "front",
     within: float = 1e-9,
 ) -> FlankContact:
-    """Return the contact on one flank, in half the computing time of `solve`.
+    """Return the contact of two wheels on one flank only, in half the computing time of `solve`.
 
     Parameters
     ----------

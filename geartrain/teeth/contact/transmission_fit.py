@@ -168,7 +168,7 @@ def tabulate(
     tolerance: float = 1e-12,
     side: Literal["front", "back"] = "front",
 ) -> PiecewiseTransmission:
-    """Return the transmission function of one flank of two wheels, fitted by polynomials between its kinks.
+    """Return the transmission function of two wheels in contact on one flank, fitted by polynomials between its kinks.
 
     Parameters
     ----------

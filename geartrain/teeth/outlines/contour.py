@@ -23,7 +23,7 @@ _MINIMUM_STEP = 2 * pi / 65536  # minimum angle of a chord (rad), which bounds t
 
 @dataclass(frozen=True, slots=True)
 class Contour(Shown):
-    """Closed curve of straight edges and circular arcs, stored with bulges as in DXF.
+    """Closed curve of straight edges and circular arcs. Arcs are stored as bulges, as in DXF.
 
     Examples
     --------
@@ -32,10 +32,10 @@ class Contour(Shown):
     """
 
     points: Floats
-    """Vertices (n, 2) [mm]; the last one is joined to the first."""
+    """Vertices of the contour, shape (n, 2) [mm]; the last vertex is joined to the first."""
     bulges: Floats
-    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4), 0 if straight, positive if it turns
-    left.
+    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4). It is 0 for a straight edge and
+    positive for an edge that turns left.
     """
 
     @classmethod
@@ -53,7 +53,7 @@ class Contour(Shown):
 
     @classmethod
     def circle(cls, radius: float, centre: tuple[float, float] = (0.0, 0.0)) -> Contour:
-        """Return a circle, as two half circles.
+        """Return a circular contour, made of two half circles.
 
         Parameters
         ----------
@@ -81,10 +81,11 @@ class Contour(Shown):
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
     def moments(self) -> tuple[float, float]:
-        """Return area [mm2] and polar second moment about the origin [mm4], computed exactly by Green's theorem.
+        """Return the enclosed area [mm2] and its polar second moment about the origin [mm4], computed exactly by
+        Green's theorem.
 
-        The result is the sum of the polygon of the vertices and the circular segments of all arcs. It is negative if
-        the contour is clockwise.
+        Each result is the value of the polygon of the vertices plus the values of the circular segments of all arcs.
+        Both results are negative if the contour is clockwise.
         """
         (x, y), (u, v) = self.points.T, np.roll(self.points, -1, axis=0).T
         cross = x * v - y * u
@@ -97,7 +98,7 @@ class Contour(Shown):
         return area, polar
 
     def flattened(self, tolerance: float) -> Floats:
-        """Return points of a polygon that deviates from the contour by at most `tolerance`.
+        """Return the vertices of a polygon that deviates from the contour by at most `tolerance`.
 
         A circle has at most 65 536 points; for radii above some kilometres the deviation is larger.
 

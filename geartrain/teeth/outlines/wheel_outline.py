@@ -24,7 +24,7 @@ _THIN = 0.1  # modules: minimum wall between bore and root circle
 
 @dataclass(frozen=True, slots=True)
 class BlankSizes:
-    """Manufacturing data of a wheel other than its teeth. Lengths in mm.
+    """Manufacturing data of a wheel that its tooth form does not define. Lengths are in mm.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def _diameter(radius: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class WheelOutline(Result):
-    """Outline and sizes of a wheel at scale 1:1. Lengths in mm.
+    """Outline and sizes of a wheel at scale 1:1. Lengths are in mm.
 
     See Also
     --------
@@ -100,15 +100,16 @@ class WheelOutline(Result):
     kind: str
     """Kind of wheel: external, ring or pins."""
     contours: tuple[Contour, ...]
-    """Contours [mm], first the outer one, then holes; the axle is at (0, 0), and a tooth or a pin on the x axis."""
+    """Contours [mm]: the outer contour, then the holes. The axle is at (0, 0), and a tooth or a pin is on the x axis.
+    """
     module: float
-    """Module [mm]."""
+    """Module of the wheel [mm]."""
     pitch_radius: float
-    """Pitch radius [mm]."""
+    """Pitch radius of the wheel [mm]."""
     tip_radius: float
-    """Tip radius [mm]."""
+    """Tip radius of the wheel [mm]."""
     root_radius: float
-    """Root radius [mm]."""
+    """Root radius of the wheel [mm]."""
     thickness: float
     """Thickness of a tooth along the pitch circle [mm]."""
     fillet: float

@@ -225,11 +225,11 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow(Shown):
-    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, both as
+    """Range of clearances, from `jam` to `run`, in which a pair of triangular teeth turns. The bounds are values of
     `TriangularSizes.excess`.
 
-    It is false if `run` is below `jam`, so that the pair turns at no clearance. If a pair turns in several ranges of
-    clearance, this is the first range.
+    The truth value of a window is False if `run` is below `jam`: the pair then turns at no clearance. If a pair turns
+    in several ranges of clearance, the window is the first range.
 
     See Also
     --------
@@ -237,17 +237,17 @@ class ClearanceWindow(Shown):
     """
 
     jam: float
-    """Excess up to which the pair cannot turn."""
+    """Lower bound of the window: at a smaller excess the pair cannot turn."""
     run: float
-    """Excess up to which the pair runs."""
+    """Upper bound of the window: maximum excess at which the pair runs."""
     run_kind: Literal["clash", "dwell"]
-    """Kind of the verdict at clearances above `run`."""
+    """Kind of the verdict on the pair if its excess is above `run`."""
     reach: float
-    """Excess above which the tips do not touch."""
+    """Excess above which the tips of the two wheels do not touch."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """Kind of the verdict at clearances below `jam`."""
+    """Kind of the verdict on the pair if its excess is below `jam`."""
     side: int = 1
-    """Sign: 1 for an external pair, -1 for an internal pair, whose clearance factors are below 1."""
+    """Sign of the pair: 1 if external, -1 if internal. The clearance factors of an internal pair are below 1."""
 
     def factor(self, excess: float) -> float:
         """Return the clearance factor for a given excess.
@@ -255,7 +255,7 @@ class ClearanceWindow(Shown):
         Parameters
         ----------
         excess : float
-            Fraction as in `TriangularSizes.excess`.
+            Relative deviation of the centre distance, as in `TriangularSizes.excess`.
         """
         return 1 + self.side * excess
 
@@ -283,7 +283,7 @@ class ClearanceWindow(Shown):
         return bool(self.jam < self.run)
 
     def at(self, fraction: float) -> float:
-        """Return the excess at a fraction of the window.
+        """Return the excess at a given fraction of the window.
 
         Parameters
         ----------
@@ -294,9 +294,9 @@ class ClearanceWindow(Shown):
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Return the clearance window of a pair, which does not depend on the pair's own clearance.
+    """Return the clearance window of a pair. The declared clearance of the pair has no effect on it.
 
-    The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
+    The bounds are roots of the backlash of the coast flanks and of the margins at entry and exit, found by bracketing.
 
     Parameters
     ----------

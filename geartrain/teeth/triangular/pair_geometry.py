@@ -55,11 +55,12 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes(Shown):
-    """Geometry of a pair of wheels with triangular teeth, with the first wheel driving. All lengths are in the same
+    """Geometry of a pair of wheels with triangular teeth, of which the first drives. All lengths are in the same
     arbitrary unit.
 
-    At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance R1 + R2 - (the smaller
-    depth) of an external pair, and the maximum distance R_ring - R_pinion + (the smaller depth) of an internal pair.
+    At `deepest_distance` a tip touches the bottom between two teeth. For an external pair this is the minimum centre
+    distance, R1 + R2 - (the smaller depth). For an internal pair it is the maximum centre distance, R_ring - R_pinion +
+    (the smaller depth).
 
     Raises
     ------
@@ -93,7 +94,7 @@ class TriangularSizes(Shown):
     beta2: float
     """Half aperture angle of the teeth of the second wheel [rad]."""
     excess: float
-    """Deviation of the centre distance from `deepest_distance`, as a fraction of it.
+    """Relative deviation of the centre distance from `deepest_distance`.
 
     D = (1 + excess) deepest_distance for an external pair. D = (1 - excess) deepest_distance for an internal pair,
     whose clearance factor is below 1.
@@ -119,12 +120,14 @@ class TriangularSizes(Shown):
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Signs of tooth number and radius of both wheels in the equations of external pairs; -1 for a ring gear."""
+        """Sign of the tooth number and radius of each wheel in the equations for external pairs; -1 for a ring gear,
+        otherwise 1.
+        """
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
     def side(self) -> int:
-        """Sign of the centre distance and of alpha_2: 1 for an external pair, -1 for an internal pair."""
+        """Sign of the centre distance and of the angle alpha_2: 1 for an external pair, -1 for an internal pair."""
         return -1 if self.ring else 1
 
     @property
@@ -166,20 +169,22 @@ class TriangularSizes(Shown):
 
     @property
     def pitch_sum(self) -> int:
-        """Sum z1 + z2, or the difference for an internal pair. D divided by it is half the working module."""
+        """Sum z1 + z2, or the difference for an internal pair. The centre distance divided by this value is half the
+        working module.
+        """
         return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle, so that the pinion's teeth have no free
+        """True if the tip circles of an internal pair overlap at every angle. The pinion's teeth then have no free
         space.
         """
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property
     def clearance_factor(self) -> float:
-        """Clearance factor: centre distance divided by `deepest_distance`, above 1 for external pairs, below 1 for
-        internal pairs.
+        """Clearance factor: centre distance divided by `deepest_distance`. It is above 1 for external pairs and below 1
+        for internal pairs.
         """
         return self.factor(self.excess)
 
@@ -195,7 +200,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def delta(self) -> float:
-        """Overlap of the tip circles in the common length unit; 0 or less if no teeth can touch."""
+        """Overlap of the tip circles, in the common length unit; 0 or less if the teeth cannot touch."""
         # R1 + R2 - D would cancel at large tooth numbers
         return min(self.depths) - self.excess * self.deepest_distance
 
@@ -226,10 +231,11 @@ class TriangularSizes(Shown):
 
     @cached_property
     def matching(self) -> float:
-        """Matching position alpha_1m of Eq. (10) [rad], at which the flanks coincide; also for unequal aperture angles.
+        """Matching position alpha_1m of Eq. (10) [rad], at which the flanks coincide. It is also defined for unequal
+        aperture angles.
 
-        Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The sine of alpha_1m
-        is written without the difference of nearly equal angles. Infinite if no such position exists.
+        Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
+        sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
         """
         mirror, D, R2 = self.signs[0], self.side * self.D, self.signed_radii[1]
         first = mirror * sin(self.beta1)
@@ -245,8 +251,8 @@ class TriangularSizes(Shown):
     def lean(self) -> tuple[bool, bool]:
         """Overhang of the flanks of both wheels: True if they extend beyond the perpendicular where tips meet.
 
-        This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn in
-        the same sense.
+        Flanks overhang in wheels with few, deep teeth. They never overhang in an internal pair, because flank and
+        driven radius turn in the same sense.
         """
         if self.ring:
             return False, False
@@ -257,7 +263,8 @@ class TriangularSizes(Shown):
     def entry(self) -> float:
         """Angle alpha_1 at which a tooth pair comes into contact [rad].
 
-        It is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that position.
+        The angle is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that
+        position.
         """
         if not self.lean[0]:
             return self.reach1
@@ -267,7 +274,7 @@ class TriangularSizes(Shown):
     def exit(self) -> float:
         """Angle alpha_1 at which a tooth pair ceases to drive [rad].
 
-        It is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
+        The angle is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
         """
         if not self.lean[1]:
             return -self.reach1
@@ -287,7 +294,7 @@ class TriangularSizes(Shown):
         return all(0 < beta + sign * pi / z < pi / 2 for sign, z, beta in wheels)
 
     def swapped(self) -> TriangularSizes:
-        """Return the same pair with the second wheel driving."""
+        """Return the pair with the same sizes and the second wheel driving."""
         ring: Literal[0, 1, 2] = 2 if self.ring == 1 else 1 if self.ring == 2 else 0
         return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess, ring)
 

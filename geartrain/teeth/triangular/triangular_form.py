@@ -190,7 +190,7 @@ class Triangular(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of results that includes clearance, path of contact and impacts."""
+        """Return the class of the results of this form, which includes clearance, path of contact and impacts."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
         return TriangularFigures

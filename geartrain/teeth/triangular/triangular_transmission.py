@@ -44,8 +44,8 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
 class TriangularTransmission(TransmissionFunction):
     """Transmission function of a pair of wheels with triangular teeth.
 
-    If the driven wheel dwells in each pitch, the function includes these dwells. If the pair jams or clashes, the
-    function describes only the drive flanks.
+    The function includes the dwells of the driven wheel, if any. If the pair jams or clashes, the function describes
+    only the contact of the drive flanks.
 
     Parameters
     ----------
@@ -78,7 +78,9 @@ class TriangularTransmission(TransmissionFunction):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Drive intervals of the real path of contact in order of time, over one pitch of the driver."""
+        """Intervals of the real path of contact in which a tooth pair drives, in order of time, over one pitch of the
+        driver.
+        """
         return self.contact.intervals
 
     @property
@@ -141,8 +143,8 @@ class TriangularTransmission(TransmissionFunction):
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission error [rad of the driven wheel] and speed ratio tau. Each angle is located in the path
-        only once.
+        """Return the transmission error [rad of the driven wheel] and the speed ratio tau, with one search of the path
+        for both.
         """
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
@@ -247,8 +249,8 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals (interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of tau and the line
-        of centres.
+        """Smooth intervals of the path (interval, alpha_1 at start, alpha_1 at end), divided at kinks, extrema of tau
+        and the line of centres.
         """
         return [
             (interval, high, low)
@@ -277,7 +279,7 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Quadrature nodes alpha_1 of each smooth interval [rad], and weights whose total is 1."""
+        """Quadrature nodes alpha_1 of each smooth interval [rad], and their weights; the sum of all weights is 1."""
         return [node for stretch in self.stretches for node in self._adaptive_nodes(self._tau, *stretch)]
 
     def _adaptive_nodes(
@@ -310,7 +312,7 @@ class TriangularTransmission(TransmissionFunction):
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum of tau, which is monotonic in each smooth interval."""
+        """Return the minimum and the maximum of the speed ratio tau, which is monotonic in each smooth interval."""
         ends = self._end_values(self._tau)
         return min(ends), max(ends)
 
@@ -335,7 +337,7 @@ class TriangularTransmission(TransmissionFunction):
     def efficiency_mean(self) -> float:
         """Return the mean efficiency over the driver angles with contact at constant driver torque, Eq. (34).
 
-        It is NaN if friction locks the teeth.
+        The mean is NaN if friction locks the teeth.
         """
         if self.friction >= self.locking_friction:
             return nan
@@ -373,9 +375,10 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient that locks a point of the real path; infinite if no coefficient locks one.
+        """Minimum friction coefficient that locks the pair at some point of the real path; infinite if the pair never
+        locks.
 
-        Friction locks where f tan = 1 before the line of centres.
+        Friction locks the pair at a point before the line of centres where f tan = 1.
         """
         steepest = 0.0
         for interval, high, low in self.stretches:
@@ -388,7 +391,9 @@ class TriangularTransmission(TransmissionFunction):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Return the maximum of d tau / d alpha_1 [1/rad]. As alpha_1 decreases with time, tau then decreases."""
+        """Return the maximum of d tau / d alpha_1 [1/rad]. As alpha_1 decreases with time, tau decreases where this
+        derivative is positive.
+        """
         tooth_pair = self.contact.path.tooth_pair
         steepest = 0.0
         for interval, high, low in self.stretches:

@@ -39,10 +39,10 @@ _SIZED, _NAMED = 0.055, 0.2  # minimum shares of a bar for the size, and for siz
 
 
 def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
-    """Draw a stacked bar for each pointer with the share of each cause of its error, the pointer with the largest error
-    at the top.
+    """Draw a stacked bar for each pointer, with the contribution of each cause to its error. The pointer with the
+    largest error is at the top.
 
-    For a single pointer, draw a bar in degrees for each cause, the largest at the top.
+    If there is only one pointer, the figure has a bar in degrees for each cause, with the largest at the top.
 
     Parameters
     ----------

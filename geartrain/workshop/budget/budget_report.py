@@ -17,7 +17,7 @@ _PAIRS = 5  # maximum number of pairs listed for each pointer
 
 
 def describe_budget(found: TrainBudget) -> Document:
-    """Return the report on the causes of each pointer's error, in descending order, and on missing data.
+    """Return the report on the causes of each pointer's error, in descending order of size, and on missing data.
 
     Parameters
     ----------

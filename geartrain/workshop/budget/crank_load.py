@@ -67,7 +67,7 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
 
 @dataclass(frozen=True, slots=True)
 class WeightDrive(Result):
-    """Torque of a driving weight at its drum, and the resulting torque at the escape wheel over a run.
+    """Torque of a driving weight at its drum, and the torque that it produces at the escape wheel over a run.
 
     See Also
     --------
@@ -77,13 +77,13 @@ class WeightDrive(Result):
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
     link: str
-    """Name of the link of the drum."""
+    """Name of the link that carries the drum."""
     torque: float
-    """Torque of the weight [N m]: mass times gravity times the radius at which the line acts."""
+    """Torque of the weight on the drum [N m]: mass times gravity times the radius at which the line acts."""
     needed: float | None = None
-    """Torque that starts the train from its worst position under its declared loads [N m].
+    """Torque at the drum that starts the train from its worst position under its declared loads [N m].
 
-    None without declared loads, or if friction locks the train.
+    The value is None without declared loads, or if friction locks the train.
     """
     wheel: str | None = None
     """Name of the escape wheel's link; None without an escapement, or if loads are declared."""
@@ -96,7 +96,7 @@ class WeightDrive(Result):
 
     @property
     def suffices(self) -> bool | None:
-        """True if the weight starts the train from its worst position; None if this is unknown."""
+        """True if the weight can start the train from its worst position; None if the required torque is unknown."""
         return None if self.needed is None else self.torque >= self.needed
 
 
@@ -150,23 +150,24 @@ class CrankLoad(Result):
     torque: float | None
     """Torque under the declared loads [N m, or the unit of the loads]; None without loads.
 
-    It is positive if it acts in the sense of rotation of the link and so supplies power, as in `over_turn`.
+    The torque is positive if it acts in the sense of rotation of the link and therefore supplies power, as in
+    `over_turn`.
     """
     efficiency: float | None
-    """Output power divided by input power; None if neither friction nor an efficiency is declared, or if it is
+    """Output power divided by input power. None if neither friction nor an efficiency is declared, or if the value is
     undetermined.
     """
     note: str
     """Note on the loads that apply, or on missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)
-    """Pointer -> efficiency of the train if it drives only this pointer.
+    """Mapping from pointer to the efficiency of the train if only this pointer is driven.
 
     Pointers that cannot be driven are omitted. The mapping is empty without friction.
     """
     over_turn: TorqueCycle | None = None
-    """Torque at each position of the natural run; None without loads."""
+    """Torque at each position of the natural run of the train; None without loads."""
     weight: WeightDrive | None = None
-    """Weight that drives the train; None if it is driven otherwise."""
+    """Results for the weight that drives the train; None if no weight drives it."""
 
 
 def find_crank_load(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:

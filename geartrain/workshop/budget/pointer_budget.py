@@ -28,7 +28,7 @@ MEASURES: Mapping[CauseName, str] = {
 
 @dataclass(frozen=True, slots=True)
 class BudgetCause(Result):
-    """Contribution of one cause to a pointer's error.
+    """Contribution of one cause to the error of a pointer.
 
     See Also
     --------
@@ -42,15 +42,15 @@ class BudgetCause(Result):
     declared: Declared
     """Completeness of the declared data for this cause: "whole", "part" or "not declared"."""
     degrees: float | None = None
-    """Size of the error as defined by `measure` [deg]; None if no data are declared."""
+    """Size of this contribution as defined by `measure` [deg]; None if no data are declared."""
     rms: float | None = None
-    """Root mean square [deg]: of the deviation from the mean for a drift and for cutting, of the value itself for lost
-    motion.
+    """Root mean square of the contribution [deg]. For a drift and for cutting, it is taken of the deviation from the
+    mean; for lost motion, of the value itself.
     """
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 
-    It is None if the pointer does not turn, or if no unit of time is declared.
+    The value is None if the pointer does not turn, or if no unit of time is declared.
     """
     interval: tuple[float, float] | None = None
     """95 % confidence interval of `degrees` [deg]; None if the value is not a statistical estimate."""
@@ -59,7 +59,7 @@ class BudgetCause(Result):
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause of unknown size, for which no data are declared.
+        """Return a cause whose size is unknown because no data are declared for it.
 
         Parameters
         ----------
@@ -84,14 +84,14 @@ class BudgetCause(Result):
 
     @property
     def measure(self) -> str:
-        """Quantity given by `degrees`: drift over the span, peak-to-peak value, maximum, or central 95 % range."""
+        """Definition of `degrees`: drift over the span, peak-to-peak value, maximum, or central 95 % range."""
         return MEASURES[self.name]
 
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer relative to one of its targets, due to the error of its mean speed; positive if the pointer is
-    fast.
+    """Drift of a pointer relative to one of its targets, due to the error of the pointer's mean speed; positive if the
+    pointer is fast.
 
     See Also
     --------
@@ -99,22 +99,22 @@ class RatioDrift(Result):
     """
 
     target: str
-    """Description of the target."""
+    """Description of the target to which the drift is relative."""
     ppm: float | None
-    """Relative error of the speed [parts per million]; None if the target is 0."""
+    """Relative error of the pointer's mean speed [parts per million]; None if the target is 0."""
     degrees_per_turn: float | None
-    """Angle gained per turn of the pointer [deg]; None if the target is 0."""
+    """Drift per turn of the pointer [deg]; None if the target is 0."""
     degrees_per_year: float | None
-    """Angle gained in 365.25 days [deg]; None if the train's unit is not a time."""
+    """Drift in 365.25 days [deg]; None if the train's unit is not a time."""
     degrees_per_century: float | None
-    """Angle gained in 36525 days [deg]; None if the train's unit is not a time."""
+    """Drift in 36525 days [deg]; None if the train's unit is not a time."""
     degrees_over_span: float | None
-    """Angle gained over the span of the budget [deg]; None if the train's unit is not a time."""
+    """Drift over the span of the budget [deg]; None if the train's unit is not a time."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerBudget(Result):
-    """Error budget of one pointer: the size of each cause.
+    """Error budget of one pointer, which lists the size of each cause of its error.
 
     Examples
     --------
@@ -139,38 +139,42 @@ class PointerBudget(Result):
     relative_to: str
     """Name of the link relative to which the pointer is read."""
     speed: SpeedValue | None
-    """Mean speed relative to that link [the train's unit]."""
+    """Mean speed of the pointer relative to the link `relative_to`, in the unit of the train."""
     degrees_per_day: float | None
-    """Absolute mean speed [deg/d]; None if the train's unit is not a time."""
+    """Magnitude of the mean speed [deg/d]; None if the train's unit is not a time."""
     causes: tuple[BudgetCause, ...]
     """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift relative to each target. The first target is used for the cause "ratio"."""
+    """Drift of the pointer relative to each target. The drift relative to the first target is the size of the cause
+    "ratio".
+    """
     pairs: Mapping[str, float] | None = None
-    """Pair -> peak-to-peak error due to its teeth only [deg], in descending order; None if unknown."""
+    """Mapping from pair to the peak-to-peak pointer error due to the teeth of that pair only [deg], in descending
+    order; None if unknown.
+    """
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
 
     @property
     def ranked(self) -> tuple[BudgetCause, ...]:
-        """Causes with known size, in descending order."""
+        """Causes whose size is known, in descending order of size."""
         known = [cause for cause in self.causes if cause.degrees is not None]
         return tuple(sorted(known, key=lambda cause: -(cause.degrees or 0.0)))
 
     @property
     def ranking(self) -> tuple[str, ...]:
-        """Names of the causes with known size, in descending order."""
+        """Names of the causes whose size is known, in descending order of size."""
         return tuple(cause.name for cause in self.ranked)
 
     @property
     def undeclared(self) -> tuple[BudgetCause, ...]:
-        """Causes with unknown size."""
+        """Causes whose size is unknown."""
         return tuple(cause for cause in self.causes if cause.degrees is None)
 
     @property
     def total(self) -> float:
-        """Sum of the sizes of all known causes, an upper bound on the error [deg]."""
+        """Sum of the sizes of all known causes [deg], which is an upper bound of their combined error."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property
@@ -226,9 +230,9 @@ class TrainBudget(Tabular, Pictured, Result):
     span_days: float
     """Time span over which drifts are evaluated [d]."""
     turns: float
-    """Number of turns of the input over which teeth and lost motion are evaluated."""
+    """Number of turns of the input over which transmission errors and lost motion are evaluated."""
     samples: int
-    """Number of positions of the input at which teeth are evaluated."""
+    """Number of positions of the input at which transmission errors are evaluated."""
     driving_link: str
     """Name of the driving link."""
     pointers: tuple[PointerBudget, ...]
@@ -238,9 +242,10 @@ class TrainBudget(Tabular, Pictured, Result):
     jams: tuple[ClearanceCase, ...] = ()
     """Probability that wheels with cutting errors jam, for each clearance; empty if no cutting errors are declared."""
     jams_note: str = ""
-    """Reason why `jams` is empty; "" if it is not."""
+    """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()
-    """Pairs whose driver temporarily reverses, which is not included in their lost motion."""
+    """Names of pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal.
+    """
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)

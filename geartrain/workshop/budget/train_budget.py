@@ -61,7 +61,7 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
 @dataclass(frozen=True)
 class BudgetQuestion:
-    """Options of an error budget: outputs, span, run and trials.
+    """Options of an error budget: outputs, time span, run of the input, and trials with cutting errors.
 
     Examples
     --------
@@ -72,13 +72,13 @@ class BudgetQuestion:
     outputs: tuple[str, ...] = ()
     """Names of outputs; by default all outputs with a target or a dial, or all outputs if none has one."""
     without: tuple[str, ...] = ()
-    """Names of pairs to ignore, so that real teeth do not overconstrain a loop."""
+    """Names of pairs to ignore; real teeth in every pair could overconstrain a loop."""
     span_days: float = SAROS
     """Time span over which drifts are evaluated [d], above 0 and below 1e9; by default one Saros."""
     turns: float = 20.0
-    """Number of turns of the input over which teeth are evaluated, above 0 and up to 1e6."""
+    """Number of turns of the input over which transmission errors are evaluated, above 0 and up to 1e6."""
     samples: int = 20_000
-    """Number of positions of the input in these turns, 2 or more."""
+    """Number of positions of the input within `turns`, 2 or more."""
     cutting: tuple[str, ...] = ()
     """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default the declared errors
     are used.
@@ -92,8 +92,8 @@ class BudgetQuestion:
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
     """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Output -> celestial body whose true motion it represents, if its name does not indicate the body; None for no
-    body.
+    """Mapping from output to the celestial body whose true motion it represents, for outputs whose name does not
+    indicate the body; None for no body.
     """
 
     def __post_init__(self) -> None:
@@ -124,7 +124,8 @@ def find_budget(
     Parameters
     ----------
     train : GearTrain
-        Train to analyse. Causes for which it declares no data are reported as not declared, and not counted as 0.
+        Train to analyse. Causes for which the train declares no data are reported as "not declared"; their size is not
+        set to 0.
     requested : BudgetQuestion, optional
         Pointers, span, positions and cutting errors.
     state : str, optional

@@ -96,7 +96,7 @@ class WheelErrors:
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """Parse cutting and mounting errors that replace the declared errors of a train from texts.
+    """Parse cutting and mounting errors, given as texts, that replace the declared errors of a train.
 
     Parameters
     ----------

@@ -199,7 +199,7 @@ def _turn(backlash: float | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class AssemblyStep(Shown):
-    """Step in the assembly of a train.
+    """One step in the assembly of a train.
 
     See Also
     --------
@@ -211,11 +211,11 @@ class AssemblyStep(Shown):
     parts: tuple[str, ...]
     """Names of the parts that are added in this step."""
     shown: bool = True
-    """True if the parts are shown in a picture. Hanging parts are too tall to be shown."""
+    """True if the picture of the step shows the parts. Hanging parts are too tall for a picture."""
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
-    """Return the assembly steps of a train, in order of height.
+    """Return the assembly steps of a train, from the arbors to the dials.
 
     The order is: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors, the front
     plate, dials.

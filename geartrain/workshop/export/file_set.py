@@ -61,7 +61,7 @@ Rows = Sequence[Sequence[object]]
 
 @dataclass(frozen=True, slots=True)
 class ExportFile(Shown):
-    """File of an export, whose content is computed on request.
+    """One file of an export. Its content is computed on request.
 
     See Also
     --------
@@ -69,11 +69,13 @@ class ExportFile(Shown):
     """
 
     path: str
-    """Path relative to the folder, with `/` as separator."""
+    """Path of the file relative to the export folder, with `/` as separator."""
     title: str
     """Description of the content of the file."""
     make: Callable[[], bytes]
-    """Function that returns the content as bytes, or raises `GearTrainError` if the content cannot be computed."""
+    """Function that returns the content of the file as bytes. It raises `GearTrainError` if the content cannot be
+    computed.
+    """
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
@@ -99,7 +101,7 @@ def _is_there(library: str) -> bool:
 
 
 def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
-    """Return the content of a single file with the whole train.
+    """Return the content of one file that contains the whole train.
 
     Parameters
     ----------
@@ -149,7 +151,7 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
 
 
 def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
-    """Return the content of a file with one wheel, for cutting or printing.
+    """Return the content of one file that contains one wheel, for cutting or printing.
 
     Parameters
     ----------
@@ -307,8 +309,8 @@ def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems that affect an export of these kinds of files, such as parts that cannot be made as laid out
-    or that are omitted, without duplicates.
+    """Return the problems that affect an export of the given kinds of files, without duplicates. Examples are parts
+    that cannot be made as laid out, and omitted parts.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ class ListedPart(Shown):
     mass: float
     """Mass of one part [g]."""
     fits: str
-    """Holes or seats, and the method of joining, as text."""
+    """Description of the holes or seats, and of the method of joining."""
 
     @property
     def count(self) -> int:

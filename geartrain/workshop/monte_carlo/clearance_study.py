@@ -38,15 +38,15 @@ class ClearanceCase(Result):
     clearance: float | None
     """Clearance factor (1 or more), or fraction of each pair's clearance window; None for the declared clearance."""
     scale: float
-    """Factor by which all errors are multiplied."""
+    """Factor by which all manufacturing errors are multiplied."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability of each event in any pair: jam, clash, stops (jam or clash), dwell, disengaged."""
+    """Probability that each event (jam, clash, stops (jam or clash), dwell, disengaged) occurs in at least one pair."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
     """Probability of each event by pair."""
 
     @property
     def rates(self) -> EventRates:
-        """Probability of each event in any pair, by name of the event."""
+        """Probability that an event occurs in at least one pair, by name of the event."""
         return cast("EventRates", self.events)
 
 
@@ -84,7 +84,8 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of each event at every clearance and every scale of the errors, with the same wheels.
+    """Return the probability of each event at every clearance and every scale of the errors. The same random wheels are
+    used for all of them.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ class FrictionSpread(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionPlan(Shown):
-    """Train with random friction, and the run that is evaluated in each trial.
+    """Train with random friction coefficients, and the run of the input that each trial evaluates.
 
     See Also
     --------
@@ -74,13 +74,13 @@ class FrictionPlan(Shown):
     """
 
     declared: Train
-    """Train as declared."""
+    """Train as declared, without random changes."""
     state: str | None
     """Name of the state; None for a train without states."""
     turns: float
     """Number of turns of the input in a run."""
     samples: int
-    """Number of positions in a run."""
+    """Number of positions of the input in a run."""
     of: str | None = None
     """Name of the link whose torque is computed; None for the crank."""
 
@@ -89,7 +89,7 @@ class FrictionPlan(Shown):
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the friction coefficients, by the train, pair or coupling that declares them."""
+        """Distributions of the friction coefficients, by the train, pair or coupling that declares each of them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     @cached_property
@@ -100,13 +100,15 @@ class FrictionPlan(Shown):
 
     @cached_property
     def study(self) -> FrictionStudy | None:
-        """Computation that is common to all trials in which the same sides drive; None if no computation is common."""
+        """Part of the computation that is common to all trials in which the same sides drive; None if nothing is
+        common.
+        """
         from geartrain.dynamics.turn.train_turn import study_friction
 
         return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)
 
     def follow(self, drawn: Train) -> CycleFigures:
-        """Return the torques and the efficiency of the run with the coefficients of one trial.
+        """Return the torques and the efficiency of the run with the friction coefficients of one trial.
 
         Parameters
         ----------
@@ -146,7 +148,7 @@ class FrictionPlan(Shown):
         return {name: value for name, value in self.__dict__.items() if name not in ("study", "_nominal")}
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
-        """Return the data by which a journal identifies a run: all data on which its results depend.
+        """Return all data on which the results depend. A journal identifies the run by these data.
 
         Parameters
         ----------
@@ -266,29 +268,29 @@ class TrialFigure(Result):
     KEYS = ("mean", "deviation", "percentiles")
 
     values: Floats
-    """Values of the result in the trials that have a value, in the order of the trials."""
+    """Values of the result in the order of the trials, without the trials in which it is undefined."""
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean with its 95 % confidence interval."""
+        """Mean of the values, with its 95 % confidence interval."""
         return mean_of(self.values)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation with its 95 % confidence interval."""
+        """Standard deviation of the values, with its 95 % confidence interval."""
         return deviation_of(self.values)
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentage -> percentile with its 95 % confidence interval. 95 % of the trials are between the outer two
-        percentiles.
+        """Mapping from percentage to the percentile with its 95 % confidence interval. 95 % of the values are between
+        the outer two percentiles.
         """
         return percentiles_of(self.values)
 
 
 @dataclass(frozen=True)
 class FrictionTrials(Result):
-    """Torque over a run in trials with random friction coefficients.
+    """Results of trials with random friction coefficients: the torque and the efficiency over a run.
 
     See Also
     --------
@@ -310,11 +312,11 @@ class FrictionTrials(Result):
     spreads: Mapping[str, FrictionSpread]
     """Distributions of the friction coefficients, by `train`, pair or coupling."""
     mean: TrialFigure
-    """Mean torque over the run, in trials that do not lock [N m, or the unit of the loads]."""
+    """Mean torque over the run, in the trials without locking [N m, or the unit of the loads]."""
     maximum: TrialFigure
-    """Maximum torque over the run, in trials that do not lock [N m, or the unit of the loads]."""
+    """Maximum torque over the run, in the trials without locking [N m, or the unit of the loads]."""
     starting: TrialFigure
-    """Starting torque, in trials that do not lock [N m, or the unit of the loads]."""
+    """Starting torque of the train, in the trials without locking [N m, or the unit of the loads]."""
     efficiency: TrialFigure
     """Efficiency over the run: output energy divided by input energy."""
     locks: ProbabilityEstimate

@@ -36,8 +36,8 @@ class PartialTrials(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
-    """Monte Carlo trials of one train, with optional results at other clearances, errors along a revolution and Sobol
-    indices, for reports and plots.
+    """Results of Monte Carlo trials of one train, for reports and plots. Optional parts are results at other
+    clearances, errors along a revolution and Sobol indices.
 
     See Also
     --------
@@ -69,9 +69,9 @@ class MonteCarloResult(Tabular, Pictured, Result):
     )
 
     trials: TrialResults
-    """Results of `run_trials`."""
+    """Results of the trials, from `run_trials`."""
     cleared: Sequence[ClearanceCase] = ()
-    """Results at other clearances, from `jamming_map`."""
+    """Event probabilities at other clearances, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
     """Pointer errors along a revolution, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
@@ -90,7 +90,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """Assumptions of the trials, one sentence each."""
+        """Assumptions of the trials, with one sentence for each."""
         return tuple(self._assumptions())
 
     def _assumptions(self) -> Iterator[str]:
@@ -137,17 +137,19 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def confidence(self) -> float:
-        """Confidence level of all intervals."""
+        """Confidence level of all confidence intervals."""
         return CONFIDENCE
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of the errors by wheel, kind and distribution, as fractions of pitch, half angle or depth."""
+        """Sizes of the cutting errors by wheel, kind and distribution, as fractions of the pitch, the half angle or the
+        tooth depth.
+        """
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
     def pair_errors(self) -> ErrorSizes:
-        """Sizes of the mounting errors by pair, kind and distribution, as fractions of tooth depth."""
+        """Sizes of the mounting errors by pair, kind and distribution, as fractions of the tooth depth."""
         return _sizes({pair.name: pair.fitting for pair in self.trials.plan.pairs})
 
     @property

@@ -52,7 +52,7 @@ class SobolIndex(Result):
 
 @dataclass(frozen=True, slots=True)
 class SobolIndices(Result):
-    """Sobol indices of the error of one output, by wheel or by kind of error.
+    """Sobol sensitivity indices of the pointer error of one output, by wheel or by kind of manufacturing error.
 
     See Also
     --------
@@ -62,13 +62,14 @@ class SobolIndices(Result):
     output: str
     """Name of the output."""
     by: By
-    """Grouping of errors into input variables: "wheel" for all errors of one wheel, "kind" for one kind of error of all
-    wheels.
+    """Grouping of the manufacturing errors into input variables: "wheel" for all errors of one wheel, "kind" for one
+    kind of error of all wheels.
     """
     trials: int
-    """Number of base samples with finite errors."""
+    """Number of base samples in which the pointer error is finite."""
     indices: tuple[SobolIndex, ...]
-    """Indices of each input variable, in descending order of the total index. "position" is the position of the input.
+    """Sobol indices of each input variable, in descending order of the total index. The variable "position" is the
+    position of the input.
     """
 
 
@@ -80,7 +81,7 @@ def find_sobol_indices(
     seed: int = 1,
     means: Execution | None = None,
 ) -> SobolIndices:
-    """Estimate the Sobol indices of an output's error at random positions of the input, by Saltelli's scheme.
+    """Estimate the Sobol indices of an output's pointer error at random positions of the input, by Saltelli's scheme.
 
     If a pair jams, the position of the output is determined by the drive flanks.
 
@@ -93,7 +94,8 @@ def find_sobol_indices(
     by : {"wheel", "kind"}
         Grouping of errors into input variables: all errors of one wheel, or one kind of error of all wheels.
     trials : int
-        Number of base samples, 1 to 10^9. Each base sample requires two trials, and one for each input variable.
+        Number of base samples, 1 to 10^9. Each base sample requires two trials, and one further trial for each input
+        variable.
     seed : int
         Random seed.
     means : Execution, optional

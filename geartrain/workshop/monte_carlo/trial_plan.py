@@ -311,15 +311,15 @@ class TrialPlan(Shown):
     wheels: tuple[WheelErrors, ...]
     """Wheels with cutting errors."""
     pairs: tuple[TrialPair, ...]
-    """Gear pairs of these wheels, with their sizes and mounting errors."""
+    """Gear pairs of the wheels with cutting errors, with the sizes and mounting errors of each pair."""
     composition: ErrorComposition
-    """Composed motion with perfect teeth, in which the trials replace the transmission functions."""
+    """Composed motion of the train with perfect teeth. Each trial replaces the transmission functions of its pairs."""
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
     """Speeds of the outputs relative to the input."""
     reach: tuple[tuple[int, ...], ...]
-    """Indices of the pairs on which each output depends."""
+    """Indices of the pairs that affect each output."""
     span: float
     """Range of the random positions of the input [turn]."""
     driving_link: str
@@ -332,7 +332,7 @@ class TrialPlan(Shown):
     def position(self) -> int:
         """Number of the random stream for the positions of the input.
 
-        The first streams are for the wheels, the next for the pairs, and the last for the positions.
+        The first streams belong to the wheels, the next streams to the pairs, and the last stream to the positions.
         """
         return len(self.wheels) + len(self.pairs)
 
@@ -369,7 +369,7 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
-        """Return all data on which the results depend, as plain data by which a journal identifies its run."""
+        """Return all data on which the results depend, as plain data. A journal identifies the run by these data."""
         return {
             "train": self.name,
             "wheels": [
@@ -410,7 +410,7 @@ def find_trial_plan(
     state : str, optional
         Name of a declared state. Required if the train declares states.
     without : sequence of str
-        Names of pairs to ignore, so that real teeth do not overconstrain a loop.
+        Names of pairs to ignore; real teeth in every pair could overconstrain a loop.
 
     Returns
     -------
@@ -420,7 +420,7 @@ def find_trial_plan(
     Raises
     ------
     QuestionError
-        If the train has no such teeth, or if no errors are given.
+        If the train has no triangular or conjugate teeth, or if no errors are given.
     RangeError
         If errors are larger than a tooth.
     GearTrainError

@@ -58,7 +58,7 @@ class TrialResults(Tabular):
     seed: int
     """Random seed of the trials."""
     wanted: int
-    """Number of requested trials, which is larger than `done` if the run was interrupted."""
+    """Number of requested trials. It is larger than `done` if the run was interrupted."""
     marks: Marks
     """Event flags of each pair, shape (trials, pairs): a bit mask of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not
     cuttable.
@@ -68,17 +68,17 @@ class TrialResults(Tabular):
     errors: Floats
     """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     first: Sequence[tuple[float, float, int]]
-    """Sums for each output: squared error of first-order superposition [rad^2], squared pointer error [rad^2], number
-    of trials.
+    """Sums over the trials for each output: squared error of first-order superposition [rad^2], squared pointer error
+    [rad^2], and number of trials.
     """
     sums: Sequence[Mapping[str, tuple[float, ...]]]
     """Sums over the trials for each output and pair, from which variance shares are computed: count, part, total,
     product.
     """
     bounds: Mapping[str, float] = field(default_factory=dict)
-    """Upper bound on the jam probability, 0 to 1, of each pair for which a bound is known."""
+    """Upper bound of the jam probability, 0 to 1, for each pair for which a bound is known."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Pointer errors along one revolution, for the outputs for which they were requested."""
+    """Pointer errors along one revolution, for the outputs for which a course was requested."""
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed to fit."""
 
@@ -106,7 +106,7 @@ class TrialResults(Tabular):
 
     @property
     def done(self) -> int:
-        """Number of completed trials, which is smaller than `wanted` if the run was interrupted."""
+        """Number of completed trials. It is smaller than `wanted` if the run was interrupted."""
         return len(self.turns)
 
     @property
@@ -276,9 +276,9 @@ class PairEventRates(Result):
     uncut: int
     """Number of trials with at least one wheel that cannot be cut."""
     backlash: float = nan
-    """Nominal backlash of wheels without errors [pitch of the driven wheel]; NaN for the train."""
+    """Backlash of the pair if its wheels have no errors [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
-    """Upper bound on the jam probability due to pitch deviations, 0 to 1; NaN if there are other errors."""
+    """Upper bound of the jam probability due to pitch deviations, 0 to 1; NaN if the pair has other errors."""
 
     @property
     def rates(self) -> EventRates:
@@ -339,7 +339,7 @@ class FirstOrderError(NamedTuple):
 class PointerErrorStatistics(Result):
     """Statistics of the pointer error of one output at random positions of the input.
 
-    The error is measured from the mean position with perfect teeth.
+    The pointer error is the deviation from the mean position that the pointer would have with perfect teeth.
 
     See Also
     --------
@@ -367,15 +367,17 @@ class PointerErrorStatistics(Result):
     of the trials.
     """
     all: Floats
-    """Pointer errors of all trials in which teeth touch [rad]; if a pair jams, the errors with its drive flanks in
-    contact.
+    """Pointer errors of all trials in which teeth touch [rad]. If a pair jams, the value is the error with the drive
+    flanks of that pair in contact.
     """
     stopped: int
     """Number of trials excluded from `errors`."""
     first: FirstOrderError
-    """Root mean square of the error from first-order superposition, and of the pointer error [rad]."""
+    """Root mean square of the error from first-order superposition, and root mean square of the pointer error [rad]."""
     shares: Mapping[str, float]
-    """Share of the variance due to each pair, from first-order superposition; the sum of the shares is 1."""
+    """Share of each pair in the variance of the pointer error, from first-order superposition; the sum of the shares
+    is 1.
+    """
 
     @property
     def runs(self) -> int:
@@ -384,12 +386,14 @@ class PointerErrorStatistics(Result):
 
     @property
     def kept(self) -> Floats:
-        """Errors used for the statistics [rad]: `errors`, or `all` if fewer than 30 trials can turn."""
+        """Errors from which the statistics are computed [rad]: `errors`, or `all` if the output can turn in fewer than
+        30 trials.
+        """
         return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
     def of_all(self) -> bool:
-        """True if fewer than 30 trials can turn, so that the statistics are computed from all trials."""
+        """True if the output can turn in fewer than 30 trials. The statistics are then computed from all trials."""
         return len(self.errors) < FEWEST
 
     @property
@@ -409,7 +413,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentage -> percentile of the pointer error [rad]."""
+        """Mapping from percentage to the percentile of the pointer error [rad]."""
         return percentiles_of(self.kept)
 
     @property
@@ -460,12 +464,12 @@ class PointerErrorCourse(Result):
 
     @property
     def count(self) -> int:
-        """Number of trials in the course."""
+        """Number of trials for which the course was computed."""
         return len(self.errors)
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentage -> percentile, over the trials, of the maximum absolute pointer error [rad]."""
+        """Mapping from percentage to the percentile, over the trials, of the maximum absolute pointer error [rad]."""
         return percentiles_of(self.maximum)
 
     @property

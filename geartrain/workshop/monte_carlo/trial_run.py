@@ -108,7 +108,7 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Run Monte Carlo trials of a train: in each trial, all wheels are cut anew and each pair turns through a full
+    """Run Monte Carlo trials of a train. Each trial draws new errors for all wheels and turns each pair through a full
     cycle.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt

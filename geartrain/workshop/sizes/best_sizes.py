@@ -36,7 +36,7 @@ _CELLS, _NODES = 24, 4  # cells of each smooth interval, and Gauss nodes in each
 
 @dataclass(frozen=True)
 class BestToothSizes(Tabular, Pictured, Result):
-    """Best sizes of a pair with triangular teeth, with other designs for comparison.
+    """Best sizes of a pair with triangular teeth, and other designs for comparison.
 
     See Also
     --------
@@ -63,25 +63,29 @@ class BestToothSizes(Tabular, Pictured, Result):
     aims: tuple[str, ...]
     """Objectives: one of `loss`, `error`, `impact` and `jam`, or two of them for a Pareto front."""
     free: Mapping[str, Range]
-    """Bounds of the free parameters; angles in rad."""
+    """Bounds of the free parameters, by name of the parameter; angles are in rad."""
     limits: tuple[SizeLimit, ...]
     """Limits that the designs must satisfy."""
     best: ToothSizes
     """Best design for the first objective."""
     outlines: OutlineAgreement
-    """Comparison of the best design with the results from its drawn outlines."""
+    """Comparison of the best design's results with the results that its drawn outlines give."""
     equal_depth: ToothSizes | None
-    """Pair with radii of equal depth, and with the window and half angles of `start`; None if it does not turn."""
+    """Design with tip radii for equally deep teeth, and with the window and half angles of `start`; None if it does not
+    turn.
+    """
     pitch_true: ToothSizes | None
-    """Pair with pitch-true radii, and with the window and half angles of `start`; None if it does not turn."""
+    """Design with tip radii in the ratio of the tooth numbers, and with the window and half angles of `start`; None if
+    it does not turn.
+    """
     front: tuple[ToothSizes, ...]
     """Pareto front of two objectives, from the best design for the first to the best design for the second; empty for
     one objective.
     """
     evaluations: int
-    """Number of designs evaluated."""
+    """Number of designs that the search evaluated."""
     stops: float | None
-    """Probability that the best design stops, 0 to 1; None if no limit on it was given."""
+    """Probability that the best design stops, 0 to 1; None if this probability was not limited."""
     tried: tuple[ToothSizes, ...]
     """Evaluated designs that turn and satisfy all limits."""
 
@@ -93,7 +97,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for the best design, the rule-based designs that turn, and the Pareto front; angles in
+        """Table with rows for the best design, the rule-based designs that turn, and the Pareto front; angles are in
         rad.
         """
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
@@ -224,8 +228,8 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Properties of a design computed from its transmission function and from the contact of its drawn outlines, for
-    comparison.
+    """Comparison of a design's properties according to its transmission function and according to the contact of its
+    drawn outlines.
 
     See Also
     --------
@@ -244,11 +248,11 @@ class OutlineAgreement(Result):
     backlash: tuple[float, float]
     """Backlash from the transmission function and from the outlines [rad of the driven wheel]."""
     turns: bool
-    """True if the outlines turn without a jam and without a loss of contact."""
+    """True if the drawn outlines turn without a jam and without a loss of contact."""
 
     @property
     def difference(self) -> float:
-        """Maximum of `differences` [1]."""
+        """Maximum relative difference of all properties [1]."""
         return max(self.differences.values())
 
     @property

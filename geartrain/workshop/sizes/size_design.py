@@ -65,11 +65,11 @@ class ToothSizes(Result):
     teeth: tuple[int, int]
     """Numbers of teeth of the first and the second wheel."""
     radii: float
-    """Ratio of the tip radii R2/R1 divided by the ratio of tooth numbers z2/z1 [1]; 1 is pitch-true."""
+    """Ratio of the tip radii R2/R1, divided by the ratio of the tooth numbers z2/z1 [1]; 1 for pitch-true radii."""
     window: float
-    """Position of the clearance in the clearance window: 0 at the jam, 1 at the loss of contact [1]."""
+    """Position of the clearance within the clearance window [1]: 0 where the pair jams, 1 where it loses contact."""
     half_angles: tuple[float, float]
-    """Half angles of both wheels [rad]."""
+    """Half aperture angles of the teeth of both wheels [rad]."""
     friction: float
     """Coefficient of friction of the flanks [1]."""
     driver: int = 1
@@ -87,7 +87,7 @@ class ToothSizes(Result):
             object.__setattr__(self, name, float(getattr(self, name)))
 
     def at(self, parameters: Mapping[str, float]) -> ToothSizes:
-        """Return the design with new values of some `PARAMETERS`.
+        """Return the design with new values of some of the `PARAMETERS`.
 
         Parameters
         ----------
@@ -103,7 +103,7 @@ class ToothSizes(Result):
         )
 
     def parameter(self, name: str) -> float:
-        """Return the value of one of the `PARAMETERS`; for `half_angle`, of the first wheel [rad].
+        """Return the value of one of the `PARAMETERS`; for `half_angle`, the value of the first wheel [rad].
 
         Parameters
         ----------
@@ -167,7 +167,7 @@ class ToothSizes(Result):
 
     @cached_property
     def error(self) -> float:
-        """Peak-to-peak transmission error [rad of the driven wheel]."""
+        """Peak-to-peak transmission error of the pair [rad of the driven wheel]."""
         assert self.transmission is not None
         low, high = self.transmission.error_range()
         return high - low
@@ -195,7 +195,7 @@ class ToothSizes(Result):
 
     @property
     def backlash(self) -> float:
-        """Minimum backlash [rad of the driven wheel]."""
+        """Minimum backlash of the pair [rad of the driven wheel]."""
         assert self.transmission is not None
         return self.transmission.verdict.backlash
 

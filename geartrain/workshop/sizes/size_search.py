@@ -196,8 +196,8 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors stops. It is only evaluated for the best designs,
-    because it is expensive.
+    """Limit on the probability that a pair with cutting errors stops. Because this probability is expensive to compute,
+    the search evaluates it only for the best designs.
 
     See Also
     --------
@@ -205,14 +205,14 @@ class ProbabilityLimit:
     """
 
     bound: float
-    """Maximum probability, 0 to 1."""
+    """Maximum probability that the pair stops, 0 to 1."""
     probability: Callable[[ToothSizes], float]
-    """Function that returns the probability for a design, such as `PairTrials.stops`."""
+    """Function that returns the probability that a design stops, such as `PairTrials.stops`."""
 
 
 @dataclass(frozen=True)
 class PairTrials:
-    """Monte Carlo trials of single pairs, which all have the same errors and the same seed.
+    """Monte Carlo trials of single pairs. All pairs have the same manufacturing errors and the same random seed.
 
     See Also
     --------
@@ -233,8 +233,8 @@ class PairTrials:
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
-    """Random seed of the trials. It is the same for all pairs, so that differences between results are only due to the
-    sizes.
+    """Random seed of the trials. All pairs have the same seed, and differences between their results are due only to
+    the sizes.
     """
 
     def stops(self, sizes: ToothSizes) -> float:

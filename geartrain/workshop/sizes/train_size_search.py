@@ -69,7 +69,7 @@ def find_train_sizes(
     limits : sequence of SizeLimit
         Limits for each pair.
     state : str, optional
-        Name of a declared state, by default the first.
+        Name of a declared state; by default the first declared state.
     on_step : callable
         Progress function, called after each evaluation of the train and after each pair that is optimised separately.
 
@@ -81,7 +81,8 @@ def find_train_sizes(
     Raises
     ------
     QuestionError
-        If the output does not depend on a pair with triangular teeth, or if the pairs turn with no sizes.
+        If the output does not depend on a pair with triangular teeth, or if no sizes are found with which the pairs
+        turn.
 
     Notes
     -----
@@ -361,7 +362,7 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: as declared, optimised separately, and optimised for the train.
+    """Sizes of one pair of a train: the declared sizes, the best sizes of the pair, and the best sizes for the train.
 
     See Also
     --------
@@ -375,15 +376,15 @@ class PairSizes(Result):
     driver: str
     """Name of the driving wheel."""
     before: ToothSizes
-    """Sizes as declared."""
+    """Declared sizes of the pair."""
     apart: ToothSizes
     """Best sizes of the pair if it is optimised separately."""
     together: ToothSizes
     """Best sizes of the pair for the whole train."""
     runs: bool
-    """True if the pair turns as declared."""
+    """True if the pair turns with its declared sizes."""
     outlines: OutlineAgreement
-    """Comparison of the best sizes for the train with the results from their drawn outlines."""
+    """Comparison of the results of the best sizes for the train with the results that the drawn outlines give."""
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -392,13 +393,13 @@ class PairSizes(Result):
 
     @property
     def declared(self) -> ToothSizes | None:
-        """Sizes as declared; None if the pair does not turn with them."""
+        """Declared sizes of the pair; None if the pair does not turn with them."""
         return self.before if self.runs else None
 
 
 @dataclass(frozen=True)
 class BestTrainSizes(Tabular, Pictured, Result):
-    """Best sizes of the triangular teeth of a train, and the objective before and after the optimisation.
+    """Best sizes of all triangular teeth of a train, and the value of the objective before and after the optimisation.
 
     See Also
     --------
@@ -428,26 +429,26 @@ class BestTrainSizes(Tabular, Pictured, Result):
     aim: str
     """Objective: loss, error, impact or jam."""
     output: str
-    """Name of the link or output at which the train is evaluated."""
+    """Name of the link or output at which the objective is evaluated."""
     source: str
     """Name of the link at which power enters."""
     free: Mapping[str, Range]
-    """Bounds of the free parameters; angles in rad."""
+    """Bounds of the free parameters, by name of the parameter; angles are in rad."""
     limits: tuple[SizeLimit, ...]
-    """Limits for each pair."""
+    """Limits that the sizes of each pair must satisfy."""
     before: float | None
-    """Objective of the train as declared; None if the train does not run.
+    """Value of the objective with the declared sizes; None if the train does not run.
 
     The objective is the loss [1], the peak-to-peak error [rad], the sum of impacts [1], or the minimum margin [module].
     """
     apart: float
-    """Objective of the train, in the unit of `before`, with each pair optimised separately."""
+    """Value of the objective with each pair optimised separately, in the unit of `before`."""
     together: float
-    """Objective of the train, in the unit of `before`, with all pairs optimised together."""
+    """Value of the objective with all pairs optimised together, in the unit of `before`."""
     pairs: tuple[PairSizes, ...]
     """Sizes of the pairs on which the output depends."""
     untouched: Mapping[str, str]
-    """Pair with a tooth form -> reason why it is unchanged."""
+    """Mapping from pair to the reason why its sizes are unchanged, for pairs with a tooth form."""
     declaration: Mapping[str, Any]
     """Declaration with the best sizes, which extends the given train."""
 

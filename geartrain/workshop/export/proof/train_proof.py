@@ -46,7 +46,7 @@ _SHARE = 1e-6  # of the smaller part: a larger common volume is not a sliver
 
 @dataclass(frozen=True, slots=True)
 class TrainProof(Result):
-    """Result of the proof that a train can be made and can turn: measured values and findings.
+    """Result of the check that a train can be made and can turn: measured values and findings.
 
     See Also
     --------
@@ -56,11 +56,11 @@ class TrainProof(Result):
     KEYS = (Key("ready", "is_ready"), "verdict", "meshes", "links", "findings")
 
     meshes: tuple[MeshProof, ...]
-    """Measured values of every pair of wheels that are cut."""
+    """Measured values of every pair of wheels whose teeth are cut."""
     links: tuple[LinkFreedom, ...]
-    """Freedom of motion of every link that turns."""
+    """Measured freedom of motion of every link that turns."""
     findings: tuple[BuildFinding, ...]
-    """Findings: first errors, then notes on parts that are risky or could not be checked."""
+    """Findings of the check: errors, then notes on parts that are risky or could not be checked."""
 
     @property
     def is_ready(self) -> bool:

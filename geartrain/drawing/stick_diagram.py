@@ -261,7 +261,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
 
 
 def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
-    """Return the number of vertical lines that overlap another vertical line."""
+    """Return the number of pairs of vertical lines that overlap."""
     known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
     return sum(
         x == at and low < top and bottom < high

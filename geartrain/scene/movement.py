@@ -73,7 +73,7 @@ class ErrorTable(Result):
 
 @dataclass(frozen=True, slots=True)
 class ErrorSource(Shown):
-    """Pair whose transmission error contributes to the errors of a scene.
+    """Gear pair whose transmission error contributes to the angular errors of the bodies in a scene.
 
     After t turns of the driving link the driver's forward angle is
 

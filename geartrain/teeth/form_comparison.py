@@ -194,7 +194,7 @@ def _check(
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
-        why = "from 45 deg on, the pressure angle does not determine teeth of uniform stress"
+        why = "teeth of uniform stress are not determined by pressure angles of 45 deg or more"
         fix = "give an angle between 0 and 45 deg, such as 20 deg"
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "pressure_angle"))
 

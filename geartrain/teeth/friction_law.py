@@ -50,7 +50,10 @@ def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: f
 
 
 def buckingham(V: Floats) -> Floats:
-    """Return the coefficient mu = c2 exp(-c1 sqrt V) + c3 sqrt V at pitch-line speeds V [m/s], docs/shapes.md (17)."""
+    """Return Buckingham's coefficient of friction at pitch-line speeds V [m/s], docs/shapes.md (17).
+
+    mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
+    """
     import numpy as np
 
     c1, c2, c3 = buckingham_constants()

@@ -154,7 +154,7 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
 
 
 def _split_julian(days: int) -> tuple[int, int]:
-    """Return the number of years that begin in March, and the remaining days.
+    """Split a number of days since 1 March into whole Julian years and remaining days.
 
     1461 days are four years, and the last of them is the leap year.
     """

@@ -223,7 +223,7 @@ class TorqueVerdict(Result):
 
 @dataclass(frozen=True)
 class NeglectedEffect(Result):
-    """Declared effect that is not included in the torques: table in section 13 of docs/torques.md.
+    """Declared effect that the torque calculation neglects, as listed in docs/torques.md, section 13.
 
     See Also
     --------

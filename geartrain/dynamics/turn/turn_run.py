@@ -269,7 +269,7 @@ class TurnRun:
 
 @dataclass(frozen=True)
 class RunScales:
-    """Maximum torque through any pair, and maximum power, as scales below which signs are set to 0."""
+    """Torque scale (maximum torque through any pair) and power scale (maximum power) of a run."""
 
     pressed: float
     power: float

@@ -423,7 +423,7 @@ def _shortest_paths(
 
 
 SMALL = 20
-"""Number of meshes of a block up to which branch and bound always finds a smallest set."""
+"""Maximum number of meshes in a block for which branch and bound always finds a minimum set of meshes to remove."""
 LARGE = 10_000
 """Number of meshes of a component above which only a single mesh or a greedy set is searched."""
 _MEDIUM = 300  # nodes or meshes up to which loops are searched from every node, at quadratic cost

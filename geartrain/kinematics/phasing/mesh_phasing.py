@@ -199,7 +199,9 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return an equivalent condition (modulus, weights) with the smallest numbers."""
+    """Return the congruence row · x = 0 (mod power) in reduced form (modulus, weights), with the smallest equivalent
+    weights.
+    """
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]

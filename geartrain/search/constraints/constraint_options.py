@@ -71,7 +71,7 @@ class ConstraintOptions:
     """
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON, with quantities as written. Constraints that are not required are omitted."""
+        """Return the options as a dict for JSON, with quantities as strings. Options that are not set are omitted."""
         found = {}
         for field in fields(self):
             value = getattr(self, field.name)

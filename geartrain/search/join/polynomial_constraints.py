@@ -348,7 +348,7 @@ class RelaxedInequality:
     """Inequality with some free variables, relaxed over the box of their bounds."""
 
     sense: int
-    """Sense of the inequality, 1 or -1."""
+    """1 or -1, such that the inequality is sense * polynomial >= 0."""
     rest: tuple[SignPolynomial, ...]
     """Factor of each term that depends on the assigned variables."""
     lows: Floats

@@ -199,7 +199,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
 @dataclass(frozen=True)
 class ContactInTime(Result):
-    """Results of one pair, pin or escapement in a simulation in time.
+    """Results for one pair, pin or escapement from a time-domain simulation.
 
     See Also
     --------

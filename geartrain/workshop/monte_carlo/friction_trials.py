@@ -164,7 +164,7 @@ class FrictionPlan(Shown):
 def find_friction_plan(
     train: GearTrain, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
 ) -> FrictionPlan:
-    """Prepare a Monte Carlo analysis of friction for a train whose friction coefficients have declared standard deviations.
+    """Prepare a Monte Carlo analysis of a train whose friction coefficients have declared standard deviations.
 
     Parameters
     ----------

@@ -121,12 +121,14 @@ def _name(model: type[ToothForm]) -> str:
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """Return the error with the location `-p KEY` if a problem names a key, else `place`; add `fix` where there is
-    none.
+    """Return the error with the location `-p KEY` if a problem names a key, the option if it names one, else `place`;
+    add `fix` where there is none.
     """
-    return GearTrainError(
-        replace(each, place=f"-p {each.place}" if each.place else place, fix=each.fix or fix) for each in error.problems
-    )
+
+    def located(named: str) -> str:
+        return place if not named else named if named.startswith("-") else f"-p {named}"
+
+    return GearTrainError(replace(each, place=located(each.place), fix=each.fix or fix) for each in error.problems)
 
 
 def _value(field: FieldInfo, given: str) -> Any:

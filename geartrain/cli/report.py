@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from geartrain.cli.common import (
-    GOOD,
-    VERDICT,
     Files,
     Force,
     Json,
@@ -130,4 +128,4 @@ def compare(
     give(
         to, json, lambda: [collect_report(train) for train in trains], lambda: [describe_comparison(trains, everything)]
     )
-    raise typer.Exit(GOOD if sound else VERDICT)
+    raise typer.Exit(exit_code(sound, to))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING, Any
 
 from geartrain.cli.common import Sink, as_json, draw, emit, option_error, tell
@@ -48,10 +49,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
     # a unit or option that is invalid at every point is reported before the sweep begins
     pair.form({name: f"{values[0]!r}{units[name]}" for name, values in ranges.items() if name not in PAIR})
-    count = 1
-    for values in ranges.values():
-        count *= len(values)
-    with progress("sweep", count) as bar:
+    with progress("sweep", prod(map(len, ranges.values()))) as bar:
         found = run_sweep(make, ranges, bar.advance)
     if json or to.suffix == ".json":
         emit(as_json([dict(zip(found.header, _plain(row), strict=True)) for row in found.rows()]), to)

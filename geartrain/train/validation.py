@@ -221,7 +221,7 @@ def _is_wheel_pair(loc: Loc) -> bool:
 def _wheel_pair(raw: Any) -> str:
     """Return the line `pair: [first, second]` for text such as `first ~ second`, or for a pair with such an id."""
     text = raw.get("id") if isinstance(raw, dict) else raw
-    wheels = [wheel.strip() for wheel in text.split(_MARK)] if isinstance(text, str) else []
+    wheels = _wheels(text) if isinstance(text, str) else []
     return f"pair: [{', '.join(wheels if len(wheels) == 2 and all(wheels) else ('sun', 'planet'))}]"
 
 
@@ -328,7 +328,7 @@ def _check_short_forms(
     lists = [*_lists("gears", gears, "{} ~ {}"), *_lists("revolutes", joints, "{{pair: [{}, {}], axis: A}}")]
     axes = short_joints.mapping if short_joints is not None else {}
     single = [axis for axis, links in axes.items() if len(links.items) < 2]
-    wrong = [gear for gear in short_gears if len(names := _wheels(gear)) != 2 or not all(names)]
+    wrong = [gear for gear in short_gears if len(names := _wheels(gear.value)) != 2 or not all(names)]
     if short_joints is not None and single:
         lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
     if len(wrong) == 2 == len(short_gears) and all(_MARK not in gear.value for gear in wrong):  # gears: [a, b]
@@ -362,8 +362,8 @@ def _joints(joints: YamlNode) -> Iterator[YamlNode]:
             yield YamlNode(parts, other.place, dict.fromkeys(parts, other.place))
 
 
-def _wheels(gear: YamlNode) -> list[str]:
-    return [name.strip() for name in gear.value.split(_MARK)]
+def _wheels(text: str) -> list[str]:
+    return [name.strip() for name in text.split(_MARK)]
 
 
 def _invalid_pair(gear: YamlNode) -> Problem:
@@ -374,5 +374,5 @@ def _invalid_pair(gear: YamlNode) -> Problem:
 
 
 def _pair(gear: YamlNode) -> YamlNode:
-    wheels = YamlNode([YamlNode(name, gear.place) for name in _wheels(gear)], gear.place)
+    wheels = YamlNode([YamlNode(name, gear.place) for name in _wheels(gear.value)], gear.place)
     return YamlNode({"pair": wheels}, gear.place, {"pair": gear.place})

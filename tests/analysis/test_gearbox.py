@@ -84,7 +84,10 @@ def test_a_positive_recirculation_is_between_sets_and_not_inside_them() -> None:
     states = {each.state: each for each in load("zf-8hp70").gearbox().states}
     assert states["R"].recirculating > Fraction(1, 2)
     assert all(each.recirculating == 0 for name, each in states.items() if name != "R")
-    assert all(each.recirculating == 0 for each in load("ravigneaux-set").gearbox().states)
+    ravigneaux = load("ravigneaux-set")
+    # how three long and three short planets share the load is unknown, and does not affect the power between the sets
+    three = ravigneaux.with_changes(links={planet: {"copies": 3} for planet in ("SHORT", "LONG")})
+    assert all(each.recirculating == 0 for train in (ravigneaux, three) for each in train.gearbox().states)
 
 
 @pytest.mark.parametrize("name", PUBLISHED)

@@ -276,6 +276,50 @@ error: my.yaml:8: key 'inputs' is given twice
   fix: rename or remove one
 """,
     ),
+    "a pair with a tilde as the value of `pair`": (
+        "gears: [p ~ w]",
+        "gears: [{pair: p ~ w, efficiency: 0.98}]",
+        """\
+error: my.yaml:6: `gears[0].pair` is not a list in brackets
+  why: the given value is 'p ~ w'
+  fix: write for example `pair: [p, w]`
+""",
+    ),
+    "a pair that has only an id": (
+        "gears: [p ~ w]",
+        "gears: [{id: p~w, efficiency: 0.98}]",
+        """\
+error: my.yaml:6: key 'pair' is missing
+  why: `gears[0]` needs it
+  fix: add `pair: [p, w]`
+""",
+    ),
+    "an input that is a wheel": (
+        "inputs: {a: 1}",
+        "inputs: {p: 1}",
+        """\
+error: my.yaml:7: no link 'p'
+  why: 'p' is a wheel of the link 'a'
+  fix: write 'a'
+""",
+    ),
+    "a speed in turns a year": (
+        "inputs: {a: 1}",
+        "inputs: {a: 1 turn/year}",
+        """\
+error: my.yaml:7: `inputs.a`: '1 turn/year' has an unknown unit
+  fix: a calendar unit has several lengths: declare it for all speeds, such as `unit: {per: year_tropical_J2000}`, and write numbers without a unit
+""",  # noqa: E501
+    ),
+    "a target that is a number": (
+        "expect: -1/3",
+        "targets: [5/19]",
+        """\
+error: my.yaml:8: unknown astronomical period '5/19'
+  why: a target that is a text is a name in the table of periods
+  fix: write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`, turns as `{name: NAME, turns: 5}`
+""",
+    ),
     "a key that is misspelt": (
         "inputs:",
         "input:",
@@ -320,6 +364,22 @@ def test_a_mistake_is_explained(mistake: str) -> None:
 def test_a_name_that_is_not_found_is_explained(name: str) -> None:
     done = ended("solve", name)
     assert (done.returncode, done.stderr) == (2, NAMES[name])
+
+
+def test_a_name_without_its_suffix_is_explained() -> None:
+    Path("my.yaml").write_text(SOUND, encoding="utf-8")
+    done = ended("solve", "my")
+    assert done.returncode == 2
+    assert "fix: this folder has my.yaml: write that name" in done.stderr
+
+
+@pytest.mark.parametrize("command", ["view", "report", "compare"])
+def test_a_file_of_a_train_that_is_not_as_expected_is_written_with_a_note(command: str) -> None:
+    for expected, code in (("-1/3", 0), ("1/3", 1)):
+        Path("my.yaml").write_text(SOUND.replace("-1/3", expected), encoding="utf-8")
+        done = ended(command, "my.yaml", "-o", f"{expected.replace('/', '')}.html")
+        assert done.returncode == code
+        assert ("`geartrain check` lists why" in done.stderr) == (code == 1)
 
 
 def test_a_wheel_that_is_in_no_pair_is_reported_by_check() -> None:

@@ -297,6 +297,7 @@ REFUSED_TRANSMISSIONS = [
 def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
     done = ended("mesh", 48, 96, "--form", "triangular", "-p", "window=0.5", *arguments)
     assert done.returncode == 2
+    assert done.stderr.startswith("error: --friction: ")
     assert said in " ".join(done.stderr.split())
 
 

@@ -198,6 +198,7 @@ def test_an_orrery_is_found_and_holds_as_a_train(hands: Path) -> None:
         (["train", "hands.yaml", "--where", "nut"], "wheel=32"),
         (["ratio", "3", "-o", "x.yaml"], "as a declaration"),
         (["orrery", "moon=29.5", "29.5"], "moon=29.53"),
+        (["orrery", "venus=venus_synodic_per_year_289_in_462"], "is a speed, not a period"),
     ],
     ids=lambda each: " ".join(each) if isinstance(each, list) else "",
 )

@@ -49,8 +49,8 @@ def run(
         str | None,
         typer.Option(
             "--teeth",
-            help="Tooth count of each kind of gear, such as 5=20,3=12 (20 teeth on gears of five-sided faces, 12 on "
-            "those of triangles).",
+            help="Tooth count of each kind of gear, such as 5=20,3=12 (20 teeth for gears on pentagonal faces, "
+            "12 for gears on triangular faces).",
         ),
     ] = None,
     drop: Annotated[

@@ -58,10 +58,10 @@ def test_the_quick_run_finds_every_train_again(quick: LeftOutRecords) -> None:
     assert len(rows) == len(quick.rows) == len(quick.whole) == 1 + (4 + 6) + (3 + 3)
     assert not quick.lost
     drum = rows["vitruvius-hodometer", "drum"]  # 1 > 400: the counts are the bounds
-    assert (drum.added, drum.mechanisms, drum.rank) == (1, [0, 1], (1, 1))
+    assert (drum.added, drum.solutions, drum.rank) == (1, [0, 1], (1, 1))
     pivot = rows["isfahan-astrolabe-1221", "pivot"]  # (8, 13), (16, 26), (24, 39), (32, 52), beside two equal wheels
-    assert (pivot.added, pivot.mechanisms, pivot.rank) == (2, [0, 0, 8], (1, 8))
-    assert all(row.rank[0] <= row.rank[1] <= sum(row.mechanisms) for row in quick.whole if row.rank)
+    assert (pivot.added, pivot.solutions, pivot.rank) == (2, [0, 0, 8], (1, 8))
+    assert all(row.rank[0] <= row.rank[1] <= sum(row.solutions) for row in quick.whole if row.rank)
 
 
 @pytest.mark.slow
@@ -78,7 +78,7 @@ def test_of_what_is_not_finished_less_is_requested() -> None:
         assert row.told is not None
         assert row.told[0] <= whole.rank[0]  # meshes that are told can but leave out others
         assert row.first == whole.rank[0]
-        assert list(row.mechanisms) == list(whole.mechanisms[:-1])
+        assert list(row.solutions) == list(whole.solutions[:-1])
 
 
 def test_explanations_with_as_many_wheels_on_fewer_arbors_weigh_more() -> None:

@@ -220,9 +220,9 @@ def _dynamics() -> dict[str, object]:
             for row in records.train
             if row.steps > 50_000 and not row.stiffness and not row.restitution
         ),
-        "calm": number(apart(0.0, "stands")),
+        "calm": number(apart(0.0, "moon_position")),
         "calm_share": number(100 * apart(0.0, "apart")),
-        "chaos": number(apart(0.3, "stands")),
+        "chaos": number(apart(0.3, "moon_position")),
         "chaos_share": number(100 * apart(0.3, "apart")),
     }
 

@@ -45,10 +45,10 @@ class PairRecord:
 class TrainRecord:
     """The Moon's train at 1 turn/s.
 
-    steps   a turn of the run that is told; `stiffness` 0 where teeth are rigid
-    apart   share of time, mean of the pairs; `ahead` the most of the Moon (degrees)
-    stands  where the Moon is after 4.9 turns (degrees)
-    torque  at the crank, mean (N m)
+    steps           steps per turn of the reported run; `stiffness` is 0 for rigid teeth
+    apart           mean share of time in which a pair is separated; `ahead` is the maximum lead of the Moon (degrees)
+    moon_position   position of the Moon after 4.9 turns (degrees)
+    torque          mean torque at the crank (N m)
     """
 
     restitution: float
@@ -56,7 +56,7 @@ class TrainRecord:
     steps: int
     apart: float
     ahead: float
-    stands: float
+    moon_position: float
     torque: float
     seconds: float
 
@@ -115,5 +115,5 @@ def _train(restitution: float, stiffness: float, steps: int | None, turns: float
     pairs, moon = run.contacts, run.leads[0]
     told = round(1 / run.step)
     apart = sum(each.apart for each in pairs) / len(pairs)
-    stands = degrees(float(np.interp(_LOOK, run.time, run["moon"])))
-    return [TrainRecord(restitution, stiffness, told, apart, degrees(moon.ahead), stands % 360, run.torque, seconds)]
+    position = degrees(float(np.interp(_LOOK, run.time, run["moon"])))
+    return [TrainRecord(restitution, stiffness, told, apart, degrees(moon.ahead), position % 360, run.torque, seconds)]

@@ -41,7 +41,7 @@ class LeftOutRecord:
 
     lost         arbors that are left out
     added        their wheels: so many may be added
-    mechanisms   explanations with 0, 1, ... added wheels, as far as they were counted
+    solutions   explanations with 0, 1, ... added wheels, as far as they were counted
     classes      those that differ by more than what drives what
     rank         first and last of the train itself by weight, None where that is not known
     listed       whether all explanations were listed, so that the train must be among them
@@ -57,7 +57,7 @@ class LeftOutRecord:
     train: str
     lost: Sequence[str]
     added: int
-    mechanisms: Sequence[int]
+    solutions: Sequence[int]
     classes: Sequence[int | None]
     rank: Sequence[int] | None
     listed: bool
@@ -88,7 +88,7 @@ class LeftOutRecord:
     @property
     def minimum(self) -> int | None:
         """The fewest added wheels that explain the dials, as far as was counted."""
-        return next((added for added, count in enumerate(self.mechanisms) if count), None)
+        return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
 @dataclass(frozen=True)

@@ -98,7 +98,7 @@ def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: fl
 def _add_known(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
     """Tell of what was not finished that nothing weighs more, where that needs no search."""
     row = known.get(key)
-    if row is None or row.is_whole or row.better is not None or len(row.mechanisms) < row.added or any(row.mechanisms):
+    if row is None or row.is_whole or row.better is not None or len(row.solutions) < row.added or any(row.solutions):
         return
     lost = key[2]
     if fewest_new_arbors(evidence_question(lost_evidence(tree, lost)).problem) >= tree.arbor(lost).added_arbors:
@@ -155,9 +155,9 @@ def _requested_to_the_end(tree: SpurTree, question: Question, limit: float) -> d
     if limit:
         found, note = gathered(partial(_answers, tree, lost), limit, _MEMORY)
     last: dict[str, Any] = (
-        found[-1] if found else {"mechanisms": [], "classes": [], "rank": None, "listed": False, "seconds": None}
+        found[-1] if found else {"solutions": [], "classes": [], "rank": None, "listed": False, "seconds": None}
     )
-    print(f"{name} {part} without {', '.join(lost)}: {last['mechanisms']} {note}", file=sys.stderr, flush=True)
+    print(f"{name} {part} without {', '.join(lost)}: {last['solutions']} {note}", file=sys.stderr, flush=True)
     return {"train": name, "part": part, "lost": list(lost), "added": lost_wheels(tree, lost), "note": note, **last}
 
 
@@ -170,7 +170,7 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
         found = find_reconstructions(evidence_question(evidence, wheels).problem, listed=LISTED)
         seconds = process_time() - start
         yield {
-            "mechanisms": [count.solutions for count in found.counts],
+            "solutions": [count.solutions for count in found.counts],
             "classes": [count.classes for count in found.counts],
             "rank": rank_of(original, found) if wheels == own else None,
             "listed": is_all_listed(found),
@@ -187,9 +187,9 @@ def _less(what: str, tree: SpurTree, row: LeftOutRecord, short: float) -> dict[s
     told: dict[str, Any]
     if what == "better":
         steps, _ = gathered(partial(_better, tree, lost, row), short, _MEMORY)
-        mechanisms = max([list(row.mechanisms), *(step for step, _ in steps)], key=len)
-        classes = [*row.classes, *[None] * (len(mechanisms) - len(row.classes))]
-        told = {"better": steps[-1][1] if steps else None, "mechanisms": mechanisms, "classes": classes}
+        solutions = max([list(row.solutions), *(step for step, _ in steps)], key=len)
+        classes = [*row.classes, *[None] * (len(solutions) - len(row.classes))]
+        told = {"better": steps[-1][1] if steps else None, "solutions": solutions, "classes": classes}
     else:
         found, _ = gathered(lambda: iter([_requested_at_once(what, tree, lost)]), short, _MEMORY)
         told = {what: found[0] if found else None}
@@ -221,20 +221,20 @@ def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterat
     evidence, original = lost_evidence(tree, lost), tree.arbor(lost)
     whole = evidence_question(evidence).problem
     own, weight = whole.additions.wheels, train_prior(original, whole)
-    mechanisms, weights = list(row.mechanisms[:own]), Counter[Fraction]()
-    if any(mechanisms):
-        mechanisms = []
-    for wheels in range(len(mechanisms), own):
+    solutions, weights = list(row.solutions[:own]), Counter[Fraction]()
+    if any(solutions):
+        solutions = []
+    for wheels in range(len(solutions), own):
         found = find_reconstructions(evidence_question(evidence, wheels).problem)
-        mechanisms = [count.solutions for count in found.counts]
+        solutions = [count.solutions for count in found.counts]
         weights = Counter({each.weight: each.solutions for each in found.weights})
-        yield mechanisms, None
+        yield solutions, None
     better = sum(number for each, number in weights.items() if each > weight)
     fewer = original.added_arbors - 1
     if fewest_new_arbors(whole) <= fewer:
         found = find_reconstructions(replace(whole, additions=replace(whole.additions, arbors=fewer)))
         better += sum(count.solutions for count in found.counts if count.added == own)
-    yield mechanisms, better
+    yield solutions, better
 
 
 def fewest_new_arbors(problem: ReconstructionProblem) -> int:

@@ -195,10 +195,11 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 def emit(text: str, out: Sink = STANDARD) -> None:
     """Write text atomically to a file, or print it; control characters in it are escaped."""
     text = printable(text)
+    text = text if text.endswith("\n") else text + "\n"
     if out.path is None:
-        typer.echo(text)
+        typer.echo(text, nl=False)
     else:
-        out.write((text if text.endswith("\n") else text + "\n").encode("utf-8"))
+        out.write(text.encode("utf-8"))
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:

@@ -563,7 +563,7 @@ def test_the_schema_is_written_for_editors_and_for_readers(tmp_path: Path) -> No
     assert run("inspect", "schema", "-o", out)[0] == 0
     assert out.read_text(encoding="utf-8") == run("inspect", "schema")[1]
     markdown = run("inspect", "schema", "--as", "markdown")[1]
-    assert markdown.rstrip() == (ROOT / "docs" / "reference.md").read_text(encoding="utf-8").rstrip()
+    assert markdown == (ROOT / "docs" / "reference.md").read_text(encoding="utf-8")
 
 
 def test_the_list_names_every_file_of_trains_with_its_title() -> None:

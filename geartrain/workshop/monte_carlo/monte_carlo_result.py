@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from geartrain.numerics.confidence_intervals import CONFIDENCE
 from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.clearance_study import jamming_map, run_clearances
+from geartrain.workshop.monte_carlo.clearance_study import jamming_map
 from geartrain.workshop.monte_carlo.random_streams import BLOCK
 from geartrain.workshop.monte_carlo.sobol_indices import find_sobol_indices
 from geartrain.workshop.monte_carlo.trial_results import TrialResults
@@ -201,7 +201,7 @@ class TrialStudies:
         by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
         return MonteCarloResult(
             trials,
-            run_clearances(plan, self.clearances, count, seed, means) if self.clearances else (),
+            jamming_map(plan, self.clearances, trials=count, seed=seed, means=means) if self.clearances else (),
             [run_course(plan, at, _POSITIONS, seed, _COURSES) for at in few] if self.courses else (),
             [find_sobol_indices(plan, at, each, count, seed, means) for at in few for each in by] if self.sobol else (),
         )

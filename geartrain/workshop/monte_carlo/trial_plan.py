@@ -368,6 +368,23 @@ class TrialPlan(Shown):
         """
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
+    def jamming_bound(self, pair: TrialPair) -> float:
+        """Return the upper bound of the jam probability of a pair; NaN unless its wheels have only normal pitch
+        deviations.
+
+        Parameters
+        ----------
+        pair : TrialPair
+            Pair of the plan.
+        """
+        wheels = self.wheels[pair.first], self.wheels[pair.second]
+        plain = all(not each.tables and set(each.errors) <= {"pitch_deviation"} for each in wheels)
+        normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
+        if not (plain and normal) or pair.fitting or pair.stroke:
+            return nan
+        # the bound assumes one deviation for both wheels: the larger one is safe
+        return pair.jamming_bound(max((off.size for each in wheels for off in each.errors.values()), default=0.0))
+
     def question(self) -> dict[str, Any]:
         """Return all data on which the results depend, as plain data. A journal identifies the run by these data."""
         return {

@@ -383,7 +383,7 @@ class DisplacedPair:
     def verdicts(self) -> MeshingVerdicts:
         """Return the events (jam, clash, dwell, loss of contact) of each trial over the whole meshing cycle."""
         clash, dwell = self.tip_contacts(True), self.tip_contacts(False)
-        return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged(), np.zeros(self.trials, bool))
+        return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged())
 
     def disengaged(self) -> Bools:
         """Return a mask of shape (trials,): True if no tooth pair can touch at some position."""

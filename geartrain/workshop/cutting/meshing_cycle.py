@@ -66,11 +66,6 @@ class MeshingVerdicts:
     """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
     """Mask of losses of contact: at some position no tooth can touch."""
-    leans: Bools
-    """Mask of trials with a flank that leans beyond the perpendicular when tips meet.
-
-    The tooth pair that touches first is then uncertain.
-    """
 
     @property
     def jams(self) -> Bools:
@@ -131,31 +126,23 @@ def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
     teeth = _EntriesAndExits(pair)
     if teeth.reach < 0:  # the tip circles do not intersect
         nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
-        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere, never)
+        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere)
     backlash = backlash_of_pitch_errors(pair)
     for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, chunk // pair.count):
-        backlash[rows] = MeshingCycle(_some(pair, rows)).backlash()
+        backlash[rows] = MeshingCycle(pair.taken(rows)).backlash()
     clash, stands = np.zeros(len(backlash), bool), np.zeros(len(backlash), bool)
     for rows in _parts(teeth.doubtful, chunk // pair.count):
-        some = _EntriesAndExits(_some(pair, rows))
+        some = _EntriesAndExits(pair.taken(rows))
         clash[rows], stands[rows], entering = some.events()
         backlash[rows] = np.minimum(backlash[rows], entering)
-    return MeshingVerdicts(
-        backlash, clash, stands, teeth.disengaged, np.full(len(backlash), teeth.tooth_pair.leaning.item())
-    )
-
-
-def taken(pair: CutGearPair, part: slice | Ints) -> CutGearPair:
-    """Return selected trials of a batch."""
-    shift = pair.shift if np.ndim(pair.shift) == 0 else pair.shift[part]
-    return CutGearPair(pair.sizes, pair.first.taken(part), pair.second.taken(part), shift)
+    return MeshingVerdicts(backlash, clash, stands, teeth.disengaged)
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
     """Yield a batch in parts of at most `trials` trials."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
-        yield taken(pair, slice(start, min(start + step, count)))
+        yield pair.taken(slice(start, min(start + step, count)))
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
@@ -163,10 +150,6 @@ def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
     rows = np.flatnonzero(chosen)
     for start in range(0, len(rows), max(1, size)):
         yield rows[start : start + max(1, size)]
-
-
-def _some(pair: CutGearPair, rows: NDArray[np.int64]) -> CutGearPair:
-    return CutGearPair(pair.sizes, pair.first.taken(rows), pair.second.taken(rows), pair.shift)
 
 
 # --------------------------------------------------------------------------------------------- tooth pair by tooth pair
@@ -178,7 +161,7 @@ def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
     backlash, dwell, clash = cycle.backlash(), cycle.dwells(), cycle.clashes()
     if dwell.any():
         backlash = np.minimum(backlash, np.where(dwell, cycle.backlash_at_entries(), inf))
-    return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged(), pair.leans)
+    return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged())
 
 
 class MeshingCycle:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import degrees
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from geartrain.numerics.confidence_intervals import CONFIDENCE
@@ -156,18 +155,6 @@ class MonteCarloResult(Tabular, Pictured, Result):
     def partial(self) -> PartialTrials | None:
         """Numbers of completed and requested trials if the run was interrupted; None for a complete run."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
-
-    def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
-        """Return rows with the number of trials, and the standard deviation of an output's error with its lower and
-        upper limit [deg].
-
-        Parameters
-        ----------
-        at : int
-            Index of the output, from 0.
-        """
-        rows = self.trials.pointer_convergence(at)
-        return [(n, degrees(each.value), degrees(each.low), degrees(each.high)) for n, each in rows]
 
 
 def _sizes(errors: Mapping[str, Mapping[str, Any]]) -> ErrorSizes:

@@ -24,20 +24,10 @@ if TYPE_CHECKING:
 BLOCK = 256
 """Number of trials that are drawn together. Results depend on it, so it must never change."""
 
-PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
-    8
-)
-FRICTION = 8
-NUMBER = {
-    "pitch_deviation": PITCH_ERROR,
-    "eccentricity": ECCENTRICITY,
-    "tip": TIP,
-    "aperture_deviation": FLANK_ANGLE_ERROR,
-    "centre": CENTRE_DISTANCE_ERROR,
-    "bearing": BEARING_CLEARANCE,
-}
-
-
+NUMBER = {"pitch_deviation": 0, "eccentricity": 1, "tip": 3, "aperture_deviation": 4, "centre": 5, "bearing": 6}
+"""Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
+TOWARDS, POSITION, FRICTION = 2, 7, 8
+"""Numbers of the streams of the direction of an eccentricity, the position of the input, and friction."""
 Streams = tuple[Container[int], Container[int]]
 EVERY = range(1 << 31)
 """All numbers of wheels and pairs, or of kinds of error."""

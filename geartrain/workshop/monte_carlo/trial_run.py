@@ -293,31 +293,23 @@ SUFFIXES = (".parquet", ".csv")
 _EVENTS = "bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 wheels cannot be cut"
 
 
-@dataclass(frozen=True)
-class TrialTable:
-    """Table file with one row for each trial, to which the records of tasks are appended."""
+@contextmanager
+def trial_table(
+    plan: TrialPlan, path: Path, force: bool = False, replay: bool = False
+) -> Iterator[Callable[[TrialRecord], None]]:
+    """Yield a function that appends one record to a table file (.parquet or .csv) with one row for each trial.
 
-    plan: TrialPlan
-    path: Path
-    """Path of the .parquet or .csv file."""
-    force: bool = False
-    """True if an existing file may be overwritten."""
-    replay: bool = False
-    """True if an interrupted run is resumed; its file is then written again from the journal."""
-
-    @contextmanager
-    def open(self) -> Iterator[Callable[[TrialRecord], None]]:
-        """Yield a function that appends one record to the table file."""
-        plan = self.plan
-        if self.path.suffix.lower() == ".parquet":
-            about = {"train": plan.name, "events": _EVENTS}
-            with ColumnTable(self.path, about, self.force, replay=self.replay) as columns:
-                yield lambda rows: columns.write(dict(zip(_names(plan), _columns(plan, rows), strict=True)))
-        else:
-            with LongTable(self.path, csv_line(_names(plan)), force=self.force, replay=self.replay) as table:
-                yield lambda rows: table.write(
-                    csv_lines(zip(*(column.tolist() for column in _columns(plan, rows)), strict=True))
-                )
+    force    True if an existing file may be overwritten
+    replay   True if an interrupted run is resumed; its file is then written again from the journal
+    """
+    if path.suffix.lower() == ".parquet":
+        with ColumnTable(path, {"train": plan.name, "events": _EVENTS}, force, replay=replay) as columns:
+            yield lambda rows: columns.write(dict(zip(_names(plan), _columns(plan, rows), strict=True)))
+    else:
+        with LongTable(path, csv_line(_names(plan)), force=force, replay=replay) as table:
+            yield lambda rows: table.write(
+                csv_lines(zip(*(column.tolist() for column in _columns(plan, rows)), strict=True))
+            )
 
 
 def _names(plan: TrialPlan) -> list[str]:

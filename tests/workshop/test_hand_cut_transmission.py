@@ -330,7 +330,7 @@ def test_a_batch_says_of_each_what_its_own_transmission_says(
         done += 1
         for at in range(4):
             here = shift if np.ndim(shift) == 0 else float(shift[at])
-            events = CutPairLaw.of(sizes, driver.trial(at), driven.trial(at), here).events
+            events = CutPairLaw.of(sizes, driver.taken(at), driven.taken(at), here).events
             if not (ring and found.disengaged[at]):  # where no tooth is in reach the play is that of no position
                 near = (1e-6 if cutting is PLACES else 1e-8) * sizes.p2
                 assert found.backlash[at] == pytest.approx(events.backlash, abs=near)
@@ -349,7 +349,7 @@ def test_trials_do_not_know_each_other() -> None:
     for parts in (batch_verdicts(sizes, driver, driven, chunk=1), batch_verdicts(sizes, driver, driven, chunk=300)):
         assert np.abs(parts.backlash - whole.backlash).max() < 1e-10 * sizes.p2
         assert (parts.stops == whole.stops).all()
-    one = driven.trial(3)
+    one = driven.taken(3)
     shared = batch_verdicts(sizes, driver, one)
     copied = batch_verdicts(sizes, driver, stacked([one] * 12))
     assert np.abs(shared.backlash - copied.backlash).max() < 1e-10 * sizes.p2

@@ -105,12 +105,8 @@ class CutWheel:
         """True if the teeth have only pitch deviations."""
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
-    def trial(self, at: int) -> CutWheel:
-        """Return the wheel of the trial with index `at`."""
-        return self.taken(at)
-
     def taken(self, part: int | slice | NDArray[np.int64]) -> CutWheel:
-        """Return the wheels of selected trials; arrays common to all trials are not copied."""
+        """Return the wheels of selected trials, or of one trial; arrays common to all trials are not copied."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 

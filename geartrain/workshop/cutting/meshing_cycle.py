@@ -399,7 +399,8 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     """
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
-    spread = 2 * float(np.abs(driver).max())  # two driving teeth may deviate in opposite directions
+    # two driving teeth may deviate in opposite directions
+    wide = _next_power_of_two(2 * float(np.abs(driver).max()))
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
     both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
@@ -407,21 +408,25 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
         apart, stop = driver - np.roll(driver, n, -1), np.roll(driven, n - 1, -1) - driven
         if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > backlash.max():
             continue  # pitch deviations cannot bring these below the current minimum
-        own = _interpolate(_table(sizes, n, _next_power_of_two(spread)), _next_power_of_two(spread), apart)
+        own = np.interp(apart, np.linspace(-wide, wide, _NODES), _table(sizes, n, wide))
         # teeth farther apart than the common reach never hold the driven wheel together
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
-        backlash = np.minimum(backlash, _extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
+        backlash = np.minimum(backlash, extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
     return np.asarray(backlash)
 
 
-def _extreme_sum(driver: Any, driven: Any, minimum: Any) -> Any:
-    """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
+def by_residue(driver: Any, driven: Any) -> list[Any]:
+    """Return the terms of both wheels grouped by residue class modulo gcd(z1, z2): teeth of one class meet in the
+    cycle.
+    """
     rests = gcd(driver.shape[-1], driven.shape[-1])
+    return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
-    def by_rest(each: Any) -> Any:
-        return minimum.reduce(each.reshape(*each.shape[:-1], -1, rests), axis=-2)
 
-    return minimum.reduce(by_rest(driver) + by_rest(driven), axis=-1)
+def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
+    """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
+    one, two = by_residue(driver, driven)
+    return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
 
 
 def _next_power_of_two(spread: float) -> float:
@@ -440,14 +445,6 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
     tips = -2 * np.sign(n * sizes.p1 + nodes) * float(tooth_pair.exit_angle)
     found: Floats = np.where(np.isfinite(values), values, tips)
     return found
-
-
-def _interpolate(table: Floats, spread: float, apart: Any) -> Any:
-    """Return values interpolated linearly in a table with equal steps from -spread to spread."""
-    at = (apart + spread) * ((_NODES - 1) / (2 * spread))
-    low = np.clip(at.astype(np.int64), 0, _NODES - 2)
-    first = table[low]
-    return first + (table[low + 1] - first) * (at - low)
 
 
 class _EntriesAndExits:
@@ -498,8 +495,8 @@ class _EntriesAndExits:
         """
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
-        clash = _extreme_sum(*self._entering(1), np.maximum) > self.tip - near
-        stands = _extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
+        clash = extreme_sum(*self._entering(1), np.maximum) > self.tip - near
+        stands = extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
         found: Bools = np.broadcast_to(clash | stands, self.pair.trials).copy()
         return found
 

@@ -242,7 +242,7 @@ class TurnedPair:
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """For each tooth of both wheels the index of the first tooth that is equal, including its neighbours."""
+        """Index of the first tooth that is equal, including its neighbours, for each tooth of both wheels."""
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 

@@ -21,8 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.workshop.cutting.cut_wheel import of_teeth
-from geartrain.workshop.cutting.file_strokes import TightPlace
-from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, by_residue, extreme_sum
+from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, TightPlace, by_residue, extreme_sum
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
-from geartrain.workshop.cutting.meshing_cycle import CHUNK, MeshingCycle, chunks
+from geartrain.workshop.cutting.meshing_cycle import CHUNK, MeshingCycle, TightPlace, chunks
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
@@ -21,22 +21,6 @@ if TYPE_CHECKING:
     from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 
 _ROUNDS = 4000  # maximum iterations: enough to file every flank of a pair twice
-
-
-@dataclass(frozen=True)
-class TightPlace:
-    """Position of minimum backlash of each pair, and the flank to file there."""
-
-    backlash: Floats
-    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
-    wheel: Ints
-    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
-    trailing.
-    """
-    tooth: Ints
-    side: Ints
-    gain: Floats
-    """Maximum increase of the backlash per unit depth of filing [rad of the driven wheel per unit of length]."""
 
 
 Pair = TypeVar("Pair", "CutGearPair", "DisplacedPair")

@@ -87,6 +87,22 @@ class MeshingVerdicts:
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
+@dataclass(frozen=True)
+class TightPlace:
+    """Position of minimum backlash of each pair, and the flank to file there."""
+
+    backlash: Floats
+    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
+    wheel: Ints
+    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
+    trailing.
+    """
+    tooth: Ints
+    side: Ints
+    gain: Floats
+    """Maximum increase of the backlash per unit depth of filing [rad of the driven wheel per unit of length]."""
+
+
 def batch_verdicts(
     sizes: TriangularSizes,
     first: CutWheel,

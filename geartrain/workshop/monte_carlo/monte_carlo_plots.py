@@ -372,7 +372,7 @@ def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figu
     """Draw the probability of a jam in any pair with its interval over the number of trials, and below it the half
     width of the interval.
 
-    A dotted line shows a slope of -1/2. Raises `QuestionError` if there are no trials.
+    A dotted line shows a slope of -1/2. Raises `QuestionError` without trials.
 
     steps   ascending numbers of trials with their estimates
     """

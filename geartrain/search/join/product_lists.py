@@ -262,8 +262,8 @@ class Item:
         above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
         below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
         tops, bottoms = self._top.values[above], bottom.values[below]
-        # rounding may exchange almost equal quotients, which windows allow for
-        order = np.argsort(tops / bottoms, kind="stable")
+        # equal quotients of floats are ordered too: those of one numerator by their denominator
+        order = np.lexsort((-bottoms, tops / bottoms))
         self._at = above[order], below[order]
         self.tops, self.bottoms = tops[order], bottoms[order]
         self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]

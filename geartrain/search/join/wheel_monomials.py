@@ -124,7 +124,10 @@ def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator
 def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
     top, bottom = list(_listable_groups(bundle.top, domains)), list(_listable_groups(bundle.bottom, domains))
     yield tuple(ItemRecipe(wheels) for wheels in top) + tuple(ItemRecipe((), wheels) for wheels in bottom)
-    if len(top) == len(bottom) == 1 and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
+    largest = math.prod(domains[wheel][-1] ** power for wheel, power in bundle.top + bundle.bottom)
+    # different quotients of such products are different floats, so their order is exact
+    short = largest < 1 << 52 and len(top) == len(bottom) == 1
+    if short and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
         yield (ItemRecipe(top[0], bottom[0]),)
 
 

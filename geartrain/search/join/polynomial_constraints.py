@@ -4,10 +4,8 @@
 a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values, whose
 ends are determined by exact signs.
 
-With more free variables, these lie between bounds, and rows are dropped that no values within the bounds can satisfy.
-If a polynomial has at most two powers of each free variable, it is monotone in each after division by the lower powers,
-and its extremes are at the corners of the box of bounds. If no free variable is in two of its terms, each term has its
-own extremes. Otherwise, or with too many corners, the extremes of the terms are still valid bounds.
+With more free variables, these are between bounds, and rows are dropped that no values within the bounds can satisfy.
+Each term has its own extremes, whose sum bounds the polynomial.
 """
 
 from __future__ import annotations
@@ -16,7 +14,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
 from math import prod
 from typing import Any
 
@@ -227,10 +224,6 @@ def _guess(polynomial: SignPolynomial, rows: PartialAssignments, item: int) -> I
 Corners = Mapping[int, tuple[float, float]]
 """Minimum and maximum value of each free variable."""
 
-_MOST_CORNERS = 64  # maximum number of corners of a box; beyond it, terms are bounded separately
-_SHORT = 4096
-"""Maximum number of rows for which a matrix product is faster than a loop over terms."""
-
 
 @dataclass(frozen=True, slots=True)
 class RelaxedInequality:
@@ -244,8 +237,6 @@ class RelaxedInequality:
     """Minimum over the box of each term's factor in the free variables, shape (terms,)."""
     highs: Floats
     """Maximum over the box of each term's factor in the free variables, shape (terms,)."""
-    points: Floats | None
-    """Factor of each term at each corner of the box, shape (terms, corners); None if terms are bounded separately."""
     slack: float
     """Upper bound of the rounding error, relative to the sum of the magnitudes of the terms."""
     scale: int
@@ -255,24 +246,11 @@ class RelaxedInequality:
         """Return whether each row can satisfy the inequality; False only if it fails for all values of the free
         variables.
         """
-        factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
-        minimum = np.zeros(rows.size)
-        for factor, high in zip(factors, self.highs, strict=True):
-            minimum -= self.slack * high * np.abs(factor)
-        if self.points is None:
-            best = np.zeros(rows.size)
-            for factor, low, high in zip(factors, self.lows, self.highs, strict=True):
-                best += np.maximum(low * factor, high * factor)
-            return np.asarray(best >= minimum)
-        if rows.size <= _SHORT:
-            return np.asarray((np.stack(factors, axis=1) @ self.points >= minimum[:, None]).any(axis=1))
-        found: Bools = np.zeros(rows.size, dtype=np.bool_)
-        for point in self.points.T:
-            values = np.zeros(rows.size)
-            for factor, size in zip(factors, point, strict=True):
-                values += size * factor
-            found |= values >= minimum
-        return found
+        best = np.zeros(rows.size)
+        for one, low, high in zip(self.rest, self.lows, self.highs, strict=True):
+            factor = self.sense * one.values(rows, self.scale)[0]
+            best += np.maximum(low * factor, high * factor) + self.slack * high * np.abs(factor)
+        return np.asarray(best >= 0)
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
@@ -280,22 +258,11 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
-    few = all(len(polynomial.powers(item)) <= 2 for item in inside) and 2 ** len(inside) <= _MOST_CORNERS
-    points = None
-    if few and not all(_is_in_one_term(polynomial, item) for item in inside):
-        ends = product(*(corners[item] for item in inside))
-        points = np.stack([_factors(polynomial, inside, point) for point in ends], axis=1)
     rest = tuple(
         SignPolynomial(((coefficient, tuple(pair for pair in monomial if pair[0] not in inside)),))
         for coefficient, monomial in polynomial.terms
     )
-    return RelaxedInequality(inequality.sense, rest, lows, highs, points, 2 * polynomial.rounding, polynomial.scale)
-
-
-def _is_in_one_term(polynomial: SignPolynomial, item: int) -> bool:
-    """Return whether at most one term has more than the lowest power of a variable."""
-    powers = [dict(monomial).get(item, 0) for _, monomial in polynomial.terms]
-    return sum(power > min(powers) for power in powers) <= 1
+    return RelaxedInequality(inequality.sense, rest, lows, highs, 2 * polynomial.rounding, polynomial.scale)
 
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, floor, prod, sqrt
-from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.bounded_polynomials import WholeTerm
 from geartrain.numerics.exact import decimal, log10
-from geartrain.numerics.work import Execution, Journal
+from geartrain.numerics.work import Journal
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import CountConstraint
@@ -274,59 +273,6 @@ def _rounded_up(error: Fraction) -> str:
 
 LIMIT = 10**9
 """Default maximum number of steps (partial assignments examined) of a pass, which take a few minutes."""
-
-
-@dataclass(frozen=True, slots=True)
-class TrainSearchRequest:
-    """Arguments of `search_train` as one object."""
-
-    train: Train
-    state: str | None = None
-    free: str | tuple[str, ...] = "search"
-    rules: ConstraintOptions = field(default_factory=ConstraintOptions)
-    tolerance: Fraction | None = None
-    best: int = 20
-    by: By = "error"
-    where: tuple[Mapping[str, int], ...] = ()
-    """Assignments whose ranks are also requested."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data that are equal for two requests that need the same computation."""
-        return {
-            "train": self.train.model_dump(mode="json"),
-            "state": self.state,
-            "free": self.free,
-            "rules": self.rules.to_dict(),
-            "tolerance": str(self.tolerance),
-            "best": self.best,
-            "by": self.by,
-        }
-
-
-def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
-    """Run a request: return the solutions of `search_train`, and the ranks of the queried assignments.
-
-    Parameters
-    ----------
-    request : TrainSearchRequest
-        Request of the search.
-    execution : Execution, optional
-        Execution of the tasks; by default in this process.
-    """
-    run = execution or Execution()
-    found = search_train(
-        request.train,
-        request.state,
-        free=request.free,
-        rules=request.rules,
-        tolerance=request.tolerance,
-        best=request.best,
-        by=request.by,
-        executor=run.executor,
-        journal=run.journal,
-        tell=run.tell,
-    )
-    return replace(found, where=tuple(place for teeth in request.where for place in found.standing(teeth)))
 
 
 def search_train(

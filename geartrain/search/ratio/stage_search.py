@@ -89,16 +89,14 @@ class StageFindings(Tabular, Result):
     """Constraints on the counts."""
     by: str
     """Order in which `solutions` are listed."""
-    tolerance: Fraction | None
+    tolerance: Fraction
     """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best is
     proved complete.
-
-    It is None if the best pairs of long ranges were found without a tolerance.
     """
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
-    count: int | None
-    """Number of solutions within the tolerance, exact if `complete`; None without a tolerance."""
+    count: int
+    """Number of solutions within the tolerance, exact if `complete`."""
     solutions: tuple[GearStages, ...]
     """Best solutions, in the order `by`."""
     shortfall: Shortfall

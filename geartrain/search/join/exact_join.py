@@ -12,13 +12,14 @@ from geartrain.kinematics.formulas.rational_functions import proportional_classe
 from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
-from geartrain.search.join.join_plan import JoinProblem, PlanNode, extents
+from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import (
     PolynomialConstraint,
     RelaxedInequality,
     possible,
 )
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
+from geartrain.search.join.wheel_monomials import extent
 
 # Monomials through which some constraints depend on variables: assignments with equal values of all these monomials are
 # equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
@@ -109,7 +110,7 @@ class ExactJoin:
         # no tally exceeds the total, so that int64 cannot overflow below 2^62
         self.dtype: Any = np.int64 if question.total < 1 << 62 else object
         self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
-        self.extents = extents(question)
+        self.extents = [extent(recipe, question.domains) for recipe in question.recipes]
         self.constraints: list[CountConstraint | PolynomialConstraint] = [
             *question.rules,
             *question.polynomial_constraints,

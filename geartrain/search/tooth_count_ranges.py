@@ -103,7 +103,7 @@ class CountRuns(Sequence[int]):
                 Problem(
                     f"{len(self)} tooth counts are too many to list",
                     "a search enumerates the counts of a wheel",
-                    "give a shorter range, such as 15:120",
+                    "give a shorter range, such as 15:120; `geartrain teeth approximants` lists fractions of any size",
                 )
             )
         return np.array(tuple(self), dtype=np.int64)

@@ -115,7 +115,7 @@ class CountRuns(Sequence[int]):
         return chain.from_iterable(range(first, last + 1) for first, last in self.spans)
 
     def __contains__(self, count: object) -> bool:
-        return isinstance(count, Integral) and any(first <= count <= last for first, last in self.spans)
+        return isinstance(count, Integral) and any(first <= int(count) <= last for first, last in self.spans)
 
     @overload
     def __getitem__(self, at: int) -> int: ...

@@ -105,7 +105,6 @@ class PositionMotion:
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
-        self._kinks: dict[tuple[frozenset[str], float], Floats] = {}
         self.composition = motion._with_sources(pairs)
         self.sources: Mapping[str, PairErrorSource] = {
             source.id: source for source in self.composition.sources if source.id in pairs
@@ -163,10 +162,7 @@ class PositionMotion:
 
         coasting   pairs whose coast flanks are in contact at all positions
         """
-        if (coasting, span) not in self._kinks:
-            composition = self.coasting_all_along(coasting)
-            self._kinks[coasting, span] = KinkSearch(composition).over(0.0, span).turns
-        return self._kinks[coasting, span]
+        return KinkSearch(self.coasting_all_along(coasting)).over(0.0, span).turns
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
         """Return the composition in which the coast flanks of the given pairs are in contact at all positions."""

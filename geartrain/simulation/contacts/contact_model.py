@@ -262,28 +262,36 @@ class ContactModel:
         rubbing = [[-1] * 4 if pair.rubbing is None else list(map(number, pair.rubbing)) for pair in self.pairs]
         return functions, transmissions, rubbing
 
-    def system(self, step: float) -> ContactSystem:
-        """Return the arrays of the kernels for the time step `step` [s]."""
+    def system(self, step: float, yields: ToothCompliance | None = None) -> ContactSystem:
+        """Return the arrays of the kernels for the time step `step` [s].
+
+        yields   stiffness and damping of compliant teeth, for the midpoint rule, in which every pair is a compliant row
+                 and determines no coordinate; None for rigid teeth
+        """
         order, n = self.order, len(self.torque)
         place = {each: at for at, each in enumerate(order.coordinates)}
         mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
-        # implicit in drag and springs, so that stiff ones remain stable
-        matrix = mass + step * viscous
+        # implicit in drag and springs, so that stiff ones remain stable; the midpoint rule weighs them by h/2 and h^2/4
+        past = step if yields is None else step / 2
+        matrix = mass + past * viscous
         for spring in self.springs:
             c = np.zeros(n)
             for each, value in spring.angle.items():
                 c[place[each]] = value
-            matrix = matrix + step**2 * spring.stiffness * np.outer(c, c)
+            matrix = matrix + past**2 * spring.stiffness * np.outer(c, c)
         near_at, near = _sparse([dict.fromkeys(each, 0.0) for each in order.near])[:2]
         _, transmissions, rubbing = self._functions
-        owned = [at for at in order.owner if at >= 0]
+        if yields is None:
+            stiff = [0.0 if m in order.owner else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]
+        else:
+            stiff = step**2 / 4 * yields.stiffness + step / 2 * yields.damping
         return ContactSystem(
             np.ascontiguousarray(mass),
             np.ascontiguousarray(viscous),
             np.ascontiguousarray(matrix),
             np.array([self.torque[each] for each in order.coordinates], dtype=np.float64),
             np.array([each in self.given for each in order.coordinates], dtype=np.int64),
-            np.array(order.owner, dtype=np.int64),
+            np.array(order.owner if yields is None else [-1] * n, dtype=np.int64),
             near_at,
             near,
             *self._pair_rows(place, near_at, near),
@@ -293,7 +301,7 @@ class ContactModel:
             np.array([pair.restitution for pair in self.pairs], dtype=np.float64),
             np.array(transmissions, dtype=np.int64).reshape(-1, 2),
             np.array(rubbing, dtype=np.int64).reshape(-1, 4),
-            np.array([0.0 if m in owned else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]),
+            np.array(stiff, dtype=np.float64),
             *_sparse([_placed(each.speed, place) for each in self.bearings]),
             np.array([each.sliding for each in self.bearings], dtype=np.float64),
             np.array([each.sticking for each in self.bearings], dtype=np.float64),

@@ -88,6 +88,21 @@ class RunRecord(NamedTuple):
 SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
+class CompliantTeeth(NamedTuple):
+    """Data of compliant teeth by pair; torques are about the driven sides."""
+
+    stiffness: Floats
+    """Torsional stiffness [N m/rad]."""
+    damping: Floats
+    """Torsional damping [N m s/rad]."""
+    peak: Floats
+    """Maximum contact torque in the counted part [N m]; updated by the kernel."""
+    impact: Ints
+    """Index of the last impact of each pair, -1 for none; updated by the kernel."""
+    gap: Floats
+    """Gap of both flanks at the middle of a step, without the change of speed in the step [rad]; work space."""
+
+
 class StepEquations(NamedTuple):
     """Equations of one step: data, work space and solution."""
 
@@ -135,6 +150,10 @@ class StepRules(NamedTuple):
     step: float
     """Time step [s]; `stride` is the number of steps between samples."""
     stride: int
+    share: float
+    """Fraction of the step at which forces are evaluated: 1 (implicit Euler) for rigid teeth, 1/2 (midpoint rule) for
+    compliant ones.
+    """
     creep: float
     """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
     slack: float
@@ -275,9 +294,8 @@ def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEq
             side = state.touching[m] - 1
             rate = 0.0
             for x in range(system.pair_at[m], system.pair_at[m + 1]):
-                rate += (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]) * here.v[
-                    system.pair_of[x]
-                ]
+                row = system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]
+                rate += row * here.v[system.pair_of[x]]
             here.P[m] = system.stiff[m] * (here.bound[m, side] - (1.0 - 2.0 * side) * rate)
     for m in range(len(system.stop_stiff)):
         if state.stopped[m] != 0:

@@ -15,6 +15,7 @@ from geartrain.simulation.steps.contact_solution import IMPACT_ENERGY, TIME_APAR
 from geartrain.simulation.steps.simulation import (
     StepPlan,
     check_convergence,
+    compliant_teeth,
     empty_equations,
     empty_record,
     start_state,
@@ -104,6 +105,7 @@ class Simulation(Shown):
         self._state = start_state(model, self._system)
         self._names = list(self.restitution)
         self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops), len(self._system.near))
+        self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
         self._place = np.argsort(model.order.coordinates)
         self._torque = np.array(self._system.torque)
@@ -312,7 +314,8 @@ class Simulation(Shown):
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)
-        self._run(self._system, self._model.transmissions, self._state, self._room, record, rules, steps, True)
+        given = self._system, self._model.transmissions, self._state, self._room, record, rules, self._rigid
+        self._run(*given, steps, True)
         check_convergence(self._state, record, self.step)
 
     def _read(self, record: RunRecord, steps: int) -> None:

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import ToothCompliance
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import Train
 
@@ -50,32 +50,21 @@ class SlackPin(ExactRatio):
     distance of the pin from the slot's axis.
     """
 
-    def __init__(self, transmission: PinTransmission, clearance: float, side: int) -> None:
+    def __init__(self, transmission: PinToSlotTransmission, clearance: float, side: int) -> None:
         super().__init__(transmission.ratio, transmission.period)
-        self.transmission, self.clearance, self.side, self.friction = (
-            transmission,
-            clearance,
-            side,
-            transmission.friction,
-        )
+        self.transmission, self.clearance, self.side = transmission, clearance, side
+        self.friction = transmission.friction
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the slot] at pin angles S [rad]."""
-        return np.asarray(
-            self.transmission.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S)))
-        )
+        square = self.transmission._reach(S)[1]
+        return np.asarray(self.transmission.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(square)))
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at pin angles S [rad]."""
-        square, half = self._square(S), self.clearance / 2
+        square, half = self.transmission._reach(S)[1], self.clearance / 2
         turning = half * self.transmission.r * self.transmission.e * np.sin(S) / (square * np.sqrt(square - half**2))
         return np.asarray(self.transmission.speed(S) - self.side * turning)
-
-    def _square(self, S: ArrayLike) -> Floats:
-        half = np.sin(np.asarray(S, dtype=float) / 2)
-        return np.asarray(
-            (self.transmission.r - self.transmission.e) ** 2 + 4 * self.transmission.r * self.transmission.e * half**2
-        )
 
 
 @dataclass(frozen=True)
@@ -161,7 +150,7 @@ class TrainModel:
         return {mesh.name: mesh for mesh in self.problem.teeth}
 
     @cached_property
-    def _pins(self) -> Mapping[str, PinTransmission]:
+    def _pins(self) -> Mapping[str, PinToSlotTransmission]:
         return {joint.coupling.name: joint.transmission for joint in self.problem.pins}
 
     @cached_property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -229,7 +229,8 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
         np.zeros(n),
         speed,
         np.full(pairs, FRONT, dtype=np.int64),
-        *(np.zeros(size, dtype=np.int64) for size in (len(model.bearings), stops)),
+        np.zeros(len(model.bearings), dtype=np.int64),
+        np.zeros(stops, dtype=np.int64),
         ratio,
         np.zeros(pairs + stops, dtype=np.int64),
         np.zeros(pairs),
@@ -242,33 +243,15 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
     """Return an empty record for `n` coordinates, `rows` pairs and stops, and given numbers of samples and impacts."""
     sampled = [(samples, n), (samples, n), (samples, rows), (samples, n)]
     shapes = [(ENERGIES,), (rows, COUNTS), *sampled, (impacts, IMPACT_COLUMNS)]
-    return RunRecord(*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64))
+    return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
 
 
 def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
     """Return empty arrays for the equations of one step."""
-    flanks = (pairs, 2)
-    shapes = [
-        n,
-        flanks,
-        stops,
-        flanks,
-        flanks,
-        (n, n),
-        n,
-        near,
-        near,
-        n,
-        n,
-        pairs + stops,
-        n,
-        n,
-        n,
-        flanks,
-        flanks,
-        stops,
-    ]
-    return StepEquations(*map(np.zeros, shapes), np.zeros(pairs + stops, dtype=np.int64))
+    flanks, contacts = (pairs, 2), pairs + stops
+    shapes: list[Any] = [n, flanks, stops, flanks, flanks, (n, n), n, near, near, n, n, contacts, n, n, n]
+    shapes += [flanks, flanks, stops]
+    return StepEquations._make([*(np.zeros(shape) for shape in shapes), np.zeros(contacts, dtype=np.int64)])
 
 
 def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:

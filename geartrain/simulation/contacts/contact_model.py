@@ -284,7 +284,7 @@ class ContactModel:
         if yields is None:
             stiff = [0.0 if m in order.owner else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]
         else:
-            stiff = step**2 / 4 * yields.stiffness + step / 2 * yields.damping
+            stiff = (step**2 / 4 * yields.stiffness + step / 2 * yields.damping).tolist()
         return ContactSystem(
             np.ascontiguousarray(mass),
             np.ascontiguousarray(viscous),

@@ -8,9 +8,8 @@ earlier ones; that coordinate appears in only one side of the pair. Prescribed c
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from math import floor
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -66,19 +65,6 @@ class ContactPair:
     def row(self) -> tuple[int, ...]:
         """Indices of the coordinates of both sides."""
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
-
-    def moved(self, angle: Floats) -> ContactPair:
-        """Return the pair with its coordinates starting at other angles [rad].
-
-        Whole periods of its transmission function are subtracted, because large angles cost digits.
-        """
-        # large angles lose digits, and the transmission function is periodic
-        S, q = (
-            start + sum(float(angle[at]) * value for at, value in form.items())
-            for start, form in zip(self.start, (self.driver, self.driven), strict=True)
-        )
-        whole = floor(S / self.front.table.period) * self.front.table.period
-        return replace(self, start=(S - whole, q - whole * self.front.slope))
 
     def could_determine(self, coordinate: int) -> bool:
         """Return whether one side only contains the coordinate, with a coefficient that never vanishes."""
@@ -205,22 +191,6 @@ class ContactModel:
             for each in near[d]:
                 near[each].update(other for other in near[d] if other < each)
         return tuple(tuple(sorted(each)) for each in near)
-
-    def restarted(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
-        """Return a copy of the model with scaled speeds and a new initial state (angles [rad], speeds [rad/s]); tables
-        are shared.
-
-        `share` scales the speeds. If touching pairs determine all coordinates, speeds follow from their transmission
-        functions at the angles, because the speeds of a step are means.
-        """
-        given = {at: share * value for at, value in self.given.items()}
-        pairs = self.pairs if angle is None else [pair.moved(angle) for pair in self.pairs]
-        start = self.start if speed is None else share * speed
-        if given and all(m >= 0 or at in given for at, m in zip(*self.order[:2], strict=True)):
-            start = None
-        found = replace(self, given=given, typical=share * self.typical, pairs=pairs, start=start)
-        found.__dict__.update(order=self.order, transmissions=self.transmissions, _functions=self._functions)
-        return found
 
     @property
     def fall_times(self) -> list[float]:

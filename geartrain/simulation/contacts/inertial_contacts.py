@@ -83,15 +83,12 @@ class InertialContacts:
         self,
         moving: MotionProblem,
         acting: InertialLoads,
-        tolerance: float | None = None,
         rubbing: Mapping[str, FlankArms] | None = None,
     ) -> None:
         self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
         # tables cost a setup but make every further evaluation cheaper
-        if tolerance is None and len(moving.circuits) > _MANY:
-            tolerance = _TABLES
-        self.motion = Motion(moving, outputs, tolerance)
+        self.motion = Motion(moving, outputs, _TABLES if len(moving.circuits) > _MANY else None)
         self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
     # ------------------------------------------------------------------------------------------------------- components

@@ -21,7 +21,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.simulation.contacts.pair_tables import TOLERANCE, TabledFunction, tabled_angle
+from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
 from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
@@ -74,7 +74,6 @@ class TrainModel:
     problem   rows, mean speeds, transmission functions and drivers of the train
     case      inertia, drag, and the drive
     tree      turning pairs of the train
-    tolerance tolerance of the tables of transmission functions [driven pitches]
     """
 
     train: Train
@@ -82,7 +81,6 @@ class TrainModel:
     case: TimeCase
     tree: Tree
     state: str | None = None
-    tolerance: float = TOLERANCE
 
     def typical(self, link: str) -> float:
         """Return the speed of a link in mean motion [rad/s]."""
@@ -249,7 +247,7 @@ class TrainModel:
             # a pair with constant ratio has neither a phase nor a second flank
             if circuit.id not in self.sources:
                 transmission = self._even(circuit)
-                front = self._tabled(transmission)
+                front = tabled_angle(transmission)
                 arms = self._constant_ratio_arms(circuit, transmission)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
@@ -266,18 +264,15 @@ class TrainModel:
             transmission = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
-                front = self._tabled(transmission)
+                front = tabled_angle(transmission)
                 return front, front, pin_arms(transmission), transmission
             # with clearance the two sides of the slot are two flanks
             before, behind = SlackPin(transmission, clearance, -1), SlackPin(transmission, clearance, 1)
-            return self._tabled(before), self._tabled(behind), pin_arms(transmission), before
+            return tabled_angle(before), tabled_angle(behind), pin_arms(transmission), before
         mesh = self._meshes[circuit.id]
-        front = self._tabled(mesh.transmission)
-        back = front if mesh.verdict.backlash <= 0 else self._tabled(mesh.coast)
+        front = tabled_angle(mesh.transmission)
+        back = front if mesh.verdict.backlash <= 0 else tabled_angle(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.transmission
-
-    def _tabled(self, transmission: TransmissionFunction) -> TabledFunction:
-        return tabled_angle(transmission, self.tolerance)
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""

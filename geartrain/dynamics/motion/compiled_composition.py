@@ -83,7 +83,7 @@ class FedBackTransmission:
 class CompositionOrder(NamedTuple):
     """Order of solution as flat arrays, step by step.
 
-    Links have rows, which later links reuse. Ranges begin at `..._start`.
+    Ranges begin at `..._start`.
     """
 
     own_start: Ints
@@ -171,7 +171,7 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
         _order(composition),
         _sources(composition, gains),
         join_transmission_tables(tables),
-        composition.rows,
+        len(composition.place),
         most,
     )
 

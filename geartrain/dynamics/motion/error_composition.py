@@ -218,44 +218,22 @@ class ErrorComposition:
 
     @cached_property
     def place(self) -> dict[int, int]:
-        """Link -> row in which its values are stored until their last use; later links use the row again."""
-        last: dict[int, int] = {}
-        for at, step in enumerate(self.steps):
-            last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
-        for seen in self.outputs:
-            last.update(dict.fromkeys((seen.of, seen.base), len(self.steps)))
-        place: dict[int, int] = {}
-        free: list[int] = []
-        count = 0
-        for at, step in enumerate(self.steps):
-            for link in step.links:
-                if not free:
-                    free.append(count)
-                    count += 1
-                place[link] = free.pop()
-            # rows of links read for the last time in this step become free
-            read = {*step.links, *step.known, *(end for s in step.sources for end in self._ends(s))}
-            free += [place[link] for link in read if link in place and last.get(link, at) == at]
-        return place
-
-    @cached_property
-    def rows(self) -> int:
-        """Maximum number of links whose values are stored at once."""
-        return max(self.place.values(), default=-1) + 1
+        """Link -> row in which its values are stored."""
+        return {link: row for row, link in enumerate(link for step in self.steps for link in step.links)}
 
     @cached_property
     def chunk(self) -> int:
         """Maximum number of positions evaluated at once; it limits the memory for trains of any length."""
         # stored numbers: errors and rates of the links, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
-        return max(64, min(_CHUNK, _NUMBERS // (2 * (self.rows + widest) + 1)))
+        return max(64, min(_CHUNK, _NUMBERS // (2 * (len(self.place) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input
         [revolutions].
         """
         angle = InputPhase(turns)
-        error = np.empty((self.rows, len(turns)))
+        error = np.empty((len(self.place), len(turns)))
         rate = np.empty_like(error)
         reversing_drivers = frozenset(pair for step in self.steps for pair in self._take(step, angle, error, rate))
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
@@ -273,7 +251,7 @@ class ErrorComposition:
         """Compute the links of a step in place. Yield the names of pairs whose driver turns against its mean motion."""
         known = [self.place[link] for link in step.known]
         first = self.place[step.links[0]]
-        own = slice(first, first + 1) if len(step.links) == 1 else [self.place[link] for link in step.links]
+        own = slice(first, first + len(step.links))
         error[own] = step.from_known @ error[known] if known else 0.0
         rate[own] = step.from_known @ rate[known] if known else 0.0
         if not step.sources:

@@ -84,7 +84,7 @@ def solve_coupled_errors(
     jacobian = pairs.jacobian(slope)
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
     # the determinant is 1 for ideal teeth and changes sign at a dead centre
-    if not (_determinant(jacobian) > 0).all():
+    if not (np.linalg.det(jacobian) > 0).all():
         raise _refusal(pairs.names, _DEAD_CENTRE)
     rate = _solve_coupled(jacobian, slope * speed)
     return delta, rate, list(speed + pairs.gain @ rate)
@@ -148,7 +148,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
     """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
-    dead = _determinant(matrices) == 0
+    dead = np.linalg.det(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
     step = np.zeros_like(right)
@@ -158,21 +158,8 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small systems, shape (pairs, n), by Cramer's rule for two pairs, the usual number."""
-    if matrices.shape[1] == 1:
-        return np.asarray(right / matrices[:, 0, 0])
-    if matrices.shape[1] == 2:
-        # a few array operations over all positions, instead of a LAPACK call per position
-        (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
-        whole = a * d - b * c
-        return np.stack([(right[0] * d - b * right[1]) / whole, (a * right[1] - c * right[0]) / whole])
+    """Return the solutions of n small systems, shape (pairs, n)."""
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
-
-
-def _determinant(matrices: Floats) -> Floats:
-    if matrices.shape[1] == 1:
-        return np.asarray(matrices[:, 0, 0])
-    return np.asarray(np.linalg.det(matrices))
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:

@@ -212,6 +212,11 @@ class ErrorComposition:
             (joint.carrier, -source.forward * source.carrier_sense),
         )
 
+    def seen_driver(self, source: PairErrorSource) -> SeenLink:
+        """Return the driver of a source relative to its carrier, as an output."""
+        joint = self.spread.joints[source.pair]
+        return SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
+
     def _ends(self, source: int) -> tuple[int, int]:
         joint = self.spread.joints[self.sources[source].pair]
         return joint.driver, joint.carrier

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, common_period
-from geartrain.dynamics.motion.kink_positions import InputSteps, KinkSearch
+from geartrain.dynamics.motion.kink_positions import InputSteps, KinkSearch, equal_steps
 from geartrain.dynamics.motion.rate_bounds import RateBounds, StepBounds, error_difference
 from geartrain.numerics.chebyshev import points
 
@@ -152,14 +152,10 @@ class StepSearch:
         self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 
     def _first(self, start: float, end: float, step: float) -> Iterator[InputSteps]:
-        """Yield the whole run in equal steps."""
+        """Return the whole run in equal steps."""
         wanted = (end - start) / step
         number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
-        for first in range(0, number, self.chunk):
-            at = np.arange(first, min(first + self.chunk, number) + 1)
-            ends = start + (end - start) * (at / number)
-            ends[at == number] = end
-            yield InputSteps(ends[:-1], ends[1:])
+        return equal_steps(start, end, number, self.chunk)
 
     def _promising_of(self, steps: Iterator[InputSteps]) -> BoundedSteps:
         """Return the steps that may contain an extreme, sorted by falling bounds."""

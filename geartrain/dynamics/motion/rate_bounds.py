@@ -9,13 +9,13 @@ between r and R is bounded by its values at the ends (Piyavskii's bounds).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, InputPhase, SeenLink
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, InputPhase
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep, PairErrorSource
@@ -172,13 +172,10 @@ class RateBounds:
     @cached_property
     def _whole(self) -> ErrorComposition:
         """Composition with additional outputs: the drivers of its sources relative to their carriers."""
-        given, joints = self.composition, self.composition.spread.joints
-        drivers = tuple(
-            SeenLink(joints[s.pair].driver, joints[s.pair].carrier, s.driver_sense * s.carrier_sense)
-            for s in self._sources.values()
-        )
+        given = self.composition
+        drivers = tuple(given.seen_driver(source) for source in self._sources.values())
         offsets = (*given.offsets, *(0.0 for _ in drivers)) if given.offsets else ()
-        return ErrorComposition(given.spread, given.sources, (*given.outputs, *drivers), offsets)
+        return replace(given, outputs=(*given.outputs, *drivers), offsets=offsets)
 
     @cached_property
     def _ranges(self) -> dict[int, SpeedRanges]:

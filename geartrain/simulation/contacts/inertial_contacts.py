@@ -161,11 +161,8 @@ class InertialContacts:
         kick = np.zeros((len(self.pairs), len(turns)))
         pulled = np.zeros((len(self.pairs), len(turns)))
         for row, source in enumerate(self.sources):
-            S = phase.cycles(source.cycles) * source.transmission.period + source.start
-            turning = np.full(len(turns), source.mean)
-            for link, sign in composition.turned_by(source):
-                S += sign * error[link]
-                turning += sign * found.rate[link]
+            S = composition.driver_angle(source, phase, error)
+            turning = source.mean + sum(sign * found.rate[link] for link, sign in composition.turned_by(source))
             slope[row] = source.sense * (source.transmission.speed(S) - float(source.transmission.ratio))
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
             arm[row] = slope[row]

@@ -259,24 +259,6 @@ class PowerFlow(Result):
         """Losses with their fractions of the power input and of the total loss."""
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
-    def surplus(self, node: PowerNode) -> Fraction:
-        """Return the power balance of a node: power input minus power output and loss. The balance is 0 except at `in`
-        and `out`.
-
-        Parameters
-        ----------
-        node : PowerNode
-            Node of this power flow.
-
-        Returns
-        -------
-        Fraction
-            Power input minus power output and loss [unit of torque times the train's unit of speed].
-        """
-        taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
-        given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
-        return taken - given - self.losses.get(node, Fraction(0))
-
 
 def find_power_flow(found: Torques) -> PowerFlow:
     """Compute the power flow between shafts and gear pairs from computed torques.

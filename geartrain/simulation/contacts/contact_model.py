@@ -107,13 +107,11 @@ class Spring:
 class SolvedOrder(NamedTuple):
     """Elimination order of the coordinates.
 
-    `owner` is the index of the pair that determines each coordinate, -1 for none. `near` has the earlier coordinates
-    with which each may be coupled.
+    `owner` is the index of the pair that determines each coordinate, -1 for none.
     """
 
     coordinates: tuple[int, ...]
     owner: tuple[int, ...]
-    near: tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -166,31 +164,7 @@ class ContactModel:
         rest = [each for each in range(len(self.torque)) if each not in order]
         order += rest
         owner += [-1] * len(rest)
-        return SolvedOrder(tuple(order), tuple(owner), self._near(order, owner))
-
-    def _near(self, order: Sequence[int], owner: Sequence[int]) -> tuple[tuple[int, ...], ...]:
-        """Return the fill-in of the elimination: coordinates that share a row, or are coupled by eliminating a later
-        one.
-        """
-        place = {each: at for at, each in enumerate(order)}
-        near: list[set[int]] = [set() for _ in order]
-        free = [pair.row for m, pair in enumerate(self.pairs) if m not in owner]
-        forms = [list(each.speed) for each in self.bearings]
-        forms += [list(each.angle) for each in self.stops] + [list(each.angle) for each in self.springs]
-        # mass and damping couple coordinates even if no contact touches
-        coupled = np.argwhere((self.mass != 0) | (self.viscous != 0)).tolist()
-        for group in (*free, *forms, *coupled):
-            places = sorted(place[each] for each in group)
-            for at, d in enumerate(places):
-                near[d].update(each for each in places[:at] if each != d)
-        for d, m in enumerate(owner):
-            if m >= 0:
-                near[d].update(place[each] for each in self.pairs[m].row if place[each] != d)
-        # symbolic elimination from the last coordinate to the first
-        for d in range(len(order) - 1, -1, -1):
-            for each in near[d]:
-                near[each].update(other for other in near[d] if other < each)
-        return tuple(tuple(sorted(each)) for each in near)
+        return SolvedOrder(tuple(order), tuple(owner))
 
     @property
     def fall_times(self) -> list[float]:
@@ -249,7 +223,6 @@ class ContactModel:
             for each, value in spring.angle.items():
                 c[place[each]] = value
             matrix = matrix + past**2 * spring.stiffness * np.outer(c, c)
-        near_at, near = _sparse([dict.fromkeys(each, 0.0) for each in order.near])[:2]
         _, transmissions, rubbing = self._functions
         if yields is None:
             stiff = [0.0 if m in order.owner else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]
@@ -262,9 +235,7 @@ class ContactModel:
             np.array([self.torque[each] for each in order.coordinates], dtype=np.float64),
             np.array([each in self.given for each in order.coordinates], dtype=np.int64),
             np.array(order.owner if yields is None else [-1] * n, dtype=np.int64),
-            near_at,
-            near,
-            *self._pair_rows(place, near_at, near),
+            *self._pair_rows(place),
             np.array([pair.start[0] for pair in self.pairs], dtype=np.float64),
             np.array([pair.start[1] for pair in self.pairs], dtype=np.float64),
             np.array([pair.two_sided for pair in self.pairs], dtype=np.int64),
@@ -287,38 +258,16 @@ class ContactModel:
             np.array([each.rate for each in self.springs], dtype=np.float64),
         )
 
-    def _pair_rows(
-        self, place: Mapping[int, int], near_at: Ints, near: Ints
-    ) -> tuple[Ints, Ints, Floats, Floats, Ints]:
-        """Return the sparse rows of the pairs, with the determined coordinate of each first, and the slots of the
-        others.
-
-        A slot is the index of a coordinate in `near` of the determined one, -1 for the determined coordinate itself,
-        -2 if the pair determines none.
-        """
+    def _pair_rows(self, place: Mapping[int, int]) -> tuple[Ints, Ints, Floats, Floats]:
+        """Return the sparse rows of the pairs, with the determined coordinate of each first."""
         owner = {m: d for d, m in enumerate(self.order.owner) if m >= 0}
-        at, of, S, q, slot = [0], [], [], [], []
+        rows = []
         for m, pair in enumerate(self.pairs):
-            own = owner.get(m)
-            row = [own] if own is not None else []
-            row += [place[each] for each in pair.row if place[each] != own]
-            back = {place[each]: each for each in pair.row}
-            for each in row:
-                of.append(each)
-                S.append(float(pair.driver.get(back[each], 0.0)))
-                q.append(float(pair.driven.get(back[each], 0.0)))
-                # slot codes of the kernels: -2 without owner, -1 the owner itself
-                if m not in owner:
-                    slot.append(-2)
-                elif each == owner[m]:
-                    slot.append(-1)
-                else:
-                    low, high = near_at[owner[m]], near_at[owner[m] + 1]
-                    slot.append(int(low + np.searchsorted(near[low:high], each)))
-            at.append(len(of))
-        ints = (np.array(each, dtype=np.int64) for each in (at, of, slot))
-        starts, places, slots = ints
-        return starts, places, np.array(S, dtype=np.float64), np.array(q, dtype=np.float64), slots
+            # a stable sort, so that the others keep their order
+            names = sorted(pair.row, key=lambda each: place[each] != owner.get(m))
+            rows.append({place[each]: (pair.driver.get(each, 0.0), pair.driven.get(each, 0.0)) for each in names})
+        sides = [_sparse([{each: own[side] for each, own in row.items()} for row in rows]) for side in (0, 1)]
+        return *sides[0], sides[1][2]
 
     def _stiffness(self, form: Form) -> float:
         """Return the regularising inverse compliance of a row [kg m2], far above the inertia of the links that turn
@@ -361,10 +310,8 @@ class ContactSystem(NamedTuple):
     torque                  constant torque on each coordinate
     given                   1 if the speed is prescribed
     owner                   pair that determines a coordinate while it is in contact; -1 for none
-    near                    earlier coordinates with which each may be coupled (sparse, `near_at`)
     pair_of                 coordinates of a pair's row; `pair_driver`, `pair_driven`: coefficients of the speeds of
                             both sides
-    slot                    index of an entry in `near` of its owner; -1 for the owner itself, -2 without an owner
     start_driver, start_driven   angles of both sides where all coordinates are 0
     two_sided               1 for pins without clearance and gears without backlash
     tables, rubbing         functions of both flanks; friction terms of the driver's arm, (front, back) x (forward,
@@ -381,13 +328,10 @@ class ContactSystem(NamedTuple):
     torque: Floats
     given: Ints
     owner: Ints
-    near_at: Ints
-    near: Ints
     pair_at: Ints
     pair_of: Ints
     pair_driver: Floats
     pair_driven: Floats
-    slot: Ints
     start_driver: Floats
     start_driven: Floats
     two_sided: Ints

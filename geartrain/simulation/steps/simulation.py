@@ -100,7 +100,7 @@ def simulate(
     """
     system, n = model.system(plan.step, yields), len(model.torque)
     state = start_state(model, system)
-    here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
+    here = empty_equations(n, len(model.pairs), len(model.stops))
     samples = (plan.skip + plan.steps) // plan.stride
     record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
     teeth = compliant_teeth(len(model.pairs), yields)
@@ -246,10 +246,10 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
     return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
 
 
-def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
+def empty_equations(n: int, pairs: int, stops: int) -> StepEquations:
     """Return empty arrays for the equations of one step."""
     flanks, contacts = (pairs, 2), pairs + stops
-    shapes: list[Any] = [n, flanks, stops, flanks, flanks, (n, n), n, near, near, n, n, contacts, n, n, n]
+    shapes: list[Any] = [n, flanks, stops, flanks, flanks, (n, n), n, (n, n), n, n, n, contacts, n, n, n]
     shapes += [flanks, flanks, stops]
     return StepEquations._make([*(np.zeros(shape) for shape in shapes), np.zeros(contacts, dtype=np.int64)])
 

@@ -57,8 +57,7 @@ def count_energy(
         record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]
         record.energy[WORK_TORQUE] += rules.step * system.torque[d] * here.middle[d]
         record.energy[VISCOUS] += rules.step * system.viscous[d, d] * speed[d] * here.middle[d]
-        for x in range(system.near_at[d], system.near_at[d + 1]):
-            o = system.near[x]
+        for o in range(d):
             across = speed[d] * here.middle[o] + speed[o] * here.middle[d]
             record.energy[VISCOUS] += rules.step * system.viscous[d, o] * across
     for m in range(len(system.spring_stiffness)):

@@ -263,11 +263,9 @@ def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, 
     """
     past = (1.0 - share) * step
     for d in range(len(here.v)):
-        here.load[d] = step * system.torque[d] + (system.mass[d, d] - past * system.viscous[d, d]) * state.speed[d]
-        for x in range(system.near_at[d], system.near_at[d + 1]):
-            o = system.near[x]
+        here.load[d] = step * system.torque[d]
+        for o in range(len(here.v)):
             here.load[d] += (system.mass[d, o] - past * system.viscous[d, o]) * state.speed[o]
-            here.load[o] += (system.mass[o, d] - past * system.viscous[o, d]) * state.speed[d]
     for m in range(len(system.spring_stiffness)):
         pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + share * step)
         for x in range(system.spring_at[m], system.spring_at[m + 1]):

@@ -104,7 +104,7 @@ class Simulation(Shown):
             self._system.spring_rate[0] = self.drive
         self._state = start_state(model, self._system)
         self._names = list(self.restitution)
-        self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops), len(self._system.near))
+        self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops))
         self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
         self._place = np.argsort(model.order.coordinates)

@@ -100,21 +100,12 @@ class InertialContacts:
     @cached_property
     def _response(self) -> Floats:
         """Response R: angles of the links to a unit error of each pair, shape (links, pairs)."""
-        return self.motion._propagation.errors(np.eye(len(self.pairs)))
-
-    @cached_property
-    def _gain(self) -> Floats:
-        """Gain G: driver's angle of each error source per unit error of each pair, shape (sources, pairs)."""
-        rows = np.zeros((len(self.sources), len(self.pairs)))
-        for row, source in enumerate(self.sources):
-            for link, sign in self.motion._forward.turned_by(source):
-                rows[row] += sign * self._response[link]
-        return rows
+        return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
         """Return the inverse of J = I - diag(slope) G at each position, shape (n, pairs, pairs)."""
         found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
-        found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self._gain
+        found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
         return np.asarray(np.linalg.inv(found))
 
     @cached_property

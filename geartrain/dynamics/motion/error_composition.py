@@ -2,9 +2,8 @@
 pairs.
 
 Equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's driver, which includes the errors
-of other
-pairs. These are computed first in the order of solution, so that one pass composes the transmission functions exactly.
-Errors of coupled pairs are solved simultaneously (5).
+of other pairs. These are computed first in the order of solution, so that one pass composes the transmission functions
+exactly. Errors of coupled pairs are solved simultaneously (5).
 """
 
 from __future__ import annotations

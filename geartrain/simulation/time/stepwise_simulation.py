@@ -84,6 +84,9 @@ class Simulation(Shown):
         drive: float | None = None,
         loads: Mapping[str, float] | None = None,
     ) -> None:
+        if not 0 < step < inf:
+            what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
+            raise QuestionError(Problem(what, why, "pass a step above 0, for example step=1e-4"))
         self._of, self._outputs, self._fast = of, tuple(outputs), fast
         self.step = step
         self.drive_link, self.drive_kind = of.case.drive.link, of.case.drive.kind
@@ -145,9 +148,6 @@ class Simulation(Shown):
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
-        if not 0 < step < inf:
-            what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
-            raise QuestionError(Problem(what, why, "pass for example step=1e-4"))
         if outside := [each for each in bounces.values() if not 0 <= each <= 1]:
             what, why = (
                 f"a restitution of {outside[0]:g} is out of range",
@@ -167,10 +167,8 @@ class Simulation(Shown):
     @property
     def angles(self) -> dict[str, float]:
         """Angles of the outputs by name, including their initial angles [rad]."""
-        late = self.time - float(self._state.clock[1]) * self.step
-        turned = self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
         start = self._of.problem.angles
-        return self._by_output(turned + np.array([start.get(link, 0.0) for link in self._of.index]))
+        return self._by_output(self._turned() + np.array([start.get(link, 0.0) for link in self._of.index]))
 
     @property
     def speeds(self) -> dict[str, float]:
@@ -180,9 +178,12 @@ class Simulation(Shown):
     @property
     def angle(self) -> float:
         """Angle through which the link at which power enters has turned since the start [rad]."""
+        return float(self._turned()[self._of.index[self.drive_link]])
+
+    def _turned(self) -> Floats:
+        """Return the angle through which each link has turned since the start [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
-        row = self._of.speeds[self._of.index[self.drive_link]]
-        return float(row @ (self._state.angle + late * self._state.speed)[self._place])
+        return self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
 
     @property
     def speed(self) -> float:

@@ -64,16 +64,9 @@ class DrivenTrain:
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
         check_numbers(step=step, restitution=self.restitution)
-        if step is not None and not 0 < step < inf:
-            raise QuestionError(
-                Problem(
-                    f"a time step of {step:g} s is out of range",
-                    "the time step must be positive and finite",
-                    "pass a step above 0, for example step=1e-4",
-                )
-            )
         seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate))
-        return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
+        step = TimeStudy(found, seen, 1).plan(2).step if step is None else step
+        return Simulation(found, seen, step, fast=is_fast(fast, inf))
 
     def _recorded_outputs(self) -> list[tuple[str, str, str]]:
         """Return name, link and reference link of each recorded output."""

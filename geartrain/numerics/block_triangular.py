@@ -22,22 +22,19 @@ class Block(NamedTuple):
     columns: tuple[int, ...]
 
 
-def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = ()) -> list[Block] | None:
+def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
     """Return the block triangular form of a square system; None if no perfect matching of rows and columns exists.
 
     Each block follows all blocks that it depends on. Run time is linear for trees, and proportional to rows times
     entries in the worst case.
 
     rows   columns with an entry, for each row
-    also   further columns that a row depends on, without an entry in it
     """
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
         return None
     taken = [row_of[column] for column in range(len(rows))]
-    return _strongly_connected_components(
-        [(*row, *more) for row, more in zip(rows, also, strict=True)] if also else rows, taken
-    )
+    return _strongly_connected_components(rows, taken)
 
 
 def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:

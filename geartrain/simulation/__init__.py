@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from geartrain.simulation.strength.strength_results import PointContact as PointContact
     from geartrain.simulation.strength.strength_results import TrainStrength as TrainStrength
     from geartrain.simulation.strength.strength_results import WheelStrength as WheelStrength
-    from geartrain.simulation.time.stepped_separation import SteppedSeparation as SteppedSeparation
     from geartrain.simulation.time.stepwise_simulation import Simulation as Simulation
     from geartrain.simulation.time.time_report import TimeReport as TimeReport
     from geartrain.simulation.time.time_report import collect_time_report as collect_time_report
@@ -52,7 +51,6 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.time_run_plot import time_run_figure as time_run_figure
     from geartrain.simulation.time.train_in_time import VibrationModes as VibrationModes
     from geartrain.simulation.time.train_in_time import find_vibration_modes as find_vibration_modes
-    from geartrain.simulation.time.train_in_time import step_to_separation as step_to_separation
 
 __all__ = [
     "ArborStrength",
@@ -72,7 +70,6 @@ __all__ = [
     "SeparationRates",
     "Simulation",
     "SpectrumPeak",
-    "SteppedSeparation",
     "StrengthReport",
     "TimeReport",
     "TimeRun",
@@ -88,7 +85,6 @@ __all__ = [
     "find_tooth_impacts",
     "find_vibration_modes",
     "fmu_file",
-    "step_to_separation",
     "time_run_figure",
 ]
 
@@ -112,7 +108,6 @@ _PLACES = {
         ),
         "strength.strength_results",
     ),
-    "SteppedSeparation": "time.stepped_separation",
     "Simulation": "time.stepwise_simulation",
     **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time.time_report"),
     **dict.fromkeys(
@@ -128,7 +123,7 @@ _PLACES = {
         "time.time_run",
     ),
     "time_run_figure": "time.time_run_plot",
-    **dict.fromkeys(("VibrationModes", "find_vibration_modes", "step_to_separation"), "time.train_in_time"),
+    **dict.fromkeys(("VibrationModes", "find_vibration_modes"), "time.train_in_time"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import signal
 from collections.abc import Callable
 from itertools import pairwise
@@ -123,48 +122,6 @@ def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pi
         assert float(row["turns"]) == pytest.approx(0.3 * float(row["time (s)"]))
         # a pin without clearance keeps its slot
         assert abs(float(row["a~b gap (rad)"])) < 1e-9
-
-
-def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_closed_one(train_file: Write) -> None:
-    path = train_file(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), "slack.yaml")
-    # from a difference quotient of the slot's law: equation 7 has 3.247654 turn/s for a pin without clearance
-    closed = 3.2483918
-    words = ("--rate", "1", "--turns", "0.3", "--skip", "0", "--steps", "500", "--no-fast", "--find-rate")
-    assert "Separation rate by time stepping" in call("dynamics", path, *words).output
-    found = answer(path, *words)["stepped"]
-    assert found["error"] < 2e-5 * closed
-    assert found["rate"] == pytest.approx(closed, abs=found["error"])
-    assert closed * (1 - 1e-5) < found["holds"] < found["parts"] < closed * (1 + 1e-5)
-    assert (found["pair"], found["complete"]) == ("a~b", True)
-    # 51.6154 degrees of the pin without clearance
-    assert found["at"] == pytest.approx(51.6154 / 360, abs=2e-3)
-
-
-def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
-    train_file: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from geartrain.simulation.time import stepped_separation
-
-    path = train_file(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), "slack.yaml")
-    words = ("--rate", "1", "--turns", "0.5", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate", "--json")
-    finer, calls = stepped_separation.SeparationSearch.finer, []
-
-    def stopping(self: object, *given: object) -> object:
-        calls.append(given)
-        if len(calls) == 2:
-            os.kill(os.getpid(), signal.SIGINT)
-        return finer(self, *given)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(stepped_separation.SeparationSearch, "finer", stopping)
-    done = call("dynamics", path, *words)
-    assert done.exit_code == 130
-    assert "stopped before" in done.stderr
-    found = json.loads(done.stdout)
-    assert found["complete"] is True
-    assert found["stepped"]["complete"] is False
-    # what was found with the first of three lengths of steps
-    assert 3.2 < found["stepped"]["holds"] < found["stepped"]["parts"] < 3.3
-    assert found["stepped"]["error"] > 1e-5
 
 
 @pytest.mark.slow

@@ -101,16 +101,23 @@ def _flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
                 yield found, find_power_flow(found)
 
 
+def surplus(flow: PowerFlow, node: PowerNode) -> Fraction:
+    """The power into a node minus the power out of it and its loss."""
+    taken = sum((stream.power for stream in flow.streams if stream.target == node), Fraction(0))
+    given = sum((stream.power for stream in flow.streams if stream.source == node), Fraction(0))
+    return taken - given - flow.losses.get(node, Fraction(0))
+
+
 def require_balance(found: Torques, flow: PowerFlow) -> None:
     """Nothing appears or vanishes: not at a node, not in all, not of what circles."""
     assert all(0 <= stream.circling <= stream.power > 0 for stream in flow.streams)
     for node in flow.nodes:
         if node.kind not in ("in", "out"):
-            assert flow.surplus(node) == 0, node
+            assert surplus(flow, node) == 0, node
         into = sum(stream.circling for stream in flow.streams if stream.target == node)
         assert into == sum(stream.circling for stream in flow.streams if stream.source == node)
     ends = {
-        kind: sum((-flow.surplus(node) for node in flow.nodes if node.kind == kind), Fraction(0))
+        kind: sum((-surplus(flow, node) for node in flow.nodes if node.kind == kind), Fraction(0))
         for kind in ("in", "out")
     }
     powers = list(found.powers.values())

@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 from typing import Any, NamedTuple
 
 import pytest
-from hypothesis import assume, event, given, reject, settings
+from hypothesis import event, given, reject, settings
 from hypothesis import strategies as st
 from places import DATA
 
@@ -146,16 +146,6 @@ class Stage(NamedTuple):
     losses: tuple[Fraction, Fraction, Fraction]
 
 
-near = st.integers(28, 33)  # basic ratios near 1, which lock
-stages = st.builds(
-    Stage,
-    st.sampled_from(["pair", "set", "coupled"]),
-    st.booleans(),
-    st.tuples(near, near, near, near, counts, counts),
-    st.tuples(*[st.sampled_from([Fraction(n, 100) for n in (60, 80, 90, 95, 98, 99)])] * 3),
-)
-
-
 def joined(parts: Sequence[Stage]) -> tuple[list[str], list[tuple[str, str, str, int, int, Fraction]], list[str]]:
     """Links, meshes (i, j, carrier, a, b, efficiency) and links held, shafts s0, s1 ... in their order."""
     links, meshes, held = ["s0"], [], []
@@ -174,52 +164,6 @@ def joined(parts: Sequence[Stage]) -> tuple[list[str], list[tuple[str, str, str,
         else:
             meshes.append((first, ring, "frame", u, v, stage.losses[2]))
     return links, meshes, held
-
-
-def speeds_of(
-    links: Sequence[str], meshes: Sequence[tuple[str, str, str, int, int, Fraction]], held: Sequence[str]
-) -> dict[str, Fraction] | None:
-    """Speeds with s0 at 1; None where they are not determined."""
-    rows = []
-    for i, j, k, a, b, _ in meshes:
-        row = dict.fromkeys([*links, "frame"], ZERO)
-        row[i], row[j], row[k] = row[i] + a, row[j] + b, row[k] - a - b
-        rows.append([*(row[link] for link in links), ZERO])
-    for given_link, speed in (("s0", ONE), *((link, ZERO) for link in held)):
-        rows.append([*(ONE if link == given_link else ZERO for link in links), speed])
-    solution, only = eliminated(rows)
-    return dict(zip(links, solution, strict=True)) if only and solution else None
-
-
-@settings(max_examples=80, deadline=None)
-@given(st.lists(stages, min_size=1, max_size=3), st.sampled_from([-1, 1]), st.booleans())
-def test_trains_have_the_flows_that_a_trial_of_all_patterns_finds(
-    parts: list[Stage], sense: int, at_input: bool
-) -> None:
-    links, meshes, held = joined(parts)
-    assume(len(meshes) <= 6)
-    speeds = speeds_of(links, meshes, held)
-    assume(speeds is not None)
-    moving: Mapping[str, Fraction] = {**speeds, "frame": ZERO}
-    assume(all(moving[f"s{at}"] for at in range(len(parts) + 1)))
-    ends = ("s0", f"s{len(parts)}")
-    loaded, requested = ends if at_input else ends[::-1]
-    balance = TorqueBalance(
-        tuple(links),
-        tuple(
-            LoadedPair(str(at), (i, j, k), (1, 1, 1), a, b, a * (moving[i] - moving[k]), eta, eta)
-            for at, (i, j, k, a, b, eta) in enumerate(meshes)
-        ),
-        {loaded: sense / moving[loaded]},
-        (requested,),
-        tuple(held),
-    )
-    try:
-        wanted = by_force(balance)
-    except OpenError:
-        reject()
-    event(f"{len(wanted)} flows, load {'drives' if sense > 0 else 'resists'}")
-    assert by_blocks(balance) == wanted
 
 
 LOCKING = Stage("set", False, (30, 29, 30, 32, 1, 1), (Fraction(9, 10), Fraction(9, 10), ONE))
@@ -338,7 +282,7 @@ def ring(size: int, losing: int) -> TorqueBalance:
     return TorqueBalance(links, meshes, {"l0": ONE}, ())
 
 
-def test_a_block_of_some_losses_is_tried_in_floats_first_and_agrees() -> None:
+def test_a_large_block_of_some_losses_agrees() -> None:
     balance = ring(9, 7)
     assert by_blocks(balance) == by_force(balance)
 

@@ -119,9 +119,15 @@ def test_a_train_with_teeth_imports_nothing_heavier_than_numpy() -> None:
     code = """
 import sys
 from geartrain import load
+train = load("planetary-24-18-60-involute")
+train.solve()
+assert "numpy" not in sys.modules
+from geartrain.report import collect_report
+collect_report(train).to_dict()
+assert "geartrain.teeth.triangular.triangular_transmission" not in sys.modules
 train = load("pennestri-2002-teeth")
 assert all(mesh.verdict for mesh in train.meshes)
-heavy = ("scipy", "matplotlib", "networkx")
+heavy = ("scipy", "matplotlib", "networkx", "jinja2")
 print([name for name in sys.modules if name in heavy], "numpy" in sys.modules)
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

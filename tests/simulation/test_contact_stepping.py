@@ -444,7 +444,7 @@ def test_elimination_in_the_solved_order_is_the_saddle_point(seed: int) -> None:
     system = model.system(LENGTH)
     state = start_state(model, system)
     n, pairs = len(model.torque), len(model.pairs)
-    here = empty_equations(n, pairs, 0, len(system.near))
+    here = empty_equations(n, pairs, 0)
     here.load[:] = random.normal(size=n)
     here.bound[:] = random.normal(size=(pairs, 2))
     here.ratio[:] = random.uniform(0.5, 2, (pairs, 2))

@@ -11,7 +11,6 @@ from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.simulation import SeparationRates, find_link_inertias, find_separation
 from geartrain.simulation.contacts.inertial_contacts import (
-    ErrorCoupling,
     InertialContacts,
     find_inertial_loads,
     minimum_rate,
@@ -260,23 +259,6 @@ def test_a_train_that_turns_the_other_way_parts_alike() -> None:
     assert [(each.pair, each.rate) for each in find_separation(mirrored.mechanics, turns=2).pairs] == [
         (each.pair, pytest.approx(each.rate)) for each in find_separation(one.mechanics, turns=2).pairs
     ]
-
-
-def test_pairs_that_depend_on_each_other_are_solved_as_their_matrices_say() -> None:
-    """Two pairs in one block after a third, and one that does not ripple, against the dense matrices."""
-    random = np.random.default_rng(5)
-    gain = np.zeros((3, 4))
-    gain[1], gain[2] = random.normal(size=4), random.normal(size=4)
-    gain[1:, 1] = 0.0  # the second pair, which keeps its ratio, comes last
-    pairs = ErrorCoupling(gain, [0, 2, 3], [[0], [1, 2]])
-    slope, given = random.normal(scale=0.3, size=(3, 50)), random.normal(size=(4, 50))
-    found, carried = pairs.errors(slope, given), pairs.torques(slope, given)
-    for at in range(50):
-        matrix = np.eye(4)
-        for row, pair in enumerate((0, 2, 3)):
-            matrix[pair] -= slope[row, at] * gain[row]
-        assert found[:, at] == pytest.approx(np.linalg.solve(matrix, given[:, at]), rel=1e-10)
-        assert carried[:, at] == pytest.approx(np.linalg.solve(matrix.T, given[:, at]), rel=1e-10)
 
 
 # ------------------------------------------------------------------------------------------------------------- jumps

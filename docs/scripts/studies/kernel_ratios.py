@@ -44,7 +44,7 @@ def motion_rows(rounds: int = _ROUNDS) -> Iterator[KernelRow]:
         turns = np.linspace(0, 19, composition.chunk)
         kernel.at(turns), composition.at(turns)
         plain, fast = in_turns([partial(composition.at, turns), partial(kernel.at, turns)], rounds)
-        work = sum(len(step.links) for step in composition.steps) * len(turns)
+        work = len(composition.used) * len(turns)
         off = float(np.abs(plain.found.error - fast.found.error).max())
         yield KernelRow(name, "links", work / plain.median, work / fast.median, plain.over(fast), off)
 

@@ -121,7 +121,7 @@ class MotionCase:
     @property
     def links(self) -> int:
         """Links that an error reaches and that an output depends on."""
-        return sum(len(step.links) for step in self.direct._forward.steps)
+        return len(self.direct._forward.used)
 
     def stretches(self, positions: int) -> Iterator[Floats]:
         """The first of all positions, in stretches that fit in memory."""

@@ -9,7 +9,7 @@ Without dead centres, delta is a periodic function of S, which is tabulated like
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -25,7 +25,7 @@ from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.transmission_table import join_transmission_tables, make_transmission_table, transmission_along
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.error_composition import CompositionStep, ErrorComposition
+    from geartrain.dynamics.motion.error_composition import ErrorComposition, PairErrorSource
     from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.transmission_table import TransmissionTable, TransmissionTables
 
@@ -76,39 +76,16 @@ class FedBackTransmission:
 
     def _solved(self, S: Floats) -> tuple[Floats, Floats]:
         pair = CoupledErrors(("",), (self.transmission,), np.array([float(self.sense)]), np.array([[self.gain]]))
-        delta, rate, _ = solve_coupled_errors(pair, S.reshape(1, -1), [1.0])
+        delta, rate, _ = solve_coupled_errors(pair, S.reshape(1, -1), np.ones((1, S.size)))
         return self.sense * delta.reshape(S.shape), self.sense * rate.reshape(S.shape) + float(self.ratio)
 
 
-class CompositionOrder(NamedTuple):
-    """Order of solution as flat arrays, step by step.
+class SparseRows(NamedTuple):
+    """Rows of a matrix over the sources: entries of row m begin at `start[m]`."""
 
-    Links have rows, which later links reuse. Ranges begin at `..._start`.
-    """
-
-    own_start: Ints
-    own: Ints
-    """Rows of the links that each step computes."""
-    known_start: Ints
-    known: Ints
-    """Rows of the links on which the links of each step depend. The coefficients are `from_known`, shape (own, known),
-    flattened.
-    """
-    from_known_start: Ints
-    from_known: Floats
-    sources: Ints
-    """Index of the first source of each step, and one past the last source.
-
-    The coefficients are `from_sources`, shape (own, sources), flattened.
-    """
-    from_sources_start: Ints
-    from_sources: Floats
-    seen_start: Ints
-    seen: Ints
-    """Rows of the links whose signed sum is the error of an output, for each output."""
-    seen_sign: Floats
-    offset: Floats
-    """Constant added to the error of each output [rad]."""
+    start: Ints
+    of: Ints
+    c: Floats
 
 
 class ComposedSources(NamedTuple):
@@ -126,10 +103,6 @@ class ComposedSources(NamedTuple):
     """Forward angle of the driver at position 0 of the input [rad]."""
     mean: Floats
     """Mean speed of the driver divided by the input speed."""
-    row: Ints
-    """Rows of driver and carrier, shape (sources, 2); -1 for links without error."""
-    sign: Floats
-    """Signs with which the errors of driver and carrier move the driver, shape (sources, 2)."""
     sense: Floats
     """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
     ratio: Floats
@@ -139,78 +112,51 @@ class ComposedSources(NamedTuple):
 
 
 class CompositionArrays(NamedTuple):
-    """Input of the kernel. `rows` links are stored at once, and a step has at most `most` sources."""
+    """Input of the kernel."""
 
-    order: CompositionOrder
+    drivers: SparseRows
+    """Change of each source's driver angle per unit of the error of earlier sources."""
+    outputs: SparseRows
+    """Error of each output per unit of the error of each source."""
+    offset: Floats
+    """Constant added to the error of each output [rad]."""
     sources: ComposedSources
     transmissions: TransmissionTables
-    rows: int
-    most: int
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
     """Return the arrays of a composition; None if a transmission function has no table, or if pairs are coupled."""
-    transmissions: list[TransmissionTable | None] = []
-    gains: list[float] = []
+    tables: list[TransmissionTable] = []
     for step in composition.steps:
         # coupled pairs need Newton's method, which the kernel has not
-        if step.coupled and len(step.sources) > 1:
+        if len(step.sources) > 1:
             return None
-        own = _fed_back(composition, step) if step.coupled else None
-        if step.coupled and own is None:
+        source, gain = composition.sources[step.sources[0]], float(step.own[0, 0])
+        table = _fed_back(source, gain) if step.coupled else make_transmission_table(source.transmission)
+        if table is None:
             return None
-        gains += [0.0 if own is None else float(composition.gain(step)[0, 0])] * len(step.sources)
-        transmissions += (
-            [own] if own else [make_transmission_table(composition.sources[at].transmission) for at in step.sources]
-        )
-    tables = [transmission for transmission in transmissions if transmission is not None]
-    if len(tables) < len(transmissions):
-        return None
-    most = max((len(step.sources) for step in composition.steps), default=0)
+        tables.append(table)
+    steps, used = composition.steps, [step.sources[0] for step in composition.steps]
+    place = {at: number for number, at in enumerate(used)}
     return CompositionArrays(
-        _order(composition),
-        _sources(composition, gains),
+        _sparse([dict(zip((place[at] for at in step.known), step.from_known[0], strict=True)) for step in steps]),
+        _sparse([dict(enumerate(row)) for row in composition.weights[:, used]]),
+        np.array(composition.offsets or (0.0,) * len(composition.outputs)),
+        _sources(composition, [float(step.own[0, 0]) for step in steps]),
         join_transmission_tables(tables),
-        composition.rows,
-        most,
     )
 
 
-def _fed_back(composition: ErrorComposition, step: CompositionStep) -> TransmissionTable | None:
+def _fed_back(source: PairErrorSource, gain: float) -> TransmissionTable | None:
     """Return the table of a pair that moves its own driver; None if it has no table or may reach a dead centre."""
-    (source,) = (composition.sources[at] for at in step.sources)
-    transmission = FedBackTransmission(source.transmission, source.sense, float(composition.gain(step)[0, 0]))
+    transmission = FedBackTransmission(source.transmission, source.sense, gain)
     changing = type(source.transmission).picked is not TransmissionFunction.picked
     return make_transmission_table(transmission) if transmission.has_no_dead_centre and not changing else None
 
 
-def _order(composition: ErrorComposition) -> CompositionOrder:
-    steps, place = composition.steps, composition.place
-    own = _ranges([[place[link] for link in step.links] for step in steps])
-    known = _ranges([[place[link] for link in step.known] for step in steps])
-    from_known = _matrices([step.from_known for step in steps])
-    from_sources = _matrices([step.from_sources for step in steps])
-    # an output is its link minus its reference link; links without error have no row
-    seen = [
-        [(place[link], sign) for link, sign in ((each.of, 1), (each.base, -each.sense)) if link in place]
-        for each in composition.outputs
-    ]
-    return CompositionOrder(
-        *own,
-        *known,
-        *from_known,
-        _starts(len(step.sources) for step in steps),
-        *from_sources,
-        *_ranges([[row for row, _ in each] for each in seen]),
-        np.array([float(sign) for each in seen for _, sign in each]),
-        np.array(composition.offsets or (0.0,) * len(composition.outputs)),
-    )
-
-
 def _sources(composition: ErrorComposition, gains: Sequence[float]) -> ComposedSources:
-    used, place = composition.used, composition.place
+    used = composition.used
     factor = np.array([float(source.cycles) for source in used])
-    ends = [composition.turned_by(source) for source in used]
     return ComposedSources(
         factor,
         *split(factor),
@@ -218,25 +164,19 @@ def _sources(composition: ErrorComposition, gains: Sequence[float]) -> ComposedS
         np.array([float(source.cycles - Fraction(float(source.cycles))) for source in used]),
         np.array([source.start for source in used]),
         np.array([source.mean for source in used]),
-        np.array([[place.get(link, -1) for link, _ in each] for each in ends], dtype=np.int64).reshape(-1, 2),
-        np.array([[float(sign) for _, sign in each] for each in ends]).reshape(-1, 2),
         np.array([float(source.sense) for source in used]),
         np.array([float(source.transmission.ratio) for source in used]),
         np.array(gains, dtype=float),
     )
 
 
-def _starts(counts: Iterable[int]) -> Ints:
-    return np.cumsum([0, *counts], dtype=np.int64)
-
-
-def _ranges(lists: Sequence[Sequence[int]]) -> tuple[Ints, Ints]:
-    flat = [each for part in lists for each in part]
-    return _starts(len(part) for part in lists), np.array(flat, dtype=np.int64)
-
-
-def _matrices(matrices: Sequence[Floats]) -> tuple[Ints, Floats]:
-    return _starts(each.size for each in matrices), np.concatenate([np.zeros(0), *(each.ravel() for each in matrices)])
+def _sparse(rows: Sequence[Mapping[int, float]]) -> SparseRows:
+    kept = [{of: c for of, c in row.items() if c} for row in rows]
+    return SparseRows(
+        np.cumsum([0, *map(len, kept)], dtype=np.int64),
+        np.array([of for row in kept for of in row], dtype=np.int64),
+        np.array([c for row in kept for c in row.values()], dtype=np.float64),
+    )
 
 
 @kernel
@@ -254,56 +194,41 @@ def compose(
     plain    periods per revolution up to which a product in float64 gives the phase of a driver to rounding
     behind   result: number of positions at which the driver of each source turns against its mean motion
     """
-    order, sources, transmissions, rows, most = arrays
-    held = np.zeros((2, rows, BLOCK))
-    angle, turning = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
-    delta, slope = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
+    drivers, outputs, offset, sources, transmissions = arrays
+    count = len(sources.factor)
+    delta, slope = np.zeros((count, BLOCK)), np.zeros((count, BLOCK))
+    angle, turning = np.zeros(BLOCK), np.zeros(BLOCK)
     scratch, cell = np.zeros(BLOCK), np.zeros(BLOCK, dtype=np.int32)
     behind[:] = 0
     # blocks fit in the processor's cache
     for begin in range(0, len(turns), BLOCK):
         size = min(BLOCK, len(turns) - begin)
-        here = turns[begin : begin + size]
-        for step in range(len(order.own_start) - 1):
-            _carry(order, step, size, held)
-            first, last = order.sources[step], order.sources[step + 1]
-            # angle and speed of each driver, from its mean motion and the errors of links
-            for source in range(first, last):
-                S, w = angle[source - first, :size], turning[source - first, :size]
-                _phase(sources, source, transmissions.period[source], plain, here, S)
-                _turn(sources, source, size, held, S, w)
-            for source in range(first, last):
-                e, v = delta[source - first, :size], slope[source - first, :size]
-                # error and slope of each transmission function at this angle
-                transmission_along(
-                    transmissions, source, angle[source - first, :size], e, v, scratch[:size], cell[:size]
-                )
-                _sign(sources, source, turning[source - first, :size], e, v)
-                behind[source] += _count_negative(turning[source - first, :size])
-            _spread(order, step, size, delta, slope, held)
-        _read(order, begin, size, held, error, rate)
+        S, w = angle[:size], turning[:size]
+        for source in range(count):
+            # angle and speed of the driver, from its mean motion and the errors of earlier pairs
+            _phase(sources, source, transmissions.period[source], plain, turns[begin : begin + size], S)
+            w[:] = sources.mean[source]
+            _add(drivers, source, delta, S)
+            _add(drivers, source, slope, w)
+            # error and slope of the transmission function at this angle
+            e, v = delta[source, :size], slope[source, :size]
+            transmission_along(transmissions, source, S, e, v, scratch[:size], cell[:size])
+            _sign(sources, source, w, e, v)
+            behind[source] += _count_negative(w)
+        for output in range(len(offset)):
+            error[output, begin : begin + size] = offset[output]
+            rate[output, begin : begin + size] = 0.0
+            _add(outputs, output, delta, error[output, begin : begin + size])
+            _add(outputs, output, slope, rate[output, begin : begin + size])
 
 
 @kernel
-def _carry(order: CompositionOrder, step: int, size: int, held: Floats) -> None:
-    """Add to the links of a step the errors and rates of the known links on which they depend."""
-    first, last = order.known_start[step], order.known_start[step + 1]
-    at = order.from_known_start[step]
-    for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
-        for kind in range(2):
-            into = held[kind, row, :size]
-            if first == last:
-                into[:] = 0.0
-            for known in range(first, last):
-                factor, other = order.from_known[at + known - first], held[kind, order.known[known], :size]
-                # the first term overwrites the row, which an earlier link may have used
-                if known == first:
-                    for position in range(size):
-                        into[position] = factor * other[position]
-                else:
-                    for position in range(size):
-                        into[position] += factor * other[position]
-        at += last - first
+def _add(rows: SparseRows, m: int, values: Floats, into: Floats) -> None:
+    """Add row m times the values of the sources, in place."""
+    for x in range(rows.start[m], rows.start[m + 1]):
+        factor, value = rows.c[x], values[rows.of[x]]
+        for at in range(len(into)):
+            into[at] += factor * value[at]
 
 
 @kernel
@@ -335,19 +260,6 @@ def _phase(
 
 
 @kernel
-def _turn(sources: ComposedSources, source: int, size: int, held: Floats, S: Floats, w: Floats) -> None:
-    """Add the errors of driver and carrier to the driver's angle, and their rates to its speed, in place."""
-    w[:] = sources.mean[source]
-    for end in range(2):
-        row, sign = sources.row[source, end], sources.sign[source, end]
-        if row >= 0:
-            error, rate = held[0, row, :size], held[1, row, :size]
-            for at in range(size):
-                S[at] += sign * error[at]
-                w[at] += sign * rate[at]
-
-
-@kernel
 def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope: Floats) -> None:
     """Convert error and speed of a transmission function to error and rate of the driven side, in place."""
     sense, ratio, gain = sources.sense[source], sources.ratio[source], sources.gain[source]
@@ -363,35 +275,6 @@ def _count_negative(speed: Floats) -> int:
     for each in speed:
         found += each < 0.0
     return found
-
-
-@kernel
-def _spread(order: CompositionOrder, step: int, size: int, delta: Floats, slope: Floats, held: Floats) -> None:
-    """Add the errors of a step's pairs to its links, in place."""
-    count = order.sources[step + 1] - order.sources[step]
-    at = order.from_sources_start[step]
-    for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
-        error, rate = held[0, row, :size], held[1, row, :size]
-        for source in range(count):
-            factor, e, v = order.from_sources[at + source], delta[source, :size], slope[source, :size]
-            for position in range(size):
-                error[position] += factor * e[position]
-                rate[position] += factor * v[position]
-        at += count
-
-
-@kernel
-def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: Floats, rate: Floats) -> None:
-    """Compute errors and rates of the outputs as signed sums over links."""
-    for output in range(len(order.offset)):
-        e, v = error[output, begin : begin + size], rate[output, begin : begin + size]
-        e[:] = order.offset[output]
-        v[:] = 0.0
-        for at in range(order.seen_start[output], order.seen_start[output + 1]):
-            row, sign = order.seen[at], order.seen_sign[at]
-            for position in range(size):
-                e[position] += sign * held[0, row, position]
-                v[position] += sign * held[1, row, position]
 
 
 @dataclass(frozen=True)

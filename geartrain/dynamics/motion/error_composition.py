@@ -2,9 +2,8 @@
 pairs.
 
 Equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's driver, which includes the errors
-of other
-pairs. These are computed first in the order of solution, so that one pass composes the transmission functions exactly.
-Errors of coupled pairs are solved simultaneously (5).
+of other pairs. These are computed first in the order of solution, so that one pass composes the transmission functions
+exactly. Errors of coupled pairs are solved simultaneously (5).
 """
 
 from __future__ import annotations
@@ -19,11 +18,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
+from geartrain.numerics.block_triangular import find_blocks
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.rounding_bounds import split
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.error_propagation import ErrorPropagation, PropagationBlock
+    from geartrain.dynamics.motion.error_propagation import ErrorPropagation
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.transmission import TransmissionFunction
 
@@ -82,15 +82,19 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Block of the order of solution with variable errors, restricted to links with an error. `sources` are indices."""
+    """Sources whose errors are solved together, by index. Their drivers depend on earlier sources and on each other."""
 
-    part: PropagationBlock
-    links: tuple[int, ...]
-    known: tuple[int, ...]
-    from_known: Floats
     sources: tuple[int, ...]
-    from_sources: Floats
-    coupled: bool
+    known: tuple[int, ...]
+    """Earlier sources on which the drivers depend. The coefficients are `from_known`, shape (sources, known)."""
+    from_known: Floats
+    own: Floats
+    """Change of each driver's angle per unit of the error of each source of the step, shape (sources, sources)."""
+
+    @property
+    def coupled(self) -> bool:
+        """True if the errors of the step move its own drivers."""
+        return bool(self.own.any())
 
 
 class SeenLink(NamedTuple):
@@ -149,43 +153,36 @@ class ErrorComposition:
     """
 
     @cached_property
-    def steps(self) -> tuple[CompositionStep, ...]:
-        """Order of solution, restricted to links that have an error and on which an output depends."""
-        wanted = {link for seen in self.outputs for link in (seen.of, seen.base)}
-        kept = []
-        for step in reversed(self._steps_with_errors):
-            if wanted.intersection(step.links):
-                wanted.update(step.known, *(self._ends(source) for source in step.sources))
-                kept.append(step)
-        return tuple(reversed(kept))
+    def gains(self) -> Floats:
+        """Change of each source's driver angle per unit of the error of each pair [rad/rad], shape (sources, pairs)."""
+        rows = [sum(sign * self.spread.response[link] for link, sign in self.turned_by(each)) for each in self.sources]
+        return np.array(rows).reshape(len(self.sources), len(self.spread.pairs))
 
     @cached_property
-    def _steps_with_errors(self) -> tuple[CompositionStep, ...]:
-        """Order of solution, restricted to links that have an error."""
-        of_pair = {source.pair: at for at, source in enumerate(self.sources)}
-        lively: set[int] = set()
+    def weights(self) -> Floats:
+        """Error of each output per unit of the error of each source [rad/rad], shape (outputs, sources)."""
+        response = self.spread.response[:, [source.pair for source in self.sources]]
+        rows = [response[seen.of] - seen.sense * response[seen.base] for seen in self.outputs]
+        return np.array(rows).reshape(len(self.outputs), len(self.sources))
+
+    @cached_property
+    def steps(self) -> tuple[CompositionStep, ...]:
+        """Order of solution of the sources on which an output depends."""
+        gains = self.gains[:, [source.pair for source in self.sources]]
+        drivers = [np.flatnonzero(row).tolist() for row in gains]
+        needed: set[int] = set()
+        waiting = np.flatnonzero(self.weights.any(axis=0)).tolist()
+        while waiting:
+            if (at := waiting.pop()) not in needed:
+                needed.add(at)
+                waiting += drivers[at]
+        blocks = find_blocks([(at, *drivers[at]) if at in needed else (at,) for at in range(len(gains))])
         steps = []
-        for part in self.spread.parts:
-            pairs = [at for at, pair in enumerate(part.pairs) if pair in of_pair]
-            known = [at for at, link in enumerate(part.known) if link in lively]
-            if not pairs and not known:
-                continue
-            sources = tuple(of_pair[part.pairs[at]] for at in pairs)
-            inside = set(part.links)
-            # the errors of this step move the driver of one of its own pairs
-            coupled = any(inside.intersection(self._ends(source)) for source in sources)
-            lively.update(part.links)
-            steps.append(
-                CompositionStep(
-                    part,
-                    part.links,
-                    tuple(part.known[at] for at in known),
-                    part.from_known[:, known],
-                    sources,
-                    part.from_pairs[:, pairs],
-                    coupled,
-                )
-            )
+        for block in blocks or ():
+            own = tuple(sorted(block.columns))
+            if needed.issuperset(own):
+                known = tuple(sorted({each for at in own for each in drivers[at]}.difference(own)))
+                steps.append(CompositionStep(own, known, gains[np.ix_(own, known)], gains[np.ix_(own, own)]))
         return tuple(steps)
 
     @cached_property
@@ -212,117 +209,54 @@ class ErrorComposition:
             (joint.carrier, -source.forward * source.carrier_sense),
         )
 
-    def _ends(self, source: int) -> tuple[int, int]:
-        joint = self.spread.joints[self.sources[source].pair]
-        return joint.driver, joint.carrier
-
-    @cached_property
-    def place(self) -> dict[int, int]:
-        """Link -> row in which its values are stored until their last use; later links use the row again."""
-        last: dict[int, int] = {}
-        for at, step in enumerate(self.steps):
-            last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
-        for seen in self.outputs:
-            last.update(dict.fromkeys((seen.of, seen.base), len(self.steps)))
-        place: dict[int, int] = {}
-        free: list[int] = []
-        count = 0
-        for at, step in enumerate(self.steps):
-            for link in step.links:
-                if not free:
-                    free.append(count)
-                    count += 1
-                place[link] = free.pop()
-            # rows of links read for the last time in this step become free
-            read = {*step.links, *step.known, *(end for s in step.sources for end in self._ends(s))}
-            free += [place[link] for link in read if link in place and last.get(link, at) == at]
-        return place
-
-    @cached_property
-    def rows(self) -> int:
-        """Maximum number of links whose values are stored at once."""
-        return max(self.place.values(), default=-1) + 1
+    def seen_driver(self, source: PairErrorSource) -> SeenLink:
+        """Return the driver of a source relative to its carrier, as an output."""
+        joint = self.spread.joints[source.pair]
+        return SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
 
     @cached_property
     def chunk(self) -> int:
         """Maximum number of positions evaluated at once; it limits the memory for trains of any length."""
-        # stored numbers: errors and rates of the links, and a Jacobian of coupled pairs at each position
+        # stored numbers: errors and rates of the sources, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
-        return max(64, min(_CHUNK, _NUMBERS // (2 * (self.rows + widest) + 1)))
+        return max(64, min(_CHUNK, _NUMBERS // (2 * (len(self.sources) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input
         [revolutions].
         """
-        angle = InputPhase(turns)
-        error = np.empty((self.rows, len(turns)))
-        rate = np.empty_like(error)
-        reversing_drivers = frozenset(pair for step in self.steps for pair in self._take(step, angle, error, rate))
-        found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
-        for at, seen in enumerate(self.outputs):
-            for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
-                # links without a row have no error
-                if link in self.place:
-                    found[0][at] += sign * error[self.place[link]]
-                    found[1][at] += sign * rate[self.place[link]]
-        for at, offset in enumerate(self.offsets):
-            found[0][at] += offset
+        phase = InputPhase(turns)
+        error = np.zeros((len(self.sources), len(turns)))
+        rate = np.zeros_like(error)
+        reversing_drivers = frozenset(name for step in self.steps for name in self._take(step, phase, error, rate))
+        found = np.zeros((2, len(self.outputs), len(turns)))
+        for at, weights in enumerate(self.weights):
+            # only sources with an effect, because an error is infinite where nothing touches
+            of = np.flatnonzero(weights)
+            found[:, at] = weights[of] @ error[of], weights[of] @ rate[of]
+        if self.offsets:
+            found[0] += np.array(self.offsets)[:, None]
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
-    def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the links of a step in place. Yield the names of pairs whose driver turns against its mean motion."""
-        known = [self.place[link] for link in step.known]
-        first = self.place[step.links[0]]
-        own = slice(first, first + 1) if len(step.links) == 1 else [self.place[link] for link in step.links]
-        error[own] = step.from_known @ error[known] if known else 0.0
-        rate[own] = step.from_known @ rate[known] if known else 0.0
-        if not step.sources:
-            return
+    def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
+        """Compute the errors and rates of the driven sides of a step in place. Yield the names of pairs whose driver
+        turns against its mean motion.
+        """
+        own, known = list(step.sources), list(step.known)
+        sources = [self.sources[at] for at in own]
         # driver angles and speeds, without the errors of the step's own pairs
-        where = [self._driver_angle(source, angle, error, rate) for source in step.sources]
-        sources = [self.sources[source] for source in step.sources]
+        S, turning = step.from_known @ error[known], step.from_known @ rate[known]
+        for row, source in enumerate(sources):
+            S[row] += phase.cycles(source.cycles) * source.transmission.period + source.start
+            turning[row] += source.mean
         if step.coupled:
-            delta, slope, turning = solve_coupled_errors(
-                self._coupled(step), np.stack([S for S, _ in where]), [w for _, w in where]
-            )
+            error[own], rate[own], turning = solve_coupled_errors(self._coupled(step), S, turning)
         else:
-            parts = [source.transmission.error_and_speed(S) for source, (S, _) in zip(sources, where, strict=True)]
-            turning = [w for _, w in where]
-            own_pairs = list(zip(sources, parts, turning, strict=True))
-            delta = np.stack([s.sense * e for s, (e, _), _ in own_pairs])
-            slope = np.stack([s.sense * (tau - float(s.transmission.ratio)) * w for s, (_, tau), w in own_pairs])
-        error[own] += step.from_sources @ delta
-        rate[own] += step.from_sources @ slope
+            (source,) = sources
+            value, tau = source.transmission.error_and_speed(S[0])
+            error[own] = source.sense * value
+            rate[own] = source.sense * (tau - float(source.transmission.ratio)) * turning[0]
         yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
-
-    def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
-        """Return the forward angle [rad] and speed [1] of a source's driver.
-
-        The errors of links in the same step have their current values.
-        """
-        source = self.sources[at]
-        S = angle.cycles(source.cycles) * source.transmission.period
-        if source.start:
-            S += source.start
-        turning: Floats | float = source.mean
-        for link, sign in self.turned_by(source):
-            place = self.place.get(link)
-            if place is not None:
-                S += sign * error[place]
-                turning = turning + sign * rate[place]
-        return S, turning
-
-    def gain(self, step: CompositionStep) -> Floats:
-        """Return the change of each driver's angle per unit of each error in the same step [rad/rad], shape (sources,
-        sources).
-        """
-        inside = {link: at for at, link in enumerate(step.links)}
-        gain = np.zeros((len(step.sources), len(step.sources)))
-        for row, at in enumerate(step.sources):
-            for link, sign in self.turned_by(self.sources[at]):
-                if link in inside:
-                    gain[row] += sign * step.from_sources[inside[link]]
-        return gain
 
     def _coupled(self, step: CompositionStep) -> CoupledErrors:
         sources = [self.sources[at] for at in step.sources]
@@ -330,7 +264,7 @@ class ErrorComposition:
             tuple(source.id for source in sources),
             tuple(source.transmission for source in sources),
             np.array([float(source.sense) for source in sources]),
-            self.gain(step),
+            step.own,
         )
 
 

@@ -1,8 +1,7 @@
-"""Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved block by block (its section 2).
+"""Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved exactly (its section 2).
 
 a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta the error of the pair's driven
-side. This is the Willis system without the mean speeds. Blocks of the block triangular form (matching and strongly
-connected components) are solved once, exactly. Every link is then a sum over a few earlier links.
+side. This is the Willis system without the mean speeds. One elimination gives every link as a sum over errors of pairs.
 
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
 docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Transmission functions have
@@ -15,14 +14,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from math import copysign, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem, RangeError
-from geartrain.numerics.block_triangular import Block, find_blocks
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.numerics.elimination import LinearForm, eliminate
+from geartrain.numerics.exact import as_float
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -69,25 +70,22 @@ class CoupledErrors:
         return np.eye(len(self.transmissions)) - slope.T[:, :, None] * self.gain
 
 
-def solve_coupled_errors(
-    pairs: CoupledErrors, base: Floats, turning: Sequence[Floats | float]
-) -> tuple[Floats, Floats, list[Floats | float]]:
+def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) -> tuple[Floats, Floats, Floats]:
     """Return errors [rad], rates [1] and driver speeds [1] of coupled pairs, from driver angles and speeds without
     these errors.
 
     base      driver angles [rad], shape (pairs, n)
-    turning   driver speeds divided by the speed of the input [1], by pair
+    turning   driver speeds divided by the speed of the input [1], shape (pairs, n)
 
     Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
     """
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
-    speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
     # the determinant is 1 for ideal teeth and changes sign at a dead centre
-    if not (_determinant(jacobian) > 0).all():
+    if not (np.linalg.det(jacobian) > 0).all():
         raise _refusal(pairs.names, _DEAD_CENTRE)
-    rate = _solve_coupled(jacobian, slope * speed)
-    return delta, rate, list(speed + pairs.gain @ rate)
+    rate = _solve_coupled(jacobian, slope * turning)
+    return delta, rate, turning + pairs.gain @ rate
 
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
@@ -148,7 +146,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
     """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
-    dead = _determinant(matrices) == 0
+    dead = np.linalg.det(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
     step = np.zeros_like(right)
@@ -158,21 +156,8 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small systems, shape (pairs, n), by Cramer's rule for two pairs, the usual number."""
-    if matrices.shape[1] == 1:
-        return np.asarray(right / matrices[:, 0, 0])
-    if matrices.shape[1] == 2:
-        # a few array operations over all positions, instead of a LAPACK call per position
-        (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
-        whole = a * d - b * c
-        return np.stack([(right[0] * d - b * right[1]) / whole, (a * right[1] - c * right[0]) / whole])
+    """Return the solutions of n small systems, shape (pairs, n)."""
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
-
-
-def _determinant(matrices: Floats) -> Floats:
-    if matrices.shape[1] == 1:
-        return np.asarray(matrices[:, 0, 0])
-    return np.asarray(np.linalg.det(matrices))
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
@@ -199,65 +184,46 @@ class ErrorPath(NamedTuple):
     coefficient: int
 
 
-class PropagationBlock(NamedTuple):
-    """Links whose errors are solved together, as linear functions of earlier links and of pair errors."""
-
-    links: tuple[int, ...]
-    """Indices of the links."""
-    known: tuple[int, ...]
-    """Indices of the earlier links. The coefficients are `from_known`, shape (links, known)."""
-    pairs: tuple[int, ...]
-    """Indices of the pairs. The coefficients are `from_pairs`, shape (links, pairs)."""
-    from_known: Floats
-    from_pairs: Floats
-
-
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """Propagation of pair errors to links: blocks `parts` in order of solution, with indices into `links` and
-    `pairs`.
-    """
+    """Errors of links as sums over the errors of pairs, with indices into `links` and `pairs`."""
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
     """Links of each pair, by index; they are determined when they are first read."""
-    parts: tuple[PropagationBlock, ...]
-    """Blocks on which the requested links depend. Errors of other links are 0 here."""
+    forms: Sequence[Mapping[int, Fraction]]
+    """Error of each link per unit of c delta of each pair, by index of the pair."""
+    reached: frozenset[int]
+    """Pairs whose error affects the requested links, directly or through the driver angle of another pair. The errors
+    of other pairs are 0 here.
+    """
 
-    @property
-    def reached(self) -> frozenset[int]:
-        """Pairs whose error affects the requested links, directly or through the driver angle of another pair."""
-        return frozenset(pair for part in self.parts for pair in part.pairs)
+    @cached_property
+    def response(self) -> Floats:
+        """Error of each link per unit of the error of each pair's driven side [rad/rad], shape (links, pairs)."""
+        found = np.zeros((len(self.links), len(self.pairs)))
+        for link, form in enumerate(self.forms):
+            for pair in self.reached.intersection(form):
+                # exact up to here, rounded only once
+                found[link, pair] = _nearest(form[pair] * self.joints[pair].coefficient)
+        return found
 
     def errors(self, deltas: Floats) -> Floats:
         """Return errors of all links [rad], shape (links, n), from the errors of all pairs [rad], shape (pairs, n),
         without feedback.
         """
-        found = np.zeros((len(self.links), deltas.shape[1]))
-        for part in self.parts:
-            spread = part.from_known @ found[list(part.known)] + part.from_pairs @ deltas[list(part.pairs)]
-            found[list(part.links)] = spread
-        return found
+        return np.asarray(self.response @ deltas)
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
-        """Return the sensitivity of a link's angle, relative to link `base`, to the error of each pair [rad/rad], by
-        the adjoint method.
+        """Return the sensitivity of a link's angle, relative to link `base`, to the error of each pair [rad/rad].
 
         sense   -1 if the axes of the two links are opposite
 
         Raises `RangeError` if a sensitivity exceeds float64.
         """
-        weight = np.zeros(len(self.links))
-        weight[link] += 1.0
-        weight[base] -= sense
-        found = np.zeros(len(self.pairs))
-        with np.errstate(over="ignore", invalid="ignore"):  # overflow is checked once at the end
-            for part in reversed(self.parts):
-                own = weight[list(part.links)]
-                if own.any():
-                    found[list(part.pairs)] = own @ part.from_pairs
-                    weight[list(part.known)] += own @ part.from_known
+        with np.errstate(invalid="ignore"):
+            found: Floats = self.response[link] - sense * self.response[base]
         if not np.isfinite(found).all():
             what = f"'{self.links[link]}' turns by more than 1e308 times the error of a pair"
             why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
@@ -265,80 +231,43 @@ class ErrorPropagation:
         return found
 
 
+def _nearest(value: Fraction) -> float:
+    """Return the nearest float; beyond the range of float64, 0 or an infinity."""
+    number = as_float(value)
+    return copysign(0.0 if abs(value) < 1 else inf, value) if number is None else number
+
+
 def find_error_propagation(
     system: WillisSystem, ends: Mapping[str, Sequence[int]], path: Callable[[str], ErrorPath], wanted: Iterable[int]
 ) -> ErrorPropagation | None:
-    """Return the order of solution of a square system for some links; None if its equations do not determine them.
+    """Return the propagation of errors to some links in a square system; None if its equations do not determine them.
 
     ends     row label of each pair -> both sides and the carrier; other rows (inputs, locks) have no error
-    path     function that returns the `ErrorPath` of a row label; it is called at once for pairs on which the requested
-             links depend, for others when it is needed
+    path     function that returns the `ErrorPath` of a row label; it is called when it is needed
     wanted   indices of the requested links
     """
     at = {link: number for number, link in enumerate(system.links)}
-    rows = [{at[link]: coefficient for link, coefficient in row.terms} for row in system.equations]
     pairs = tuple(ends)
-    pair_of = {label: number for number, label in enumerate(pairs)}
-    own = [pair_of.get(row.label, -1) for row in system.equations]
-    if len(rows) != len(at):
+    # errors of pairs are symbols (negative columns), which elimination does not solve for
+    symbol = {label: -1 - number for number, label in enumerate(pairs)}
+    rows: list[LinearForm] = []
+    for row in system.equations:
+        rows.append({at[link]: Fraction(coefficient) for link, coefficient in row.terms})
+        if row.label in symbol:
+            rows[-1][symbol[row.label]] = Fraction(-1)
+    solved = eliminate(rows)
+    if len(rows) != len(at) or solved.rank < len(at):
         return None
-    # the angle of a pair depends on its driver and its carrier even if its row does not contain them
-    also = [ends[pairs[pair]] if pair >= 0 else () for pair in own]
-    blocks = find_blocks([tuple(row) for row in rows], also)
-    if blocks is None:
-        return None
+    by_link = solved.forms()
+    forms = [{-1 - each: value for each, value in by_link[link].items()} for link in range(len(at))]
+    reached: set[int] = set()
+    waiting, seen = list(wanted), set()
+    while waiting:
+        link = waiting.pop()
+        if link not in seen:
+            seen.add(link)
+            reached.update(forms[link])
+            # the angle of a pair depends on its driver and its carrier
+            waiting += [end for pair in forms[link] for end in ends[pairs[pair]]]
     joints = ItemwiseMapping(range(len(pairs)), lambda pair: path(pairs[pair]))
-    parts = []
-    for block in _before(wanted, blocks, [(*row, *more) for row, more in zip(rows, also, strict=True)]):
-        part = _solve(block, rows, own, joints)
-        if part is None:
-            return None
-        parts.append(part)
-    return ErrorPropagation(system.links, pairs, joints, tuple(parts))
-
-
-def _before(wanted: Iterable[int], blocks: Sequence[Block], rows: Sequence[Sequence[int]]) -> list[Block]:
-    """Return the blocks on which the columns `wanted` depend, in order; `rows` has the columns of each row."""
-    needed, kept = set(wanted), []
-    for block in reversed(blocks):
-        if needed.intersection(block.columns):
-            needed.update(*(rows[row] for row in block.rows))
-            kept.append(block)
-    return kept[::-1]
-
-
-def _solve(
-    block: Block, rows: Sequence[Mapping[int, int]], own: Sequence[int], joints: Mapping[int, ErrorPath]
-) -> PropagationBlock | None:
-    """Return the exact solution of one block: its links as linear forms of earlier links and of pair errors."""
-    inside = {column: number for number, column in enumerate(block.columns)}
-    known = tuple(dict.fromkeys(column for row in block.rows for column in rows[row] if column not in inside))
-    pairs = tuple(own[row] for row in block.rows if own[row] >= 0)
-    # earlier links and pair errors are symbols (negative columns), which elimination does not solve for
-    symbol = {column: -1 - number for number, column in enumerate(known)}
-    forms: list[LinearForm] = []
-    for row in block.rows:
-        form = {
-            inside[column] if column in inside else symbol[column]: Fraction(coefficient)
-            for column, coefficient in rows[row].items()
-        }
-        if own[row] >= 0:
-            form[-1 - len(known) - pairs.index(own[row])] = Fraction(-joints[own[row]].coefficient)
-        forms.append(form)
-    solved = eliminate(forms)
-    if solved.rank < len(block.columns):
-        return None
-    by_column = solved.forms()
-    wanted = [by_column[number] for number in range(len(block.columns))]
-    return PropagationBlock(
-        block.columns, known, pairs, _matrix(wanted, 0, len(known)), _matrix(wanted, len(known), len(pairs))
-    )
-
-
-def _matrix(forms: Sequence[LinearForm], first: int, count: int) -> Floats:
-    found = np.zeros((len(forms), count))
-    for at, form in enumerate(forms):
-        for number in range(count):
-            # exact up to here, rounded only once
-            found[at, number] = float(form.get(-1 - first - number, 0))
-    return found
+    return ErrorPropagation(system.links, pairs, joints, forms, frozenset(reached))

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, common_period
-from geartrain.dynamics.motion.kink_positions import InputSteps, KinkSearch
+from geartrain.dynamics.motion.kink_positions import InputSteps, KinkSearch, equal_steps
 from geartrain.dynamics.motion.rate_bounds import RateBounds, StepBounds, error_difference
 from geartrain.numerics.chebyshev import points
 
@@ -67,16 +67,6 @@ class BoundedSteps(NamedTuple):
     def chosen(self, which: Bools | Indices | slice) -> BoundedSteps:
         """Return the steps selected by an index, a mask or a slice."""
         return BoundedSteps(InputSteps(self.steps.low[which], self.steps.high[which]), self.above[:, :, which])
-
-    def of_outputs(self, outputs: list[int], search: StepSearch) -> BoundedSteps:
-        """Return the steps, with bounds of some outputs only, in which these may exceed the maxima found so far."""
-        above = self.above[outputs]
-        more = (above > (search.values + search.tolerance)[outputs, :, None]).any(axis=(0, 1))
-        return BoundedSteps(InputSteps(self.steps.low[more], self.steps.high[more]), above[:, :, more])
-
-    def before(self, end: float) -> BoundedSteps:
-        """Return the steps that begin before the position `end` of the input [revolutions]."""
-        return self.chosen(self.steps.low < end)
 
     @property
     def number(self) -> int:
@@ -127,15 +117,24 @@ class StepSearch:
 
     # ------------------------------------------------------------------------------------------------ branch and bound
 
-    def go(self, left: BoundedSteps) -> None:
-        """Search the given steps by branch and bound."""
-        before = 0
+    def over(self, start: float, end: float, step: float) -> None:
+        """Search the run between two positions of the input, or its first period, by branch and bound.
+
+        step   width of the first steps, unless there are too many [revolutions]
+        """
+        period = common_period([source for part in self._parts for source in part.used])
+        if period is not None and period < end - start:
+            end = start + float(period)
+        left, before = self._promising_of(self._first(start, end, step)), 0
         for division in range(_MOST_DIVISIONS):
             # narrow steps are divided at least twice, and then as long as their number decreases
             enough = division >= _MINIMUM_DIVISIONS and (left.number <= _FEW or left.number > before)
             if not left.number or (left.width <= self.step and enough):
                 break
-            before, left = left.number, self._searched(_divided(left.steps, self.chunk))
+            before, left = left.number, self._promising_of(_divided(left.steps, self.chunk))
+            most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
+            self._drop(left.chosen(slice(most, None)))
+            left = left.chosen(slice(most))
         for _ in range(_BATCHES):
             # a wide step has too many kinks to list
             size = min(_BATCH, int(_MOST_KINKS / max(self._rate * left.width, 1.0)))
@@ -152,13 +151,15 @@ class StepSearch:
         high = np.minimum(low + 2 * width, np.append(low[1:], end))
         self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 
-    def _searched(self, steps: Iterator[InputSteps]) -> BoundedSteps:
-        """Return the steps that may contain an extreme, sorted by falling bounds, up to a maximum number."""
-        parts = [self._promising(self.bounded(part)) for part in steps]
-        left = self._promising(BoundedSteps.joined(parts))
-        most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
-        self._drop(left.chosen(slice(most, None)))
-        return left.chosen(slice(most))
+    def _first(self, start: float, end: float, step: float) -> Iterator[InputSteps]:
+        """Return the whole run in equal steps."""
+        wanted = (end - start) / step
+        number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
+        return equal_steps(start, end, number, self.chunk)
+
+    def _promising_of(self, steps: Iterator[InputSteps]) -> BoundedSteps:
+        """Return the steps that may contain an extreme, sorted by falling bounds."""
+        return self._promising(BoundedSteps.joined([self._promising(self.bounded(part)) for part in steps]))
 
     def bounded(self, steps: InputSteps) -> BoundedSteps:
         """Return the steps with their bounds. Values at the ends of the steps are included in the maxima."""
@@ -272,83 +273,57 @@ def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
 
 
 class ExtremeSearch:
-    """Extremes of one composition, or of the difference of two, over a run of the input.
-
-    values              maxima found of errors, negated errors, rates, negated rates, shape (outputs, 4)
-    reversing_drivers   pairs whose driver turned against its mean motion at some position
-    """
+    """Extremes of one composition, or of the difference of two, over a run of the input."""
 
     def __init__(self, composition: ErrorComposition, less: ErrorComposition | None = None) -> None:
-        self._parts = (composition,) if less is None else (composition, less)
-        self._whole = StepSearch(self._parts)
-        outputs = len(composition.outputs)
-        self.values, self._dropped = (np.full((outputs, 4), -np.inf) for _ in range(2))
-        self.reversing_drivers = self._whole.reversing_drivers
+        parts = (composition,) if less is None else (composition, less)
+        self._outputs = len(composition.outputs)
+        # outputs that depend on the same pairs are searched together
+        groups: dict[frozenset[int], list[int]] = {}
+        for at in range(self._outputs):
+            pairs = (source.pair for part in parts for source in _restricted(part, (at,)).used)
+            groups.setdefault(frozenset(pairs), []).append(at)
+        self._searches = [
+            (group, StepSearch(tuple(_restricted(part, group) for part in parts), 1 / len(groups)))
+            for group in groups.values()
+        ]
+
+    @property
+    def values(self) -> Floats:
+        """Maxima found of errors, negated errors, rates, negated rates, shape (outputs, 4)."""
+        return self._joined([search.values for _, search in self._searches])
 
     @property
     def uncertainty(self) -> Floats:
         """Upper bound on the difference between the true maxima and the maxima found, shape (outputs, 4)."""
-        beyond = self._dropped - self.values
-        return np.where(beyond > 2 * self._whole.tolerance, beyond, 0.0)
+        beyond = [search.dropped - search.values for _, search in self._searches]
+        tolerances = [search.tolerance for _, search in self._searches]
+        return self._joined([np.where(b > 2 * t, b, 0.0) for b, t in zip(beyond, tolerances, strict=True)])
 
-    @cached_property
-    def _groups(self) -> dict[tuple[int, ...], tuple[ErrorComposition, ...]]:
-        """Compositions for groups of outputs that depend on the same pairs, by indices of the outputs."""
-        found: dict[frozenset[int], list[int]] = {}
-        for at in range(len(self.values)):
-            pairs = (source.pair for part in self._parts for source in _restricted(part, (at,)).used)
-            found.setdefault(frozenset(pairs), []).append(at)
-        return {tuple(each): tuple(_restricted(part, each) for part in self._parts) for each in found.values()}
+    @property
+    def reversing_drivers(self) -> set[str]:
+        """Pairs whose driver turned against its mean motion at some position."""
+        return set().union(*(search.reversing_drivers for _, search in self._searches))
+
+    def _joined(self, found: Sequence[Floats]) -> Floats:
+        joined = np.empty((self._outputs, 4))
+        for (group, _), values in zip(self._searches, found, strict=True):
+            joined[group] = values
+        return joined
 
     def over(self, start: float, end: float) -> None:
         """Search the run between two positions of the input [revolutions]."""
-        if not len(self.values):
-            return
-        end = _period_end(self._parts, start, end)
-        left: dict[tuple[int, ...], list[BoundedSteps]] = {group: [] for group in self._groups}
-        for steps in self._first(start, end):
-            # the first round bounds all outputs together, later rounds search groups separately
-            bounded = self._whole.bounded(steps)
-            for group, parts in left.items():
-                parts.append(bounded.of_outputs(list(group), self._whole))
-        for group, parts in left.items():
-            search = StepSearch(self._groups[group], 1 / len(left))
-            search.values = self._whole.values[list(group)]
-            search.go(BoundedSteps.joined(parts).before(_period_end(self._groups[group], start, end)))
-            self._take(group, search)
+        step = min((search.step for _, search in self._searches), default=1.0)
+        for _, search in self._searches:
+            search.over(start, end, step)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
         """Search in addition near positions where extremes are expected, shape (outputs, n) [revolutions]."""
-        for group, parts in self._groups.items():
-            search = StepSearch(parts)
-            search.values = self.values[list(group)]
-            search.around(turns[list(group)], step, start, end)
-            self._take(group, search)
-
-    def _take(self, group: tuple[int, ...], search: StepSearch) -> None:
-        at = list(group)
-        self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
-        self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
-        self.reversing_drivers |= search.reversing_drivers
-
-    def _first(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield the whole run in steps, which are narrow unless there are too many."""
-        wanted = (end - start) / self._whole.step
-        number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
-        for first in range(0, number, self._whole.chunk):
-            at = np.arange(first, min(first + self._whole.chunk, number) + 1)
-            ends = start + (end - start) * (at / number)
-            ends[at == number] = end
-            yield InputSteps(ends[:-1], ends[1:])
+        for group, search in self._searches:
+            search.around(turns[group], step, start, end)
 
 
 def _restricted(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
     seen = tuple(composition.outputs[at] for at in outputs)
     offsets = tuple(composition.offsets[at] for at in outputs) if composition.offsets else ()
     return ErrorComposition(composition.spread, composition.sources, seen, offsets)
-
-
-def _period_end(parts: tuple[ErrorComposition, ...], start: float, end: float) -> float:
-    """Return the end of a run, or the end of its first period if this is earlier [revolutions]."""
-    period = common_period([source for part in parts for source in part.used])
-    return end if period is None or period >= end - start else start + float(period)

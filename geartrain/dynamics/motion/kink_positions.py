@@ -10,13 +10,13 @@ and each is located by false position. If a driver reverses, the step is divided
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, SeenLink
+from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
@@ -67,6 +67,15 @@ class InputSteps(NamedTuple):
 
     low: Floats
     high: Floats
+
+
+def equal_steps(start: float, end: float, number: int, chunk: int) -> Iterator[InputSteps]:
+    """Yield equal steps from one position of the input to another [revolutions], at most `chunk` at once."""
+    for first in range(0, number, chunk):
+        at = np.arange(first, min(first + chunk, number) + 1)
+        ends = start + (end - start) * (at / number)
+        ends[at == number] = end
+        yield InputSteps(ends[:-1], ends[1:])
 
 
 @dataclass(frozen=True)
@@ -186,12 +195,9 @@ class KinkSearch:
     @cached_property
     def pairs(self) -> tuple[PairKinks, ...]:
         """Pairs with their drivers' angles."""
-        joints = self.composition.spread.joints
         found = []
         for source in self.composition.used:
-            joint = joints[source.pair]
-            seen = SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
-            drivers = ErrorComposition(self.composition.spread, self.composition.sources, (seen,))
+            drivers = replace(self.composition, outputs=(self.composition.seen_driver(source),), offsets=())
             found.append(PairKinks(source, drivers))
         return tuple(found)
 
@@ -209,14 +215,9 @@ class KinkSearch:
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield narrow steps from one position of the input to another [revolutions], in chunks."""
+        """Return narrow steps from one position of the input to another [revolutions], in chunks."""
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
-        size = self.composition.chunk
-        for first in range(0, number, size):
-            at = np.arange(first, min(first + size, number) + 1)
-            ends = start + (end - start) * (at / number)
-            ends[at == number] = end
-            yield InputSteps(ends[:-1], ends[1:])
+        return equal_steps(start, end, number, self.composition.chunk)
 
     def between(self, steps: InputSteps) -> KinkPositions:
         """Return the kinks within the given narrow steps."""

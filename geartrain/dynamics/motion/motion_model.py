@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
 
-_PACE = 2e6  # link positions per second evaluated by numpy in typical trains
+_PACE = 2e6  # positions of pairs per second evaluated by numpy in typical trains
 
 
 @dataclass(frozen=True)
@@ -388,8 +388,8 @@ class Motion(Shown):
             Composition, or its compiled kernel.
         """
         composition = self._forward if turns >= 0 else self._backward
-        links = sum(len(step.links) for step in composition.steps)
-        if not links or not is_fast(self.fast, samples * links / _PACE):
+        pairs = len(composition.used)
+        if not pairs or not is_fast(self.fast, samples * pairs / _PACE):
             return composition
         # compiled once for each direction
         if (turns >= 0) not in self._compiled:

@@ -9,13 +9,13 @@ between r and R is bounded by its values at the ends (Piyavskii's bounds).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, InputPhase, SeenLink
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, InputPhase
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import CompositionStep, PairErrorSource
@@ -172,13 +172,10 @@ class RateBounds:
     @cached_property
     def _whole(self) -> ErrorComposition:
         """Composition with additional outputs: the drivers of its sources relative to their carriers."""
-        given, joints = self.composition, self.composition.spread.joints
-        drivers = tuple(
-            SeenLink(joints[s.pair].driver, joints[s.pair].carrier, s.driver_sense * s.carrier_sense)
-            for s in self._sources.values()
-        )
+        given = self.composition
+        drivers = tuple(given.seen_driver(source) for source in self._sources.values())
         offsets = (*given.offsets, *(0.0 for _ in drivers)) if given.offsets else ()
-        return ErrorComposition(given.spread, given.sources, (*given.outputs, *drivers), offsets)
+        return replace(given, outputs=(*given.outputs, *drivers), offsets=offsets)
 
     @cached_property
     def _ranges(self) -> dict[int, SpeedRanges]:
@@ -212,30 +209,19 @@ class RateBounds:
     def _rates(self, low: Floats, angle: Floats, shifts: dict[int, tuple[Floats, Floats]]) -> Interval:
         """Return bounds on the rates of the outputs [1], shape (outputs, n)."""
         still = Interval(np.zeros(len(low)), np.zeros(len(low)))
-        links: dict[int, Interval] = {}
+        rates = [still] * len(self.composition.sources)
         phase = InputPhase(low)
         for step in self.composition.steps:
-            base = [_summed(row, [links[link] for link in step.known], still) for row in step.from_known]
-            inside = dict(zip(step.links, base, strict=True))
-            # driver speeds with the errors of earlier links; the step's own are added in `_pair_rates`
-            turning = [self._turning(at, {**links, **inside}, still) for at in step.sources]
-            rates = self._pair_rates(step, turning, phase, angle, shifts)
-            for link, known, row in zip(step.links, base, step.from_sources, strict=True):
-                links[link] = known + _summed(row, rates, still)
-        found = []
-        for seen in self.composition.outputs:
-            of, base_ = links.get(seen.of, still), links.get(seen.base, still)
-            found.append(of + base_.scaled(-seen.sense))
-        return Interval(np.stack([each.low for each in found]), np.stack([each.high for each in found]))
-
-    def _turning(self, at: int, links: dict[int, Interval], still: Interval) -> Interval:
-        """Return bounds on the speed of a source's driver divided by the speed of the input [1]."""
-        source = self._sources[at]
-        turning = Interval(still.low + source.mean, still.high + source.mean)
-        for link, sign in self.composition.turned_by(source):
-            if link in links:
-                turning = turning + links[link].scaled(sign)
-        return turning
+            known = [rates[at] for at in step.known]
+            # driver speeds with the errors of earlier pairs; the step's own are added in `_pair_rates`
+            turning = []
+            for at, row in zip(step.sources, step.from_known, strict=True):
+                mean = self._sources[at].mean
+                turning.append(_summed(row, known, Interval(still.low + mean, still.high + mean)))
+            for at, found in zip(step.sources, self._pair_rates(step, turning, phase, angle, shifts), strict=True):
+                rates[at] = found
+        outputs = [_summed(row, rates, still) for row in self.composition.weights]
+        return Interval(np.stack([each.low for each in outputs]), np.stack([each.high for each in outputs]))
 
     def _pair_rates(
         self,
@@ -246,12 +232,10 @@ class RateBounds:
         shifts: dict[int, tuple[Floats, Floats]],
     ) -> list[Interval]:
         """Return bounds on the rates that a step's pairs add to their driven sides [1]."""
-        if not step.sources:
-            return []
         if not step.coupled:
             slopes = self._slopes(step, turning, phase, angle, shifts)
             return [slope * speed for slope, speed in zip(slopes, turning, strict=True)]
-        gain = self.composition.gain(step)
+        gain = step.own
         found = _coupled_rates(self._slopes(step, turning, phase, angle, shifts), turning, gain)
         whole = [speed + _summed(row, found, speed.scaled(0.0)) for speed, row in zip(turning, gain, strict=True)]
         if any((speed.low < 0).any() for speed in whole):

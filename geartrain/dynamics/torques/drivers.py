@@ -8,14 +8,13 @@ is undetermined. For pairs through which no pointer takes power, resistance is a
 all outputs, all shafts, and finally every joint. The order of declaration does not matter.
 
 The coefficients c_o are exact. One elimination treats all loads at once: each load is a symbol, and every unknown
-torque is a linear form of the symbols. If several loads have the same sign in one torque and occur nowhere else, their
-sum becomes a new symbol. This reduces run time and the number of digits in long trains.
+torque is a linear form of the symbols.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
@@ -23,9 +22,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.flow_patterns import solve_block
 from geartrain.dynamics.torques.torque_analysis import build_balance, find_idle_pairs, find_torques, power_inputs
-from geartrain.numerics.block_triangular import Block
 from geartrain.numerics.containers import ItemwiseMapping
-from geartrain.numerics.elimination import LinearForm, add_into
+from geartrain.numerics.elimination import LinearForm
 from geartrain.teeth.meshing_wheels import MeshDriver
 
 if TYPE_CHECKING:
@@ -42,162 +40,57 @@ UnitLoads = Mapping[str, Mapping[str, Fraction]]
 _NAMED = 3  # loads listed by name; the others are only counted
 
 
-@dataclass(frozen=True)
-class LoadGroup:
-    """Set of loads: their number, and their first names in alphabetical order."""
-
-    count: int
-    names: tuple[str, ...]
-
-    def __str__(self) -> str:
-        rest = self.count - len(self.names)
-        names = [*self.names, f"{rest} more"] if rest else list(self.names)
-        return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
-
-    def joined(self, other: LoadGroup) -> LoadGroup:
-        """Return the union of two sets of loads; loads whose names are in both are counted once."""
-        names = sorted({*self.names, *other.names})
-        twice = len({*self.names} & {*other.names})
-        return LoadGroup(self.count + other.count - twice, tuple(names[:_NAMED]))
+LoadGroup = frozenset[str]
+"""Names of resisting outputs or links."""
 
 
-NOTHING = LoadGroup(0, ())  # no load
-
-
-class LoadInfluence(NamedTuple):
-    """Loads that make the multiplier of a mesh positive, and loads that make it negative. `open` is True if it is
-    undetermined.
-    """
-
-    plus: LoadGroup = NOTHING
-    minus: LoadGroup = NOTHING
-    open: bool = False
-
-
-def find_load_influence(balance: TorqueBalance, loads: UnitLoads) -> dict[str, LoadInfluence] | None:
-    """Return the influence of loads on every mesh; None if no torques balance the loads.
-
-    balance   torque balance without losses; its known torques only mark the loaded links
-    """
-    weighing = _InfluenceSolver(balance, loads)
-    return weighing.found if weighing.go() else None
-
-
-class _InfluenceSolver:
-    def __init__(self, balance: TorqueBalance, loads: UnitLoads) -> None:
-        self.balance, self.loads = balance, loads
-        self.found: dict[str, LoadInfluence] = {}
-
-    def _start(self) -> None:
-        self.groups: dict[int, LoadGroup] = {}
-        self.rows: dict[int, LinearForm] = {row: {} for row in self.balance.rows}
-        self.holding_rows: dict[int, set[int]] = {}
-        at = {link: row for row, link in enumerate(self.balance.links)}
-        # sorted, so that the order of declaration has no effect
-        for name in sorted(self.loads):
-            symbol = self._symbol(LoadGroup(1, (name,)))
-            for link, torque in self.loads[name].items():
-                if at.get(link) in self.rows:
-                    self._add(at[link], {symbol: torque}, 1)
-
-    def _symbol(self, group: LoadGroup) -> int:
-        symbol = -1 - len(self.groups)
-        self.groups[symbol] = group
-        self.holding_rows[symbol] = set()
-        return symbol
-
-    def _add(self, row: int, form: LinearForm, factor: Fraction | int) -> None:
-        own = self.rows[row]
-        add_into(own, form, factor)
-        for symbol in form:
-            (self.holding_rows[symbol].add if symbol in own else self.holding_rows[symbol].discard)(row)
-
-    def go(self) -> bool:
-        """Solve the system block by block, or as a whole if a block leaves a torque open that a later block may
-        need.
-        """
-        self._start()
-        done = self._through(self.balance.parts)
-        if done is None:
-            self._start()
-            done = self._through([self.balance.whole])
-        return bool(done)
-
-    def _through(self, blocks: Sequence[Block]) -> bool | None:
-        self.found = {}
-        for block in blocks:
-            forms = self._solve(block)
-            if forms is None:
-                return False
-            # an undetermined torque may be determined by a later block
-            if block is not blocks[-1] and None in forms.values():
-                return None
-            for column, form in forms.items():
-                self._take(column, form)
-        return True
-
-    def _solve(self, block: Block) -> dict[int, LinearForm | None] | None:
-        """Return the unknowns of a block as linear forms of symbols, with None for undetermined unknowns.
-
-        The result is None if no torques balance the loads.
-        """
-        known = {row: self.rows.pop(row) for row in block.rows}
-        for row, form in known.items():
-            for symbol in form:
-                self.holding_rows[symbol].discard(row)
-        found = solve_block(self.balance.columns, block, dict.fromkeys(block.columns, 0), known)
-        if found is None or len(block.rows) > 1 or len(block.columns) > 1:
-            return found
-        return {column: None if form is None else self._merged(form) for column, form in found.items()}
-
-    def _merged(self, form: LinearForm) -> LinearForm:
-        """Return the form with loads of one sign replaced by a new symbol for their sum, if no other row contains
-        them.
-        """
-        # symbols in no remaining row are not needed separately; only their sum continues
-        signs = {value > 0 for value in form.values()}
-        if len(signs) != 1 or any(self.holding_rows[symbol] for symbol in form):
-            return form
-        return {self._symbol(self._sum(form)): Fraction(1 if signs.pop() else -1)}
-
-    def _sum(self, symbols: Sequence[int] | LinearForm) -> LoadGroup:
-        found = NOTHING
-        for symbol in symbols:
-            found = found.joined(self.groups[symbol])
-        return found
-
-    def _take(self, at: int, form: LinearForm | None) -> None:
-        column = self.balance.columns[at]
-        if form is None:
-            share = LoadInfluence(open=True)
-        else:
-            share = LoadInfluence(
-                self._sum([symbol for symbol, value in form.items() if value > 0]),
-                self._sum([symbol for symbol, value in form.items() if value < 0]),
-            )
-            for row, coefficient in column.pieces[0].items():
-                if row in self.rows and form:
-                    self._add(row, form, coefficient)
-        self.found |= {mesh.id: share for mesh in column.meshes}
+def group_text(group: LoadGroup) -> str:
+    """Return the first names of a set of loads in alphabetical order, and the number of the others."""
+    names = sorted(group)[:_NAMED]
+    if rest := len(group) - len(names):
+        names.append(f"{rest} more")
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 class FlowDirections(NamedTuple):
     """Loads whose power flows from a pair's first wheel to its second, and loads whose power flows in reverse."""
 
-    ahead: LoadGroup = NOTHING
-    back: LoadGroup = NOTHING
+    ahead: LoadGroup = frozenset()
+    back: LoadGroup = frozenset()
     shared: bool = False
     """True if redundant pairs share the power, and the shares are undetermined."""
     note: str = ""
     """Note on outputs that take no power through this pair."""
 
     def __bool__(self) -> bool:
-        return bool(self.ahead.count or self.back.count or self.shared)
+        return bool(self.ahead or self.back or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
         """Return the union of the loads of two results for one pair."""
-        ahead, back = self.ahead.joined(other.ahead), self.back.joined(other.back)
-        return FlowDirections(ahead, back, self.shared or other.shared, self.note)
+        return FlowDirections(self.ahead | other.ahead, self.back | other.back, self.shared or other.shared, self.note)
+
+
+def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, FlowDirections]:
+    """Return the direction in which each load drives power through every mesh; empty if no torques balance the loads.
+
+    balance   torque balance without losses; its known torques only mark the loaded links
+    """
+    at = {link: row for row, link in enumerate(balance.links)}
+    names = sorted(loads)
+    known: dict[int, LinearForm] = {row: {} for row in balance.rows}
+    for number, name in enumerate(names):
+        for link, torque in loads[name].items():
+            if at.get(link) in known:
+                known[at[link]][-1 - number] = torque
+    forms = solve_block(balance.columns, balance.whole, dict.fromkeys(range(len(balance.columns)), 0), known)
+    found = {}
+    for column, form in forms.items() if forms is not None else ():
+        for mesh in balance.columns[column].meshes:
+            # power flows from the first link to the second if the multiplier is opposite to the rolling speed
+            signs = {names[-1 - symbol]: value * mesh.turn < 0 for symbol, value in (form or {}).items()}
+            ahead = frozenset(name for name, forwards in signs.items() if forwards)
+            found[mesh.id] = FlowDirections(ahead, frozenset(signs) - ahead, form is None)
+    return found
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
@@ -283,7 +176,7 @@ def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirection
         left = {name for name in wanted if name not in found}
         if not left or not (resisting := loads(setting)):
             continue
-        found |= {name: way._replace(note=note) for name, way in _flow_directions(setting, resisting).items()
+        found |= {name: way._replace(note=note) for name, way in _directions(setting, resisting).items()
                   if way and name in left}  # fmt: skip
         note = f"{missed} takes power through it; " if missed else note
     return found
@@ -347,7 +240,7 @@ def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 # ----------------------------------------------------------------------------------------------------- power directions
 
 
-def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
+def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
     """Return the directions of power in every pair for any combination of loads with positive factors."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
@@ -356,11 +249,8 @@ def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirec
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
         # equal planets remain equal under equal loads; the numbers only distinguish the loaded links
         number = {peer: Fraction(at) for at, link in enumerate(loaded, 2) for peer in like.get(link, (link,))}
-        shares = find_load_influence(balance := build_balance(setting, number, requested), spread)
-        for mesh in balance.meshes if shares is not None else ():
-            plus, minus, shared = (shares or {})[mesh.id]
-            way = FlowDirections(minus, plus, shared) if mesh.turn > 0 else FlowDirections(plus, minus, shared)
-            found[mesh.id] = found[mesh.id].joined(way) if mesh.id in found else way
+        for name, way in find_flow_directions(build_balance(setting, number, requested), spread).items():
+            found[name] = found[name].joined(way) if name in found else way
     return found
 
 
@@ -409,16 +299,16 @@ def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source:
     if way.shared:
         why = "redundant pairs share the load in an unknown ratio; declare `share` or `loads`"
         return _open(setting, circuit, why)
-    if way.ahead.count and way.back.count:
+    if way.ahead and way.back:
         # the direction with more loads is assumed; with equal numbers neither is preferred
-        ways = sorted([(-way.ahead.count, first, second, way.ahead), (-way.back.count, second, first, way.back)])
+        ways = sorted([(-len(way.ahead), first, second, way.ahead), (-len(way.back), second, first, way.back)])
         (more, likely, other, most), (less, *_, rest) = ways
-        why = f"{way.note}power flows from {likely} to {other} for {most}, and back for {rest}; declare `loads`"
-        found = _open(setting, circuit, why)
+        flows = f"from {likely} to {other} for {group_text(most)}, and back for {group_text(rest)}"
+        found = _open(setting, circuit, f"{way.note}power flows {flows}; declare `loads`")
         return replace(found, wheel=likely) if more < less else found
     if way:
-        group = way.ahead if way.ahead.count else way.back
-        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flow {source} -> {group}")
+        source_text = f"{way.note}power flow {source} -> {group_text(way.ahead or way.back)}"
+        return MeshDriver(first if way.ahead else second, source_text)
     turn = setting.turn(circuit)
     if turn is None:
         return _open(setting, circuit, "the relative speed of its two sides is not determined")

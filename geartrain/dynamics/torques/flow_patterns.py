@@ -12,16 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain, islice, product
-from typing import TYPE_CHECKING
+from itertools import chain, product
 
 from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorques, TorqueBalance, TorqueUnknown
 from geartrain.numerics.block_triangular import Block
 from geartrain.numerics.elimination import Echelon, LinearForm, eliminate, feasible
-
-if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Bools, Floats, Ints
-
 
 Sides = Mapping[int, int]
 """Column -> driving side; see `TorqueUnknown`."""
@@ -30,12 +25,8 @@ KnownTorques = Mapping[int, LinearForm]
 """Row -> known torques, as linear forms of symbols (columns below 0)."""
 _MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
 _MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
-_FEW = 4  # with fewer lossy torques, a floating-point filter does not pay
-_CHUNK = 2**21  # matrix entries solved at once: 16 MB of float64
 _MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
 _MOST_FLOWS = 256  # maximum number of partial solutions
-NEAR = 1e-9
-"""Fraction of the maximum torque below which the sign of a torque is undecided."""
 _KNOWN = -1  # column of the known torques
 
 Values = dict[int, Fraction | None]
@@ -179,11 +170,12 @@ def _solutions(
         values = _solve(columns, block, base, known)
         if values is not None and None not in values.values():
             return [(base, values)], True
-    first = _iterate(columns, block, lossy, base, known) if len(lossy) >= _FEW else None
+    first = _iterate(columns, block, lossy, base, known) if len(lossy) > _MOST_OPEN else None
     is_open = len(block.columns) > len(block.rows)
     tried = len(lossy) <= (_MOST_OPEN if is_open and first else _MOST_TRIED)
     found: list[tuple[Sides, Values]] = []
-    rest = _candidates(columns, block, lossy, base, known) if tried else ()
+    every = product(*(columns[column].sides for column in lossy)) if tried else ()
+    rest = ({**base, **dict(zip(lossy, sides, strict=True))} for sides in every)
     for sides in chain([first] if first else [], rest):
         values = _solve(columns, block, sides, known)
         if values is None or not _is_consistent(columns, block, sides, values, known):
@@ -231,22 +223,6 @@ def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
     return {row: {_KNOWN: value} if value else {} for row, value in known.items()}
 
 
-def _candidates(
-    columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
-) -> Iterator[Sides]:
-    """Yield the driving sides that may be consistent; if several torques are lossy, float solutions exclude the
-    others.
-    """
-    every = ({**base, **dict(zip(lossy, sides, strict=True))}
-             for sides in product(*(columns[column].sides for column in lossy)))  # fmt: skip
-    if len(lossy) < _FEW or len(block.rows) != len(block.columns):
-        yield from every
-        return
-    floats = _FloatBlock(columns, block, known)
-    while chunk := list(islice(every, max(1, _CHUNK // len(block.rows) ** 2))):
-        yield from floats.likely(chunk)
-
-
 def _iterate(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Sides | None:
@@ -271,48 +247,3 @@ def _iterate(
             return None
         seen.append(sides)
     return None
-
-
-class _FloatBlock:
-    """Square block in float64, to exclude patterns that contradict their own torques."""
-
-    def __init__(self, columns: Sequence[TorqueUnknown], block: Block, known: Mapping[int, Fraction]) -> None:
-        import numpy as np
-
-        self.block = block
-        self.turns = np.array([columns[column].turn for column in block.columns])
-        # patterns depend only on signs, so loads of any magnitude are scaled into the range of floats
-        maximum = max(map(abs, known.values()))
-        self.right = np.array([-float(known[row] / maximum) for row in block.rows])
-        size = len(block.rows)
-        self.pieces = np.zeros((3, size, size))  # by side: 0, 1, and -1 in the last
-        for at, column in enumerate(block.columns):
-            for side, piece in columns[column].pieces.items():
-                self.pieces[side, :, at] = [float(piece.get(row, 0)) for row in block.rows]
-
-    def likely(self, chunk: Sequence[Sides]) -> Iterator[Sides]:
-        """Yield the patterns that their torques do not contradict; all patterns if a matrix is singular."""
-        import numpy as np
-
-        sides = np.array([[each[column] for column in self.block.columns] for each in chunk])
-        matrices = self.pieces[sides, :, np.arange(sides.shape[1])].transpose(0, 2, 1)
-        try:
-            found = np.linalg.solve(matrices, self.right[:, None])[:, :, 0]
-        except np.linalg.LinAlgError:
-            yield from chunk
-            return
-        # a sign that fails only by rounding is left to exact arithmetic
-        against = contradicts(found.T, -(self.turns * sides).T)
-        yield from (each for each, bad in zip(chunk, against.tolist(), strict=True) if not bad)
-
-
-def contradicts(torques: Floats, signs: Floats | Ints) -> Bools:
-    """Return a mask of the patterns whose signs the torques, shape (columns, n), contradict beyond rounding: equation
-    (7).
-
-    signs   required sign of each torque: 1, -1, or 0 for any sign
-    """
-    import numpy as np
-
-    found: Bools = np.max(-torques * signs, axis=0, initial=0.0) > NEAR * np.max(np.abs(torques), axis=0, initial=0.0)
-    return found

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import chain
+from graphlib import CycleError, TopologicalSorter
+from itertools import chain, pairwise
 from typing import Literal, NamedTuple
 
 from geartrain.dynamics.pair_speeds import radians_per_second
@@ -141,26 +142,17 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle in the selected streams, found by iterative depth-first search; empty without a cycle."""
-    after: dict[PowerNode, list[int]] = {}
+    """Return one cycle in the selected streams; empty without a cycle."""
+    stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
+    before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
-        after.setdefault(streams[at].source, []).append(at)
-    done: set[PowerNode] = set()
-    for start in after:
-        way: list[int] = []
-        ahead = {start: iter(after[start])}  # nodes on the current path, with the streams not yet tried from each
-        while ahead:
-            for at in ahead[next(reversed(ahead))]:
-                target = streams[at].target
-                if target in ahead:
-                    return [*way, at][list(ahead).index(target) :]
-                if target not in done:
-                    way.append(at)
-                    ahead[target] = iter(after.get(target, ()))
-                    break
-            else:
-                done.add(ahead.popitem()[0])
-                way = way[:-1]
+        source, target = streams[at].source, streams[at].target
+        stream_of[source, target] = at
+        before.setdefault(target, []).append(source)
+    try:
+        TopologicalSorter(before).prepare()
+    except CycleError as error:
+        return [stream_of[ends] for ends in pairwise(error.args[1])]
     return []
 
 
@@ -258,24 +250,6 @@ class PowerFlow(Result):
     def shares(self) -> tuple[PowerLoss, ...]:
         """Losses with their fractions of the power input and of the total loss."""
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
-
-    def surplus(self, node: PowerNode) -> Fraction:
-        """Return the power balance of a node: power input minus power output and loss. The balance is 0 except at `in`
-        and `out`.
-
-        Parameters
-        ----------
-        node : PowerNode
-            Node of this power flow.
-
-        Returns
-        -------
-        Fraction
-            Power input minus power output and loss [unit of torque times the train's unit of speed].
-        """
-        taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
-        given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
-        return taken - given - self.losses.get(node, Fraction(0))
 
 
 def find_power_flow(found: Torques) -> PowerFlow:

@@ -1,8 +1,7 @@
 """Torque over a revolution: balance at every position with its actual ratio and friction (docs/torques.md, section
 16).
 
-turn_analysis        entry: from a load case to the results of a run
-train_turn           train over revolutions of its input; studies of friction
+train_turn           entry: torque of a train over revolutions of its input, and the results of a run
 turn_run             positions at which torques are computed, and integrals over them
 position_motion      speeds of all links, and driver angles of the pairs, at these positions
 train_contacts       transmission function, friction and driving side of every pair in one load case

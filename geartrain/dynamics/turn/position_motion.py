@@ -15,72 +15,14 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, common_period
 from geartrain.dynamics.motion.kink_positions import KinkSearch
-from geartrain.teeth.transmission import DerivedTransmission
 
 if TYPE_CHECKING:
     from collections.abc import Collection
     from fractions import Fraction
 
-    from numpy.typing import ArrayLike
-
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_model import Motion
-    from geartrain.numerics.arrays import Bools, Floats, Ints
-    from geartrain.teeth.transmission import TransmissionFunction
-
-
-class FlankChoice(DerivedTransmission):
-    """Transmission function of the flanks in contact, by angle. Its mean values over a period are those of the drive
-    flanks.
-
-    coasting   True for angles at which the coast flanks are in contact
-    """
-
-    def __init__(self, transmission: TransmissionFunction, coasting: Bools) -> None:
-        super().__init__(transmission)
-        self.coasting, self.friction = coasting, transmission.friction
-
-    def picked(self, columns: Ints) -> FlankChoice:
-        """Return the function for a selection of the angles."""
-        return FlankChoice(self.transmission, self.coasting[columns])
-
-    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return error [rad] and speed ratio [1] of the flanks in contact; the error includes the backlash between the
-        flanks.
-        """
-        S = np.asarray(S, dtype=float)
-        error, speed = np.empty_like(S), np.empty_like(S)
-        for transmission, where in (
-            (self.transmission, ~self.coasting),
-            (self.transmission.reversed_motion(), self.coasting),
-        ):
-            if where.any():
-                error[where], speed[where] = transmission.error_and_speed(S[where])
-        return error, speed
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the error of the flanks in contact [rad]."""
-        return self.error_and_speed(S)[0]
-
-    def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio of the flanks in contact [1]."""
-        return self.error_and_speed(S)[1]
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency of the drive flanks at driver angles S [rad]."""
-        return self.transmission.efficiency(S)
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency of the drive flanks."""
-        return self.transmission.efficiency_mean()
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the mean efficiency of the drive flanks at constant load torque."""
-        return self.transmission.efficiency_at_constant_load()
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency of the drive flanks."""
-        return self.transmission.efficiency_minimum()
+    from geartrain.numerics.arrays import Bools, Floats
 
 
 class LinkMotion(NamedTuple):
@@ -105,7 +47,6 @@ class PositionMotion:
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
-        self._kinks: dict[tuple[frozenset[str], float], Floats] = {}
         self.composition = motion._with_sources(pairs)
         self.sources: Mapping[str, PairErrorSource] = {
             source.id: source for source in self.composition.sources if source.id in pairs
@@ -146,16 +87,23 @@ class PositionMotion:
 
         coasting   pair -> mask of the positions at which its coast flanks are in contact
         """
-        composition = self._with_transmissions(
-            {name: FlankChoice(self.sources[name].transmission, where) for name, where in coasting.items()}
-        )
-        found = composition.at(turns)
-        # the offset of a set pointer does not turn any driver
-        own = found.error - np.array(composition.offsets or (0.0,))[:, None]
-        error = dict(zip(self._columns, own, strict=True))
-        phase = InputPhase(turns)
-        angles = {name: composition.driver_angle(each, phase, error) for name, each in self.sources.items()}
-        return LinkMotion(turns, self.senses[:, None] * (self.means[:, None] + found.rate), angles)
+        speeds = np.empty((len(self.links), len(turns)))
+        angles = {name: np.empty(len(turns)) for name in self.sources}
+        # positions with the same flanks in contact have one composition; a row of zeros allows for no coasting pair
+        masks = np.array([np.zeros(len(turns), bool), *coasting.values()])
+        patterns, numbers = np.unique(masks, axis=1, return_inverse=True)
+        for number, pattern in enumerate(patterns[1:].T):
+            where = numbers.ravel() == number
+            composition = self.coasting_all_along([name for name, on in zip(coasting, pattern, strict=True) if on])
+            found = composition.at(turns[where])
+            # the offset of a set pointer does not turn any driver
+            own = found.error - np.array(composition.offsets or (0.0,))[:, None]
+            error = dict(zip(self._columns, own, strict=True))
+            phase = InputPhase(turns[where])
+            for name, each in self.sources.items():
+                angles[name][where] = composition.driver_angle(each, phase, error)
+            speeds[:, where] = self.senses[:, None] * (self.means[:, None] + found.rate)
+        return LinkMotion(turns, speeds, angles)
 
     def kinks(self, coasting: frozenset[str], span: float) -> Floats:
         """Return the positions of the input from 0 to `span` [revolutions] at which a transmission function has a
@@ -163,20 +111,14 @@ class PositionMotion:
 
         coasting   pairs whose coast flanks are in contact at all positions
         """
-        if (coasting, span) not in self._kinks:
-            composition = self.coasting_all_along(coasting)
-            self._kinks[coasting, span] = KinkSearch(composition).over(0.0, span).turns
-        return self._kinks[coasting, span]
+        return KinkSearch(self.coasting_all_along(coasting)).over(0.0, span).turns
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
         """Return the composition in which the coast flanks of the given pairs are in contact at all positions."""
-        return self._with_transmissions({name: self.sources[name].transmission.reversed_motion() for name in pairs})
-
-    def _with_transmissions(self, transmissions: Mapping[str, TransmissionFunction]) -> ErrorComposition:
-        composition = self.composition
-        if not transmissions:
-            return composition
+        if not pairs:
+            return self.composition
         sources = tuple(
-            replace(each, transmission=transmissions.get(each.id, each.transmission)) for each in composition.sources
+            replace(each, transmission=each.transmission.reversed_motion()) if each.id in pairs else each
+            for each in self.composition.sources
         )
-        return ErrorComposition(composition.spread, sources, composition.outputs, composition.offsets)
+        return replace(self.composition, sources=sources)

@@ -34,22 +34,6 @@ class TorqueExtreme(NamedTuple):
     """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
 
 
-class CycleFigures(NamedTuple):
-    """Figures of a run for tolerance analysis: mean, maximum and starting torque, and efficiency.
-
-    A figure is None if it is not defined, as for a train that locks.
-
-    See Also
-    --------
-    TorqueCycle : complete result of a run
-    """
-
-    mean: float | None
-    maximum: float | None
-    starting: float | None
-    efficiency: float | None
-
-
 class PlaceInRun(NamedTuple):
     """Position in a run, in revolutions of the input and in days.
 

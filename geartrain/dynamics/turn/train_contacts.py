@@ -11,10 +11,9 @@ eta'(f) = 1/eta(-f) (23).
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import TransmissionFunction
 
 
@@ -65,20 +64,17 @@ class DriverState(NamedTuple):
     """Forward speed of the driver relative to the carrier, divided by the speed of the input [1]."""
 
 
-class ContactLosses(ABC):
-    """Effect of friction on the torques of a contact."""
+class ContactLosses:
+    """Contact without losses. Subclasses describe the effect of friction on the torques of a contact."""
 
-    @property
-    def has_friction(self) -> bool:
-        """True if the contact has losses."""
-        return True
+    has_friction: ClassVar[bool] = False
+    """True if the contact has losses."""
 
     @property
     def starts_harder(self) -> bool:
         """True if static friction differs from sliding friction."""
         return False
 
-    @abstractmethod
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
@@ -87,6 +83,8 @@ class ContactLosses(ABC):
         tau   speed ratio of the flank in contact, from `transmission`
         way   1 if the driver of the transmission function drives, -1 if the other side does, 0 without relative motion
         """
+        del transmission, at, way, static
+        return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
         """Return values whose signs change where the torques have kinks but the speed ratio has none; None by
@@ -96,26 +94,11 @@ class ContactLosses(ABC):
         return None
 
 
-class NoLosses(ContactLosses):
-    """Contact without losses."""
-
-    @property
-    def has_friction(self) -> bool:
-        """False, because the contact has no losses."""
-        return False
-
-    def torques(
-        self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
-    ) -> ContactTorques:
-        """Return the torques without friction: 1 on the driven side, `tau` from the driver."""
-        del transmission, at, way, static
-        return ContactTorques(np.ones_like(tau), tau)
-
-
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
     """Declared efficiencies for both driving sides. A value of 0 or less locks the pair in this direction."""
 
+    has_friction: ClassVar[bool] = True
     driver: float
     driven: float
 
@@ -132,11 +115,10 @@ class BasicEfficiency(ContactLosses):
 
 
 @dataclass(frozen=True)
-class ToothFriction(ContactLosses):
-    """Friction of real teeth: each tooth pair in contact transmits (1 + f out)/(1 + f into), with f < 0 if flanks slide
-    back.
-    """
+class SlidingFriction(ContactLosses):
+    """Friction of teeth or of a pin, with a coefficient of sliding friction and one of static friction."""
 
+    has_friction: ClassVar[bool] = True
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.
 
@@ -151,6 +133,12 @@ class ToothFriction(ContactLosses):
         """True if static friction differs from sliding friction."""
         return self.sliding != self.static
 
+
+class ToothFriction(SlidingFriction):
+    """Friction of real teeth: each tooth pair in contact transmits (1 + f out)/(1 + f into), with f < 0 if flanks slide
+    back.
+    """
+
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
@@ -158,7 +146,8 @@ class ToothFriction(ContactLosses):
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
         touching = ~np.isnan(out)  # NaN marks pairs of teeth that do not touch at this position
-        f = (self.static if static else self._coefficient(sliding, at.turning)) * way
+        own = self.static if static else self.sliding
+        f = way * (own(sliding, np.abs(at.turning)) if callable(own) else own)
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out
             # driving side: if friction exceeds the driving component of the contact force, the pair locks
@@ -171,45 +160,27 @@ class ToothFriction(ContactLosses):
         barred = locks if locks.any() else None
         return ContactTorques(np.where(way > 0, share, 1.0), tau * np.where(way < 0, share, 1.0), barred)
 
-    def _coefficient(self, sliding: Floats, turning: Floats) -> Floats | float:
-        return self.sliding(sliding, np.abs(turning)) if callable(self.sliding) else self.sliding
-
 
 @dataclass(frozen=True)
-class PinFriction(ContactLosses):
+class PinFriction(SlidingFriction):
     """Friction of a pin along its slot: T_p = (r/rho)(T_s cos d + f |T_s sin d| sgn S'), equation (25) of
     docs/torques.md.
     """
 
-    transmission: PinTransmission
     sliding: float
-    static: float
-
-    @property
-    def has_friction(self) -> bool:
-        """True if either coefficient of friction is not 0."""
-        return bool(self.sliding or self.static)
-
-    @property
-    def starts_harder(self) -> bool:
-        """True if static friction differs from sliding friction."""
-        return self.static != self.sliding
+    transmission: PinToSlotTransmission
 
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
         """Return the torques from lever arms, which are finite also at dead points."""
         del transmission
-        r, e = self.transmission.r, self.transmission.e
-        half = np.sin(at.S / 2)
-        # rho^2 as a sum of squares, because the difference cancels near r = e
-        square = (r - e) ** 2 + 4 * r * e * half**2
-        arm = r * e * np.abs(np.sin(at.S)) / square
+        arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
-    def kinks(self, at: DriverState) -> Floats | None:
+    def kinks(self, at: DriverState) -> Floats:
         """Return sin S. It is 0 if the pin is on the line through both axes, where the sliding velocity reverses."""
-        return np.sin(at.S) if self.has_friction else None
+        return np.sin(at.S)
 
 
 @dataclass(frozen=True)
@@ -330,8 +301,8 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
 def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     joint, friction = setting.joints.get(circuit.id), setting.train.friction_of(setting.couplings[circuit.id])
     if joint is None or friction is None or not friction.has_friction:
-        return NoLosses()
-    return PinFriction(joint.transmission, joint.transmission.friction, friction.static)
+        return ContactLosses()
+    return PinFriction(joint.transmission.friction, friction.static, joint.transmission)
 
 
 def _losses(
@@ -342,7 +313,7 @@ def _losses(
         return _tooth_friction(setting, circuit, source, mesh)
     means = find_mean_efficiencies(setting, circuit).load
     driver, driven = (float(each) for each in (means if first else means[::-1]))
-    return NoLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
+    return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
 
 
 def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:

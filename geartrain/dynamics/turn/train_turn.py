@@ -1,26 +1,89 @@
-"""Torque of a train over revolutions of its input, with the speed ratio and the friction at every position."""
+"""Torque of a train over revolutions of its input, with the speed ratio and the friction at every position.
+
+The theory is in docs/torques.md, sections 16 to 18.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
+from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
-from geartrain.dynamics.torques.torque_results import TorqueVerdict
-from geartrain.dynamics.turn.torque_cycle import TorqueCycle
-from geartrain.dynamics.turn.turn_analysis import find_figures, find_torque_cycle, find_turn_balance
-from geartrain.dynamics.turn.turn_run import TurnRun
-from geartrain.errors import check_choice, check_numbers, check_whole_numbers
+from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
+from geartrain.dynamics.torques.power_flow import has_torque_units
+from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
+from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
+from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
+from geartrain.dynamics.turn.position_motion import PositionMotion
+from geartrain.dynamics.turn.torque_cycle import (
+    CycleEnergy,
+    PairCycle,
+    PlaceInRun,
+    TorqueCycle,
+    TorqueExtreme,
+)
+from geartrain.dynamics.turn.train_contacts import (
+    dragging_links,
+    find_bearings,
+    find_contacts,
+    followed_pairs,
+    mean_friction_pairs,
+)
+from geartrain.dynamics.turn.turn_balance import TurnBalance
+from geartrain.dynamics.turn.turn_run import FAINT, NODES, RunScales, TurnRun, sign_beyond
+from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
+from geartrain.numerics.labelled_array import labelled_array
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.train_mechanics import TrainMechanics
-    from geartrain.dynamics.turn.torque_cycle import CycleFigures
+    from geartrain.dynamics.turn.turn_balance import PositionTorques
+    from geartrain.dynamics.turn.turn_run import RunCells
+    from geartrain.numerics.arrays import Floats
 
-SAMPLES = 20_000
-"""Default number of positions of a run."""
-_STILL = "the speeds of this state are not determined"
+
+_CELLS = 12  # candidate cells in which an extreme is refined
+_PARTS = 16  # subdivisions per round of refinement
+_ROUNDS = 6  # rounds of refinement: each narrows the interval by 8
+SAMPLES = 20_000  # default number of positions of a run
+MOST_TURNS = 1e9  # positions in float64 then resolve 1e-7 of a revolution
+_ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no declared load
+
+
+def find_extreme(
+    value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
+) -> tuple[float, float] | None:
+    """Return position [revolutions] and value of the maximum (`way` 1) or minimum (-1); None if no value is finite.
+
+    value_at   function that returns the values at positions
+    values     values at the positions of the run, NaN where the train is locked
+    """
+    signed = np.where(np.isfinite(values), way * values, -np.inf)
+    if not np.isfinite(signed).any():
+        return None
+    highest = np.argsort(-signed.reshape(-1, NODES).max(axis=1), kind="stable")[:_CELLS]
+    top = int(np.argmax(signed))
+    best, at = float(signed[top]), float(cells.turns[top])
+    low, high = cells.low[highest] + cells.aside, cells.high[highest] - cells.aside
+    for _ in range(_ROUNDS):
+        grid = low[:, None] + (high - low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)
+        found = way * value_at(grid.ravel()).reshape(grid.shape)
+        found = np.where(np.isfinite(found), found, -np.inf)
+        which = np.argmax(found, axis=1)
+        peak = found[np.arange(len(which)), which]
+        if peak.max() > best:
+            best = float(peak.max())
+            at = float(grid[np.argmax(peak), which[np.argmax(peak)]])
+        rows = np.arange(len(which))
+        # a smooth maximum lies between the neighbours of the best grid point
+        low, high = grid[rows, np.maximum(which - 1, 0)], grid[rows, np.minimum(which + 1, _PARTS)]
+    return at, way * best + 0.0  # avoids -0.0
 
 
 def solve(
@@ -35,26 +98,27 @@ def solve(
     check_numbers(turns=turns)
     check_whole_numbers(samples=samples)
     train = train.unfolded
-    found = train.load_case(state)
+    setting = train.load_case(state)
     if of is not None:
         check_choice("link", of, tuple(train.declaration.links))
-    if found is None:
-        return TorqueCycle(state, TorqueVerdict("still", _STILL), of or "")
-    return find_torque_cycle(found, find_motion_problem(train, state), turns, samples, of, on_done)
-
-
-def run_figures(
-    train: TrainMechanics, turns: float, samples: int = SAMPLES, state: str | None = None, of: str | None = None
-) -> CycleFigures | TorqueVerdict:
-    """Return only the main figures of a run, which are computed faster than all results; a verdict if the torques
-    cannot be determined.
-    """
-    train = train.unfolded
-    found = train.load_case(state)
-    if found is None:
-        return TorqueVerdict("still", _STILL)
-    balance = find_turn_balance(found, find_motion_problem(train, state), of)
-    return balance if isinstance(balance, TorqueVerdict) else find_figures(TurnRun(balance, turns, samples), of)
+    if setting is None:
+        return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
+    if not 0 < turns <= MOST_TURNS:
+        what, why = f"turns = {turns:g}", f"a run has more than 0 and at most {MOST_TURNS:g} turns"
+        raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
+    if samples < 2:
+        raise QuestionError(
+            Problem(f"samples = {samples}", "at least two positions of the input are needed", "pass samples >= 2")
+        )
+    if of is not None and of in setting.case.loads:
+        why = f"'{of}' carries a load of {setting.case.loads[of]}"
+        fix = "request the torque at a link without a load"
+        raise QuestionError(Problem(f"the torque at '{of}' is already known", why, fix))
+    found = find_turn_balance(setting, find_motion_problem(train, state), of)
+    if isinstance(found, TorqueVerdict):
+        return TorqueCycle(setting.case.state, found, of or "")
+    found.on_done = on_done
+    return _RunResults(TurnRun(found, turns, samples)).cycle(of)
 
 
 def find_torque_period(train: TrainMechanics, state: str | None = None, of: str | None = None) -> Fraction | None:
@@ -95,3 +159,259 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
         return None
     found = find_turn_balance(loads, find_motion_problem(train, state), of)
     return None if isinstance(found, TorqueVerdict) else found.motion.period
+
+
+def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
+    """Return the torque balance of a train for any position; a verdict if the torques cannot be determined.
+
+    of   link with unknown torque, by default as declared
+    """
+    question = find_question(setting, of or setting.case.solve_for)
+    if isinstance(question, TorqueVerdict):
+        return question
+    if not question.requested.enough:
+        text = "fewer torques are unknown than the train has degrees of freedom: loads cannot balance everywhere"
+        return question.requested.undecided or TorqueVerdict("undecided", text)
+    return build_turn_balance(setting, problem, question)
+
+
+def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
+    """Return the torque balance of a train for any position; only the pairs that transmit torque are evaluated."""
+    bearings, frame = find_bearings(setting), setting.train.frame
+    known = dict(question.loads)
+    for link, friction in bearings.items():
+        # only the presence of friction matters here; the odd factor prevents it from cancelling a load by chance
+        for end in (link, setting.tree.parent[link][0]):
+            known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
+    known.pop(frame, None)
+    bases = {link: setting.reacts_on(link) for link in question.requested.links}
+    reactions = {
+        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items() if base != frame
+    }
+    balanced = replace(build_balance(setting, known, question.requested.links), reactions=reactions)
+    whole = generic_balance(balanced)
+    balance = without_pairs(whole, idle_pairs(whole))
+    busy = replace(
+        setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
+    )
+    links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
+    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, *bases.items())
+    teeth = {mesh.name: mesh for mesh in problem.teeth}
+    motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
+    positions = PositionMotion(motion, followed_pairs(busy, teeth))
+    contacts = find_contacts(busy, positions, teeth)
+    loads = {link: float(torque) for link, torque in question.loads.items()}
+    return TurnBalance(busy, positions, balance, contacts, loads, bearings)
+
+
+@dataclass
+class _RunResults:
+    """Results of a run, computed from its positions."""
+
+    run: TurnRun
+
+    def _requested(self, of: str | None) -> _Request:
+        train = self.run.train
+        row = train.requested.index(of) if of in train.requested else 0
+        link, setting = train.requested[row], train.setting
+        speed = setting.relative(link, setting.reacts_on(link)) or 0
+        return _Request(row, -1 if setting.sense(link) * speed < 0 else 1)
+
+    def _mean(self, own: _Request) -> float:
+        return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
+
+    def cycle(self, of: str | None) -> TorqueCycle:
+        train, found = self.run.train, self.run.found
+        own = self._requested(of)
+        link = train.requested[own.row]
+        locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
+        maximum = None if locked else self._extreme(own, 1, False)
+        torque, neglected, period = own.torque(found), self._neglected(), train.motion.period
+        names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
+        parts = self._parts(names)
+        # repr: the label of a position has all digits
+        labels = [repr(each) for each in self.run.cells.turns.tolist()]
+        return TorqueCycle(
+            train.setting.case.state,
+            self._verdict(locked, ambiguous, neglected),
+            link,
+            has_torque_units(train.setting.train, train.setting.case.state),
+            self.run.span,
+            None if period is None else float(period),
+            self.run.cells.turns,
+            torque,
+            own.highest(found),
+            own.highest(self.run.standing),
+            labelled_array(found.speeds, link=train.outside, position=labels),
+            labelled_array(found.powers, link=train.outside, position=labels),
+            labelled_array(found.losses, part=names, position=labels),
+            None if locked else self._mean(own),
+            maximum,
+            self._extreme(own, -1, False),
+            self._starting(own, maximum),
+            None if locked else self._energy(parts),
+            parts,
+            locked,
+            self._held(),
+            ambiguous,
+            self._stretches(),
+            train.complete,
+            neglected,
+        )
+
+    def _neglected(self) -> tuple[NeglectedEffect, ...]:
+        train = self.run.train
+        teeth = {mesh.name: mesh for mesh in train.motion.motion._problem.teeth}
+        found = neglected_over_turn(
+            train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
+        )
+        if links := dragging_links(train.setting):
+            why = (
+                "it depends on speed, and torques or speeds have no units: give `rate` or the inputs a unit, and the "
+                "loads too"
+            )
+            found += (NeglectedEffect("viscous drag", links, why),)
+        if share := self.run.share(self.run.found.unresolved):
+            why = (
+                f"over {share:.2%} of the run a link would turn backwards on drive flanks and forwards on coast "
+                "flanks; it is assumed to rest within its backlash and to need no torque, and its position there is "
+                "not computed"
+            )
+            found += (NeglectedEffect("rest within the backlash", train.flanked, why),)
+        return found
+
+    def _verdict(self, locked: float, ambiguous: float, neglected: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
+        requested = ", ".join(self.run.train.requested)
+        if locked:
+            text = f"no torque on {requested} balances the loads over {locked:.4%} of the run: the train locks there"
+            return TorqueVerdict("self-locking", text)
+        if shared := self.run.train.shared:
+            text = (
+                f"the load sharing of {', '.join(shared)} is not determined: they are redundant, and `share` is not "
+                "declared"
+            )
+            return TorqueVerdict("indeterminate", f"{text}; minimum-norm torques are reported", shared)
+        if ambiguous:
+            text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
+            return TorqueVerdict("ambiguous", f"{text}; the pattern with minimum loss is reported")
+        if neglected:
+            what = ", ".join(map(str, neglected))
+            return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")
+        return TorqueVerdict("determined", "the torque at every position is determined")
+
+    def _place(self, turns: float) -> PlaceInRun:
+        train = self.run.train.setting.train
+        if train.unit_days is None:
+            return PlaceInRun(turns)
+        speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion._problem.driving_link]))
+        return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
+
+    def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
+        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if no value is
+        finite.
+        """
+
+        def torque(found: PositionTorques) -> Floats:
+            return own.highest(found) if way > 0 else own.torque(found)
+
+        extreme = find_extreme(
+            lambda turns: torque(self.run.train.at(turns, static)),
+            self.run.cells,
+            way,
+            torque(self.run.standing if static else self.run.found),
+        )
+        return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
+
+    def _starting(self, own: _Request, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
+        """Return the maximum torque with static friction; None if the train does not start at every position."""
+        if not self.run.standing.valid.all():
+            return None
+        return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
+
+    def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
+        """Return the energies over the run [J, or torque without a unit times rad]."""
+        found, requested = self.run.found, len(self.run.train.requested)
+        # powers are divided by the speed of the input, so the integral is over its angle in radians
+        weights = self.run.cells.weights * 2 * np.pi
+        driving, loading = found.powers[:requested], found.powers[requested:]
+
+        def summed(powers: Floats) -> float:
+            """Return the integral of the positive part of powers over the run."""
+            return float(weights @ np.maximum(powers, 0).sum(axis=0))
+
+        lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
+        for part in parts.values():
+            lost[part.kind] += part.loss
+        return CycleEnergy(
+            put_in=summed(driving),
+            returned=summed(-driving),
+            taken_out=summed(-loading),
+            loads_put_in=summed(loading),
+            **lost,
+        )
+
+    def _parts(self, names: tuple[str, ...]) -> Mapping[str, PairCycle]:
+        found, weights = self.run.found, self.run.cells.weights * 2 * np.pi
+        kinds = [each.kind for each in self.run.train.contacts.values()] + ["bearing"] * len(self.run.train.bearings)
+        losses, passed = (
+            np.where(found.valid, found.losses, 0) @ weights,
+            np.where(found.valid, found.passed, 0) @ weights,
+        )
+        # noise around a torque of 0 is not a change of flanks
+        changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
+        bearings = len(self.run.train.bearings)
+        changes += [0] * bearings
+        maximum = [
+            *np.abs(np.where(found.valid, found.pressed, 0)).max(axis=1, initial=0.0).tolist(),
+            *[0.0] * bearings,
+        ]
+        rows = zip(names, kinds, losses.tolist(), passed.tolist(), changes, maximum, strict=True)
+        return {name: PairCycle(kind, *figures) for name, kind, *figures in rows}
+
+    @property
+    def _closes(self) -> bool:
+        """True if the run is an integer number of periods."""
+        period = self.run.train.motion.period
+        return period is None or (self.run.span / float(period)) % 1 == 0
+
+    def _held(self) -> float:
+        """Return the fraction of the run in which loads and unknown torques both put power in."""
+        found, requested = self.run.found, len(self.run.train.requested)
+        driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
+        minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
+        return self.run.share((driving > minimum) & (loading > minimum))
+
+    def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
+        """Return start and end of each part of the run in which no torque balances the loads."""
+        turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
+        starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
+        return tuple(
+            (self._place(float(turns[a])), self._place(float(turns[b]))) for a, b in zip(starts, ends, strict=True)
+        )
+
+
+class _Request(NamedTuple):
+    """Row of the reported link, and the sign of its mean speed."""
+
+    row: int
+    way: int
+
+    def torque(self, found: PositionTorques) -> Floats:
+        """Return the torque of the link, positive in its mean sense, in the solution with minimum loss."""
+        torque: Floats = self.way * found.torque[self.row]
+        return torque
+
+    def highest(self, found: PositionTorques) -> Floats:
+        """Return the torque of the link, positive in its mean sense, in the solution with maximum loss."""
+        torque: Floats = self.way * found.highest[self.row]
+        return torque
+
+
+def _changes(signs: Floats, closes: bool) -> int:
+    """Return the number of sign changes of a sequence, without zeros; `closes` includes the change from its end to its
+    start.
+    """
+    own = signs[signs != 0]
+    if not len(own):
+        return 0
+    return int(np.count_nonzero(own[1:] != own[:-1])) + int(closes and own[0] != own[-1])

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.torques.flow_patterns import NEAR, contradicts
 from geartrain.dynamics.turn.train_contacts import DriverState, PairForce
 from geartrain.numerics.arrays import joined, some
 
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
 MOST_TRIED = 7  # two-sided torques of a block with exhaustive enumeration: 2^7 small systems per position
 _MOST_ROUNDS = 30  # maximum iterations for blocks with more two-sided torques
 _MOST_LAYERS = 16  # maximum number of solutions kept per position
+NEAR = 1e-9  # of the maximum torque: the sign of a smaller torque is undecided
 SINGULAR = 1e-13  # of the product of the row norms (Hadamard's bound): a smaller determinant counts as 0
 SAME = 1e-8  # of the maximum torque: solutions closer than this are equal
 AT_REST = 1e-12  # of the maximum speed: slower links are at rest
@@ -131,9 +131,10 @@ def _solve(
         values, valid = _divided(own[0].pieces[sides[0]].get(block.rows[0]), known)
     else:
         values, valid = _eliminated(own, block, layer, sides)
-    # signs must agree with the pattern, and barred torques must be 0
-    valid = valid & layer.valid & ~contradicts(values, np.array(sides)[:, None])
     scale = np.max(np.abs(values), axis=0, initial=0.0)
+    # signs must agree with the pattern beyond rounding, and barred torques must be 0
+    against = np.max(-values * np.array(sides)[:, None], axis=0, initial=0.0) > NEAR * scale
+    valid = valid & layer.valid & ~against
     for each, side, value in zip(own, sides, values, strict=True):
         if (barred := each.barred.get(side)) is not None:
             valid &= ~(barred & (np.abs(value) > NEAR * scale))

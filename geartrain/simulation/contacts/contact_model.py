@@ -8,9 +8,8 @@ earlier ones; that coordinate appears in only one side of the pair. Prescribed c
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from math import floor
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -67,19 +66,6 @@ class ContactPair:
         """Indices of the coordinates of both sides."""
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
 
-    def moved(self, angle: Floats) -> ContactPair:
-        """Return the pair with its coordinates starting at other angles [rad].
-
-        Whole periods of its transmission function are subtracted, because large angles cost digits.
-        """
-        # large angles lose digits, and the transmission function is periodic
-        S, q = (
-            start + sum(float(angle[at]) * value for at, value in form.items())
-            for start, form in zip(self.start, (self.driver, self.driven), strict=True)
-        )
-        whole = floor(S / self.front.table.period) * self.front.table.period
-        return replace(self, start=(S - whole, q - whole * self.front.slope))
-
     def could_determine(self, coordinate: int) -> bool:
         """Return whether one side only contains the coordinate, with a coefficient that never vanishes."""
         driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
@@ -121,13 +107,11 @@ class Spring:
 class SolvedOrder(NamedTuple):
     """Elimination order of the coordinates.
 
-    `owner` is the index of the pair that determines each coordinate, -1 for none. `near` has the earlier coordinates
-    with which each may be coupled.
+    `owner` is the index of the pair that determines each coordinate, -1 for none.
     """
 
     coordinates: tuple[int, ...]
     owner: tuple[int, ...]
-    near: tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -180,47 +164,7 @@ class ContactModel:
         rest = [each for each in range(len(self.torque)) if each not in order]
         order += rest
         owner += [-1] * len(rest)
-        return SolvedOrder(tuple(order), tuple(owner), self._near(order, owner))
-
-    def _near(self, order: Sequence[int], owner: Sequence[int]) -> tuple[tuple[int, ...], ...]:
-        """Return the fill-in of the elimination: coordinates that share a row, or are coupled by eliminating a later
-        one.
-        """
-        place = {each: at for at, each in enumerate(order)}
-        near: list[set[int]] = [set() for _ in order]
-        free = [pair.row for m, pair in enumerate(self.pairs) if m not in owner]
-        forms = [list(each.speed) for each in self.bearings]
-        forms += [list(each.angle) for each in self.stops] + [list(each.angle) for each in self.springs]
-        # mass and damping couple coordinates even if no contact touches
-        coupled = np.argwhere((self.mass != 0) | (self.viscous != 0)).tolist()
-        for group in (*free, *forms, *coupled):
-            places = sorted(place[each] for each in group)
-            for at, d in enumerate(places):
-                near[d].update(each for each in places[:at] if each != d)
-        for d, m in enumerate(owner):
-            if m >= 0:
-                near[d].update(place[each] for each in self.pairs[m].row if place[each] != d)
-        # symbolic elimination from the last coordinate to the first
-        for d in range(len(order) - 1, -1, -1):
-            for each in near[d]:
-                near[each].update(other for other in near[d] if other < each)
-        return tuple(tuple(sorted(each)) for each in near)
-
-    def restarted(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
-        """Return a copy of the model with scaled speeds and a new initial state (angles [rad], speeds [rad/s]); tables
-        are shared.
-
-        `share` scales the speeds. If touching pairs determine all coordinates, speeds follow from their transmission
-        functions at the angles, because the speeds of a step are means.
-        """
-        given = {at: share * value for at, value in self.given.items()}
-        pairs = self.pairs if angle is None else [pair.moved(angle) for pair in self.pairs]
-        start = self.start if speed is None else share * speed
-        if given and all(m >= 0 or at in given for at, m in zip(*self.order[:2], strict=True)):
-            start = None
-        found = replace(self, given=given, typical=share * self.typical, pairs=pairs, start=start)
-        found.__dict__.update(order=self.order, transmissions=self.transmissions, _functions=self._functions)
-        return found
+        return SolvedOrder(tuple(order), tuple(owner))
 
     @property
     def fall_times(self) -> list[float]:
@@ -262,38 +206,43 @@ class ContactModel:
         rubbing = [[-1] * 4 if pair.rubbing is None else list(map(number, pair.rubbing)) for pair in self.pairs]
         return functions, transmissions, rubbing
 
-    def system(self, step: float) -> ContactSystem:
-        """Return the arrays of the kernels for the time step `step` [s]."""
+    def system(self, step: float, yields: ToothCompliance | None = None) -> ContactSystem:
+        """Return the arrays of the kernels for the time step `step` [s].
+
+        yields   stiffness and damping of compliant teeth, for the midpoint rule, in which every pair is a compliant row
+                 and determines no coordinate; None for rigid teeth
+        """
         order, n = self.order, len(self.torque)
         place = {each: at for at, each in enumerate(order.coordinates)}
         mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
-        # implicit in drag and springs, so that stiff ones remain stable
-        matrix = mass + step * viscous
+        # implicit in drag and springs, so that stiff ones remain stable; the midpoint rule weighs them by h/2 and h^2/4
+        past = step if yields is None else step / 2
+        matrix = mass + past * viscous
         for spring in self.springs:
             c = np.zeros(n)
             for each, value in spring.angle.items():
                 c[place[each]] = value
-            matrix = matrix + step**2 * spring.stiffness * np.outer(c, c)
-        near_at, near = _sparse([dict.fromkeys(each, 0.0) for each in order.near])[:2]
+            matrix = matrix + past**2 * spring.stiffness * np.outer(c, c)
         _, transmissions, rubbing = self._functions
-        owned = [at for at in order.owner if at >= 0]
+        if yields is None:
+            stiff = [0.0 if m in order.owner else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]
+        else:
+            stiff = (step**2 / 4 * yields.stiffness + step / 2 * yields.damping).tolist()
         return ContactSystem(
             np.ascontiguousarray(mass),
             np.ascontiguousarray(viscous),
             np.ascontiguousarray(matrix),
             np.array([self.torque[each] for each in order.coordinates], dtype=np.float64),
             np.array([each in self.given for each in order.coordinates], dtype=np.int64),
-            np.array(order.owner, dtype=np.int64),
-            near_at,
-            near,
-            *self._pair_rows(place, near_at, near),
+            np.array(order.owner if yields is None else [-1] * n, dtype=np.int64),
+            *self._pair_rows(place),
             np.array([pair.start[0] for pair in self.pairs], dtype=np.float64),
             np.array([pair.start[1] for pair in self.pairs], dtype=np.float64),
             np.array([pair.two_sided for pair in self.pairs], dtype=np.int64),
             np.array([pair.restitution for pair in self.pairs], dtype=np.float64),
             np.array(transmissions, dtype=np.int64).reshape(-1, 2),
             np.array(rubbing, dtype=np.int64).reshape(-1, 4),
-            np.array([0.0 if m in owned else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]),
+            np.array(stiff, dtype=np.float64),
             *_sparse([_placed(each.speed, place) for each in self.bearings]),
             np.array([each.sliding for each in self.bearings], dtype=np.float64),
             np.array([each.sticking for each in self.bearings], dtype=np.float64),
@@ -309,38 +258,16 @@ class ContactModel:
             np.array([each.rate for each in self.springs], dtype=np.float64),
         )
 
-    def _pair_rows(
-        self, place: Mapping[int, int], near_at: Ints, near: Ints
-    ) -> tuple[Ints, Ints, Floats, Floats, Ints]:
-        """Return the sparse rows of the pairs, with the determined coordinate of each first, and the slots of the
-        others.
-
-        A slot is the index of a coordinate in `near` of the determined one, -1 for the determined coordinate itself,
-        -2 if the pair determines none.
-        """
+    def _pair_rows(self, place: Mapping[int, int]) -> tuple[Ints, Ints, Floats, Floats]:
+        """Return the sparse rows of the pairs, with the determined coordinate of each first."""
         owner = {m: d for d, m in enumerate(self.order.owner) if m >= 0}
-        at, of, S, q, slot = [0], [], [], [], []
+        rows = []
         for m, pair in enumerate(self.pairs):
-            own = owner.get(m)
-            row = [own] if own is not None else []
-            row += [place[each] for each in pair.row if place[each] != own]
-            back = {place[each]: each for each in pair.row}
-            for each in row:
-                of.append(each)
-                S.append(float(pair.driver.get(back[each], 0.0)))
-                q.append(float(pair.driven.get(back[each], 0.0)))
-                # slot codes of the kernels: -2 without owner, -1 the owner itself
-                if m not in owner:
-                    slot.append(-2)
-                elif each == owner[m]:
-                    slot.append(-1)
-                else:
-                    low, high = near_at[owner[m]], near_at[owner[m] + 1]
-                    slot.append(int(low + np.searchsorted(near[low:high], each)))
-            at.append(len(of))
-        ints = (np.array(each, dtype=np.int64) for each in (at, of, slot))
-        starts, places, slots = ints
-        return starts, places, np.array(S, dtype=np.float64), np.array(q, dtype=np.float64), slots
+            # a stable sort, so that the others keep their order
+            names = sorted(pair.row, key=lambda each: place[each] != owner.get(m))
+            rows.append({place[each]: (pair.driver.get(each, 0.0), pair.driven.get(each, 0.0)) for each in names})
+        sides = [_sparse([{each: own[side] for each, own in row.items()} for row in rows]) for side in (0, 1)]
+        return *sides[0], sides[1][2]
 
     def _stiffness(self, form: Form) -> float:
         """Return the regularising inverse compliance of a row [kg m2], far above the inertia of the links that turn
@@ -383,10 +310,8 @@ class ContactSystem(NamedTuple):
     torque                  constant torque on each coordinate
     given                   1 if the speed is prescribed
     owner                   pair that determines a coordinate while it is in contact; -1 for none
-    near                    earlier coordinates with which each may be coupled (sparse, `near_at`)
     pair_of                 coordinates of a pair's row; `pair_driver`, `pair_driven`: coefficients of the speeds of
                             both sides
-    slot                    index of an entry in `near` of its owner; -1 for the owner itself, -2 without an owner
     start_driver, start_driven   angles of both sides where all coordinates are 0
     two_sided               1 for pins without clearance and gears without backlash
     tables, rubbing         functions of both flanks; friction terms of the driver's arm, (front, back) x (forward,
@@ -403,13 +328,10 @@ class ContactSystem(NamedTuple):
     torque: Floats
     given: Ints
     owner: Ints
-    near_at: Ints
-    near: Ints
     pair_at: Ints
     pair_of: Ints
     pair_driver: Floats
     pair_driven: Floats
-    slot: Ints
     start_driver: Floats
     start_driven: Floats
     two_sided: Ints

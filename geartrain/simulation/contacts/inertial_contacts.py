@@ -63,15 +63,14 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links divided by the speed of the input at n positions, and slopes of the pairs'
-    errors.
+    """Speeds and accelerations of all links divided by the speed of the input at n positions, and the coupling of the
+    pairs.
     """
 
     speed: Floats
     acceleration: Floats
-    slope: Floats
-    arm: Floats
-    """Slopes for virtual work, with friction in each driver's lever arm, shape (sources, n)."""
+    inverse: Floats
+    """Inverse of J for virtual work, with friction in each driver's lever arm, shape (n, pairs, pairs)."""
     virtual: Floats
     """Virtual speeds of the links, with friction in each driver's lever arm, shape (links, n)."""
 
@@ -83,15 +82,12 @@ class InertialContacts:
         self,
         moving: MotionProblem,
         acting: InertialLoads,
-        tolerance: float | None = None,
         rubbing: Mapping[str, FlankArms] | None = None,
     ) -> None:
         self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
         # tables cost a setup but make every further evaluation cheaper
-        if tolerance is None and len(moving.circuits) > _MANY:
-            tolerance = _TABLES
-        self.motion = Motion(moving, outputs, tolerance)
+        self.motion = Motion(moving, outputs, _TABLES if len(moving.circuits) > _MANY else None)
         self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
     # ------------------------------------------------------------------------------------------------------- components
@@ -104,22 +100,13 @@ class InertialContacts:
     @cached_property
     def _response(self) -> Floats:
         """Response R: angles of the links to a unit error of each pair, shape (links, pairs)."""
-        return self.motion._propagation.errors(np.eye(len(self.pairs)))
+        return self.motion._propagation.response
 
-    @cached_property
-    def _gain(self) -> Floats:
-        """Gain G: driver's angle of each error source per unit error of each pair, shape (sources, pairs)."""
-        rows = np.zeros((len(self.sources), len(self.pairs)))
-        for row, source in enumerate(self.sources):
-            for link, sign in self.motion._forward.turned_by(source):
-                rows[row] += sign * self._response[link]
-        return rows
-
-    @cached_property
-    def _coupling(self) -> ErrorCoupling:
-        of_pair = {source.pair: at for at, source in enumerate(self.sources)}
-        blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion._propagation.parts]
-        return ErrorCoupling(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
+    def _inverse(self, slope: Floats) -> Floats:
+        """Return the inverse of J = I - diag(slope) G at each position, shape (n, pairs, pairs)."""
+        found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
+        found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
+        return np.asarray(np.linalg.inv(found))
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
@@ -165,11 +152,8 @@ class InertialContacts:
         kick = np.zeros((len(self.pairs), len(turns)))
         pulled = np.zeros((len(self.pairs), len(turns)))
         for row, source in enumerate(self.sources):
-            S = phase.cycles(source.cycles) * source.transmission.period + source.start
-            turning = np.full(len(turns), source.mean)
-            for link, sign in composition.turned_by(source):
-                S += sign * error[link]
-                turning += sign * found.rate[link]
+            S = composition.driver_angle(source, phase, error)
+            turning = source.mean + sum(sign * found.rate[link] for link, sign in composition.turned_by(source))
             slope[row] = source.sense * (source.transmission.speed(S) - float(source.transmission.ratio))
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
             arm[row] = slope[row]
@@ -177,17 +161,19 @@ class InertialContacts:
                 ahead, back = self.rubbing[source.id]
                 arm[row] += source.sense * np.where(turning >= 0, ahead(S), back(S))
             pulled[source.pair] = arm[row] * source.mean
-        acceleration = self._response @ self._coupling.errors(slope, kick)
+        inverse = self._inverse(slope)
+        acceleration = self._response @ np.einsum("nij,jn->in", inverse, kick)
         speed = means[:, None] + found.rate
         virtual = speed
         if self.rubbing:
-            virtual = means[:, None] + self._response @ self._coupling.errors(arm, pulled)
-        return _State(speed, acceleration, slope, arm, virtual)
+            inverse = self._inverse(arm)
+            virtual = means[:, None] + self._response @ np.einsum("nij,jn->in", inverse, pulled)
+        return _State(speed, acceleration, inverse, virtual)
 
     def torques(self, turns: Floats) -> CarriedTorques:
         """Return the torque terms that each pair must transmit at positions of the input [revolutions]."""
         # batches bound the memory of the dense matrices
-        size = max(64, _NUMBERS // (4 * (len(self.pairs) + len(self.moving.system.links)) + 1))
+        size = max(64, _NUMBERS // (len(self.pairs) ** 2 + 4 * len(self.moving.system.links)))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
         return CarriedTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
 
@@ -210,7 +196,7 @@ class InertialContacts:
         """Yield the torques of the pairs under torques f on the links, by the transposed matrices: sense J^-T R^T f."""
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
-            yield self._senses[:, None] * self._coupling.torques(state.arm, self._response.T @ force)
+            yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
         """Return the torques with the driving torque of the crank subtracted, which supplies all virtual work."""
@@ -242,55 +228,6 @@ class InertialContacts:
         jump[np.abs(jump) <= _LEAP * scale] = 0.0
         (found,) = self._carried(after, [self._by_link(self.acting.inertia)[:, None] * jump])
         return found
-
-
-@dataclass(frozen=True)
-class ErrorCoupling:
-    """Matrix J = I - diag(slope) G at many positions, in block triangular order."""
-
-    gain: Floats
-    """Gain G, shape (sources, pairs). `pairs` has the index of each source's pair."""
-    pairs: Sequence[int]
-    blocks: Sequence[Sequence[int]]
-    """Indices of sources that are solved together; each block follows the blocks on which it depends."""
-
-    def errors(self, slope: Floats, given: Floats) -> Floats:
-        """Return the solution of J x = b by block substitution, shape (pairs, n)."""
-        found = given.copy()
-        for block in self.blocks:
-            rows = [self.pairs[at] for at in block]
-            # inside a block, rows must not see each other's new values
-            known = found.copy() if len(block) > 1 else found
-            right = np.stack([given[row] + slope[at] * (self._before(block, at) @ known)
-                              for at, row in zip(block, rows, strict=True)])  # fmt: skip
-            found[rows] = self._solved(block, slope, right, transposed=False)
-        return found
-
-    def torques(self, slope: Floats, given: Floats) -> Floats:
-        """Return the solution of J^T x = b by block substitution in reverse order, shape (pairs, n)."""
-        found = given.copy()
-        for block in reversed(self.blocks):
-            rows = [self.pairs[at] for at in block]
-            found[rows] = self._solved(block, slope, found[rows], transposed=True)
-            for at, row in zip(block, rows, strict=True):
-                found += self._before(block, at)[:, None] * (slope[at] * found[row])
-        return found
-
-    def _before(self, block: Sequence[int], at: int) -> Floats:
-        """Return the gain of a source's driver for the pairs outside of its block."""
-        row: Floats = self.gain[at].copy()
-        row[[self.pairs[each] for each in block]] = 0.0
-        return row
-
-    def _solved(self, block: Sequence[int], slope: Floats, right: Floats, transposed: bool) -> Floats:
-        own = self.gain[np.ix_(block, [self.pairs[at] for at in block])]
-        # blocks without internal feedback are the usual case and need no linear solve
-        if not own.any():
-            return right
-        matrices = np.eye(len(block)) - slope[list(block)].T[:, :, None] * own
-        if transposed:
-            matrices = np.swapaxes(matrices, 1, 2)
-        return np.asarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
 
 
 def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.inertial_contacts import FlankArms
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
     from geartrain.train.mechanism import GearPair
 
@@ -118,7 +118,7 @@ def separate_rubbing(
     return found, tuple(dict.fromkeys(left))
 
 
-def pin_arms(transmission: PinTransmission) -> Arms | None:
+def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
     """Return the friction terms of a pin that drives a slot: (r/rho) f |sin d|; None without friction.
 
     Their sign depends on the slot's torque and on the sense of rotation.
@@ -127,10 +127,8 @@ def pin_arms(transmission: PinTransmission) -> Arms | None:
         return None
 
     def more(S: Floats) -> Floats:
-        # r^2 + e^2 - 2 r e cos S in a form without cancellation
-        half = np.sin(S / 2)
-        square = (transmission.r - transmission.e) ** 2 + 4 * transmission.r * transmission.e * half**2
-        return np.asarray(transmission.r * transmission.friction * transmission.e * np.abs(np.sin(S)) / square)
+        arm = transmission.r * transmission.e * np.abs(np.sin(S)) / transmission._reach(S)[1]
+        return np.asarray(transmission.friction * arm)
 
     plus, minus = tabled_function(more, transmission), tabled_function(lambda S: -more(S), transmission)
     return plus, minus, minus, plus

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, tau
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -294,28 +294,26 @@ def find_separation_rates(
     # without a common period one revolution is searched
     whole = 1.0 if period is None else float(period)
     if turns is None:
-        kinks = KinkSearch(contacts.motion._forward).rate
+        frequency = KinkSearch(contacts.motion._forward).rate
         most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
-        turns = whole if kinks * whole <= most else most / kinks
-    found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
-                  for each in find_pair_separations(contacts, turns))  # fmt: skip
-    return SeparationRates(state, contacts.moving.driving_link, turns, turns >= whole, found, tuple(inertias))
-
-
-class Separation(NamedTuple):
-    """Separation of a pair above a rate [rad/s] at a position [revolutions]; `leap` is True if a speed jumps there."""
-
-    pair: str
-    rate: float
-    turns: float
-    leap: bool
-
-
-def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Separation, ...]:
-    """Return the minimum rate at which each pair separates in a range of the input [revolutions], in ascending
-    order.
-    """
+        turns = whole if frequency * whole <= most else most / frequency
     kinks = contacts.motion.kink_positions(0.0, turns).turns
+    rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
+    leaping = _jump_positions(contacts, kinks, narrowest)
+    found = []
+    for pair, name in enumerate(contacts.pairs):
+        rate, at = (0.0, leaping[pair]) if pair in leaping else (float(rates[pair]), float(places[pair]))
+        found.append(PairSeparation(name, None if rate == inf else rate / tau, at, pair in leaping))
+    found.sort(key=lambda each: (inf if each.rate is None else each.rate, each.pair))
+    return SeparationRates(state, contacts.moving.driving_link, turns, turns >= whole, tuple(found), tuple(inertias))
+
+
+def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
+    """Return the minimum rate at which each pair separates between kinks [rad/s], its position, and the width of the
+    narrowest interval between kinks [revolutions].
+
+    The best intervals of each pair are refined with ever finer samples.
+    """
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
     wide = high - low > _NARROW * max(1.0, turns)
@@ -323,53 +321,35 @@ def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Sep
     # Chebyshev nodes: denser at the ends, where the rate is often lowest
     shares = _INSIDE + (1 - 2 * _INSIDE) * (1 - np.cos(np.pi * np.arange(_SAMPLES) / (_SAMPLES - 1))) / 2
     at = low[:, None] + (high - low)[:, None] * shares
-    rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
-    found = _minimum(contacts, at, rates)
-    leaping = _jump_separations(contacts, kinks, float((high - low).min(initial=turns)))
-    partings = [leaping.get(pair, each) for pair, each in enumerate(found)]
-    return tuple(sorted(partings, key=lambda each: (each.rate, each.pair)))
-
-
-def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Separation]:
-    """Return the minimum rate of each pair, by refining its best intervals with ever finer samples.
-
-    at      positions, (intervals, samples); `rates` of all pairs there
-    """
     count = len(contacts.pairs)
+    rates = contacts.rates(at.ravel()).reshape(count, *at.shape)
     best = np.argsort(rates.min(axis=2), axis=1, kind="stable")[:, :_BEST]
     at, rates = at[best], np.take_along_axis(rates, best[:, :, None], axis=1)
-    found = [Separation(name, inf, 0.0, False) for name in contacts.pairs]
+    found, places = np.full(count, inf), np.zeros(count)
     own, shares = np.arange(count), np.arange(_SAMPLES) / (_SAMPLES - 1)
     for zoom in range(_ZOOMS + 1):
         where = rates.argmin(axis=2)[:, :, None]
         minimum, place = (np.take_along_axis(each, where, axis=2)[:, :, 0] for each in (rates, at))
-        for pair, row in enumerate(minimum.argmin(axis=1)):
-            if minimum[pair, row] < found[pair].rate:
-                found[pair] = found[pair]._replace(rate=float(minimum[pair, row]), turns=float(place[pair, row]))
+        row = minimum.argmin(axis=1)
+        better = minimum[own, row] < found
+        found, places = np.where(better, minimum[own, row], found), np.where(better, place[own, row], places)
         if zoom < _ZOOMS:
             # the interval between the neighbours of the best sample
             left, right = (np.take_along_axis(at, np.clip(where + step, 0, _SAMPLES - 1), axis=2) for step in (-1, 1))
             at = left + (right - left) * shares
             # each pair at its own positions
             rates = contacts.rates(at.ravel()).reshape(count, *at.shape)[own, own]
-    return found
+    return found, places, float((high - low).min(initial=turns))
 
 
-def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Separation]:
-    """Return the pairs that separate at any rate, because a speed jumps and would require a tensile impulse."""
+def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
+    """Return the first positions at which pairs separate at any rate, because a speed jumps and would require a tensile
+    impulse [revolutions].
+    """
     if not len(kinks):
         return {}
     # so close to a kink that rates are those on its two sides, but not so close that rounding dominates
     impulses = contacts.impulses(kinks, _INSIDE * max(narrowest, 1e-6))
     # rounding must not make an impulse negative
     tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)
-    found = {}
-    for pair, row in enumerate(impulses < -tolerance):
-        if row.any():
-            found[pair] = Separation(contacts.pairs[pair], 0.0, float(kinks[row.argmax()]), True)
-    return found
-
-
-def _in_turns(rate: float) -> float | None:
-    """Convert a rate from rad/s to turn/s; return None if it is infinite."""
-    return None if rate == inf else rate / tau
+    return {pair: float(kinks[row.argmax()]) for pair, row in enumerate(impulses < -tolerance) if row.any()}

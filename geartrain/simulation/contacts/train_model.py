@@ -21,7 +21,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.simulation.contacts.pair_tables import TOLERANCE, TabledFunction, tabled_angle
+from geartrain.simulation.contacts.pair_tables import TabledFunction, tabled_angle
 from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import ToothCompliance
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import Train
 
@@ -50,32 +50,21 @@ class SlackPin(ExactRatio):
     distance of the pin from the slot's axis.
     """
 
-    def __init__(self, transmission: PinTransmission, clearance: float, side: int) -> None:
+    def __init__(self, transmission: PinToSlotTransmission, clearance: float, side: int) -> None:
         super().__init__(transmission.ratio, transmission.period)
-        self.transmission, self.clearance, self.side, self.friction = (
-            transmission,
-            clearance,
-            side,
-            transmission.friction,
-        )
+        self.transmission, self.clearance, self.side = transmission, clearance, side
+        self.friction = transmission.friction
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the slot] at pin angles S [rad]."""
-        return np.asarray(
-            self.transmission.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S)))
-        )
+        square = self.transmission._reach(S)[1]
+        return np.asarray(self.transmission.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(square)))
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at pin angles S [rad]."""
-        square, half = self._square(S), self.clearance / 2
+        square, half = self.transmission._reach(S)[1], self.clearance / 2
         turning = half * self.transmission.r * self.transmission.e * np.sin(S) / (square * np.sqrt(square - half**2))
         return np.asarray(self.transmission.speed(S) - self.side * turning)
-
-    def _square(self, S: ArrayLike) -> Floats:
-        half = np.sin(np.asarray(S, dtype=float) / 2)
-        return np.asarray(
-            (self.transmission.r - self.transmission.e) ** 2 + 4 * self.transmission.r * self.transmission.e * half**2
-        )
 
 
 @dataclass(frozen=True)
@@ -85,7 +74,6 @@ class TrainModel:
     problem   rows, mean speeds, transmission functions and drivers of the train
     case      inertia, drag, and the drive
     tree      turning pairs of the train
-    tolerance tolerance of the tables of transmission functions [driven pitches]
     """
 
     train: Train
@@ -93,7 +81,6 @@ class TrainModel:
     case: TimeCase
     tree: Tree
     state: str | None = None
-    tolerance: float = TOLERANCE
 
     def typical(self, link: str) -> float:
         """Return the speed of a link in mean motion [rad/s]."""
@@ -161,7 +148,7 @@ class TrainModel:
         return {mesh.name: mesh for mesh in self.problem.teeth}
 
     @cached_property
-    def _pins(self) -> Mapping[str, PinTransmission]:
+    def _pins(self) -> Mapping[str, PinToSlotTransmission]:
         return {joint.coupling.name: joint.transmission for joint in self.problem.pins}
 
     @cached_property
@@ -260,7 +247,7 @@ class TrainModel:
             # a pair with constant ratio has neither a phase nor a second flank
             if circuit.id not in self.sources:
                 transmission = self._even(circuit)
-                front = self._tabled(transmission)
+                front = tabled_angle(transmission)
                 arms = self._constant_ratio_arms(circuit, transmission)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
@@ -277,18 +264,15 @@ class TrainModel:
             transmission = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
-                front = self._tabled(transmission)
+                front = tabled_angle(transmission)
                 return front, front, pin_arms(transmission), transmission
             # with clearance the two sides of the slot are two flanks
             before, behind = SlackPin(transmission, clearance, -1), SlackPin(transmission, clearance, 1)
-            return self._tabled(before), self._tabled(behind), pin_arms(transmission), before
+            return tabled_angle(before), tabled_angle(behind), pin_arms(transmission), before
         mesh = self._meshes[circuit.id]
-        front = self._tabled(mesh.transmission)
-        back = front if mesh.verdict.backlash <= 0 else self._tabled(mesh.coast)
+        front = tabled_angle(mesh.transmission)
+        back = front if mesh.verdict.backlash <= 0 else tabled_angle(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.transmission
-
-    def _tabled(self, transmission: TransmissionFunction) -> TabledFunction:
-        return tabled_angle(transmission, self.tolerance)
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""

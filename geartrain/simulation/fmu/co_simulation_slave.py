@@ -11,7 +11,7 @@ import json
 import re
 import sys
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
@@ -73,13 +73,13 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         }[kind]
         link = self._simulation.drive_link
         if name:
-            self._input(name, unit, f"{what}, at {link}", lambda: self._drive, self._set_drive)
+            self._input(name, unit, f"{what}, at {link}", lambda: self._drive, partial(self._set, "_drive"))
         for each in self._loads:
-            self._input(f"loads.{_quoted(each)}", "N.m", f"torque on {each}", self._load(each), self._set_load(each))
-        self._parameter("step", "s", "time step", lambda: self._step, self._set_step)
+            self._input(f"loads.{_quoted(each)}", "N.m", f"torque on {each}", *self._item(self._loads, each))
+        self._parameter("step", "s", "time step", lambda: self._step, partial(self._set, "_step"))
         for each in self._restitution:
             what = f"coefficient of restitution of {each}"
-            self._parameter(f"restitution.{_quoted(each)}", "", what, self._bounce(each), self._set_bounce(each))
+            self._parameter(f"restitution.{_quoted(each)}", "", what, *self._item(self._restitution, each))
         if kind in ("torque", "spring", "hand"):
             self._output("drive.link.speed", "rad/s", f"speed of {link}", lambda of: of.speed)
         if kind != "torque":
@@ -115,32 +115,17 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self.register_variable(Real(name, description=what, getter=get, **more), nested=False)
         self._units[name] = unit
 
-    def _load(self, link: str) -> Callable[[], float]:
-        return lambda: self._loads[link]
+    def _item(self, values: dict[str, float], name: str) -> tuple[Callable[[], float], Callable[[float], None]]:
+        """Return functions that read and set an item of the loads or of the coefficients of restitution."""
 
-    def _bounce(self, pair: str) -> Callable[[], float]:
-        return lambda: self._restitution[pair]
-
-    def _set_bounce(self, pair: str) -> Callable[[float], None]:
         def put(value: float) -> None:
-            self._restitution[pair] = value
+            values[name] = value
             self._changed = True
 
-        return put
+        return lambda: values[name], put
 
-    def _set_load(self, link: str) -> Callable[[float], None]:
-        def put(value: float) -> None:
-            self._loads[link] = value
-            self._changed = True
-
-        return put
-
-    def _set_drive(self, value: float) -> None:
-        self._drive = value
-        self._changed = True
-
-    def _set_step(self, value: float) -> None:
-        self._step = value
+    def _set(self, attribute: str, value: float) -> None:
+        setattr(self, attribute, value)
         self._changed = True
 
     # ---------------------------------------------------------------------------------------------------- simulation

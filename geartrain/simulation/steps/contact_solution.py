@@ -4,8 +4,7 @@
 
 A touching pair determines its driven coordinate, v_d = sum w_o v_o + k/r_d, and (13) condenses row and column of d into
 the coordinates before it. A pair without contact leaves d free, and d is eliminated by Gauss. If each coordinate
-depends on one before it (a chain, a tree), the condensation is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c), and a step
-costs O(n).
+depends on one before it (a chain, a tree), the condensation is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c).
 
 Rows that determine no coordinate (a second path between two links, stops, stuck bearings) enter the matrix with a
 compliance far below that of any mass: s r^T r v = s k r.
@@ -88,6 +87,21 @@ class RunRecord(NamedTuple):
 SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
+class CompliantTeeth(NamedTuple):
+    """Data of compliant teeth by pair; torques are about the driven sides."""
+
+    stiffness: Floats
+    """Torsional stiffness [N m/rad]."""
+    damping: Floats
+    """Torsional damping [N m s/rad]."""
+    peak: Floats
+    """Maximum contact torque in the counted part [N m]; updated by the kernel."""
+    impact: Ints
+    """Index of the last impact of each pair, -1 for none; updated by the kernel."""
+    gap: Floats
+    """Gap of both flanks at the middle of a step, without the change of speed in the step [rad]; work space."""
+
+
 class StepEquations(NamedTuple):
     """Equations of one step: data, work space and solution."""
 
@@ -105,7 +119,7 @@ class StepEquations(NamedTuple):
     b: Floats
     """Right side; overwritten by the elimination."""
     w: Floats
-    """Coefficients w of the speed of a determined coordinate, which is w v + known."""
+    """Coefficients w of the speed of each determined coordinate, which is w v + known, shape (n, n)."""
     g: Floats
     """Factors that condense the row of a determined coordinate into earlier rows."""
     known: Floats
@@ -135,6 +149,10 @@ class StepRules(NamedTuple):
     step: float
     """Time step [s]; `stride` is the number of steps between samples."""
     stride: int
+    share: float
+    """Fraction of the step at which forces are evaluated: 1 (implicit Euler) for rigid teeth, 1/2 (midpoint rule) for
+    compliant ones.
+    """
     creep: float
     """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
     slack: float
@@ -158,13 +176,8 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
     """Assemble matrix and right side of all coordinates, without the pairs that determine a coordinate."""
     A, b = here.A, here.b
-    for d in range(len(b)):
-        b[d] = here.load[d]
-        A[d, d] = system.matrix[d, d]
-        for x in range(system.near_at[d], system.near_at[d + 1]):
-            o = system.near[x]
-            A[d, o] = system.matrix[d, o]
-            A[o, d] = system.matrix[o, d]
+    b[:] = here.load
+    A[:, :] = system.matrix
     for m in range(len(system.sliding)):
         turning = state.turning[m]
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
@@ -200,67 +213,65 @@ def eliminate_coordinates(system: ContactSystem, state: ContactState, here: Step
     A coordinate whose pair touches is eliminated by condensation, another one by Gaussian elimination. All is done
     in one loop, because a call with this number of arrays takes as long as a coordinate.
     """
-    A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
+    A, b, w, g = here.A, here.b, here.w, here.g
     for d in range(len(b) - 1, -1, -1):
         if system.given[d] != 0:
             continue
-        low, high = system.near_at[d], system.near_at[d + 1]
         own, m = A[d, d], system.owner[d]
         if m < 0 or state.touching[m] == 0:
-            for x in range(low, high):
-                o = near[x]
+            for o in range(d):
                 if A[o, d] != 0.0:
                     part = A[o, d] / own
                     b[o] -= part * b[d]
-                    for y in range(low, high):
-                        A[o, near[y]] -= part * A[d, near[y]]
+                    for y in range(d):
+                        A[o, y] -= part * A[d, y]
             continue
         side = state.touching[m] - 1
         first = system.pair_at[m]  # the determined coordinate is first in its row
         # the row of speeds uses the ratio, that of forces the lever arm with friction
         lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
         lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
-        for x in range(low, high):
-            w[x] = 0.0
-            g[x] = 0.0
+        for o in range(d):
+            w[d, o] = 0.0
+            g[o] = 0.0
         for x in range(first + 1, system.pair_at[m + 1]):
-            w[system.slot[x]] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
-            g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
+            o = system.pair_of[x]
+            w[d, o] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
+            g[o] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
         known = (1.0 - 2.0 * side) * here.bound[m, side] / lead
         here.known[d] = known
         rest = b[d] - own * known
-        for x in range(low, high):
-            o = near[x]
-            b[o] += g[x] * rest - A[o, d] * known
-            for y in range(low, high):
-                A[o, near[y]] += g[x] * (A[d, near[y]] + own * w[y]) + A[o, d] * w[y]
+        for o in range(d):
+            if g[o] != 0.0 or A[o, d] != 0.0:
+                b[o] += g[o] * rest - A[o, d] * known
+                for y in range(d):
+                    A[o, y] += g[o] * (A[d, y] + own * w[d, y]) + A[o, d] * w[d, y]
 
 
 @kernel
 def substitute_back(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
     """Compute the speeds from the first coordinate to the last, and the impulses of pairs and drives."""
-    A, v, near = here.A, here.v, system.near
+    A, v = here.A, here.v
     here.P[:] = 0.0
     here.drive[:] = 0.0
     for d in range(len(v)):
-        low, high = system.near_at[d], system.near_at[d + 1]
         if system.given[d] != 0:
             v[d] = state.speed[d]
             here.drive[d] += A[d, d] * v[d] - here.b[d]
-            for x in range(low, high):  # prescribed coordinates come first, so these are prescribed too
-                here.drive[d] += A[d, near[x]] * v[near[x]]
-                here.drive[near[x]] += A[near[x], d] * v[d]
+            for o in range(d):  # prescribed coordinates come first, so these are prescribed too
+                here.drive[d] += A[d, o] * v[o]
+                here.drive[o] += A[o, d] * v[d]
             continue
         rest = -here.b[d]
-        for x in range(low, high):
-            rest += A[d, near[x]] * v[near[x]]
+        for o in range(d):
+            rest += A[d, o] * v[o]
         m = system.owner[d]
         if m < 0 or state.touching[m] == 0:
             v[d] = -rest / A[d, d]
             continue
         v[d] = here.known[d]
-        for x in range(low, high):
-            v[d] += here.w[x] * v[near[x]]
+        for o in range(d):
+            v[d] += here.w[d, o] * v[o]
         first, side = system.pair_at[m], state.touching[m] - 1
         lead = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
         here.P[m] = (rest + A[d, d] * v[d]) / lead * (1.0 - 2.0 * side)
@@ -275,9 +286,8 @@ def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEq
             side = state.touching[m] - 1
             rate = 0.0
             for x in range(system.pair_at[m], system.pair_at[m + 1]):
-                rate += (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]) * here.v[
-                    system.pair_of[x]
-                ]
+                row = system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]
+                rate += row * here.v[system.pair_of[x]]
             here.P[m] = system.stiff[m] * (here.bound[m, side] - (1.0 - 2.0 * side) * rate)
     for m in range(len(system.stop_stiff)):
         if state.stopped[m] != 0:

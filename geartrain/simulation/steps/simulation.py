@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.simulation.contacts.contact_model import ContactModel, ContactSystem
 from geartrain.simulation.contacts.pair_tables import PairTables, value_and_slope
-from geartrain.simulation.steps.compliant_steps import CompliantTeeth, run_compliant_steps
 from geartrain.simulation.steps.contact_solution import (
     COUNTS,
     DIVERGED,
@@ -22,6 +21,7 @@ from geartrain.simulation.steps.contact_solution import (
     IMPACTS,
     SAMPLES,
     STEP,
+    CompliantTeeth,
     ContactState,
     RunRecord,
     StepEquations,
@@ -98,32 +98,24 @@ def simulate(
               has the number of counted steps
     yields    stiffness and damping of each pair; None for rigid teeth
     """
-    system, n = model.system(plan.step), len(model.torque)
-    if yields is not None:
-        system = _midpoint_system(model, system, plan.step, yields)
+    system, n = model.system(plan.step, yields), len(model.torque)
     state = start_state(model, system)
-    here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
+    here = empty_equations(n, len(model.pairs), len(model.stops))
     samples = (plan.skip + plan.steps) // plan.stride
     record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
-    teeth = _teeth(model, yields)
+    teeth = compliant_teeth(len(model.pairs), yields)
     # counting must start at a sample
     skip = plan.skip - plan.skip % plan.stride
-    rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
-    given = system, model.transmissions, state, here, record, rules
+    rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps), 1.0 if yields is None else 0.5)
+    run = run_steps.chosen(fast)
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
-
-    def run(steps: int, counted: bool) -> None:
-        if teeth is None:
-            run_steps.chosen(fast)(*given, steps, counted)
-        else:
-            run_compliant_steps.chosen(fast)(*given, teeth, steps, counted)
 
     def go(steps: int, counted: bool) -> int:
         """Advance by `steps` in pieces that end at samples; return the number of steps done."""
         done = 0
         while done < steps:
             own = min(piece, steps - done)
-            run(own, counted)
+            run(system, model.transmissions, state, here, record, rules, teeth, own, counted)
             done += own
             check_convergence(state, record, plan.step)
             if on_done(own) is True:
@@ -160,7 +152,7 @@ def simulate(
         _kinetic(system, state),
         (state.angle - before)[order],
         pressed,
-        None if teeth is None else teeth.peak,
+        None if yields is None else teeth.peak,
     )
     if plan.block:
         found.blocks = tuple(
@@ -189,15 +181,20 @@ def check_convergence(state: ContactState, record: RunRecord, step: float) -> No
         raise QuestionError(Problem(what, why, "increase --steps, or reduce `step`", "--steps"))
 
 
-def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:
-    """Return the numerical parameters of a run of some duration [s], with tolerances for the rounding of its speeds."""
+def step_rules(
+    model: ContactModel, state: ContactState, plan: StepPlan, duration: float, share: float = 1.0
+) -> StepRules:
+    """Return the numerical parameters of a run of some duration [s], with tolerances for the rounding of its speeds.
+
+    share   fraction of the step at which forces are evaluated
+    """
     fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
     # a train at rest has no speed scale
     fastest = fastest or 1.0
     # rounding of angles grows with time and is divided by the step
     slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + fastest * duration) / plan.step)
     rounds = _ROUNDS + 6 * (len(model.pairs) + len(model.stops) + len(model.bearings))
-    return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, rounds)
+    return StepRules(plan.step, plan.stride, share, _CREEP * fastest, slack, rounds)
 
 
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
@@ -226,80 +223,41 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     # a continued run overrides the consistent initial speeds
     if model.start is not None:
         speed = np.array([model.start[each] for each in model.order.coordinates], dtype=np.float64)
-    touching = np.full(pairs, FRONT, dtype=np.int64)
-    turning = np.zeros(len(model.bearings), dtype=np.int64)
+    stops = len(model.stops)
     return ContactState(
         np.zeros(2),
         np.zeros(n),
         speed,
-        touching,
-        turning,
-        np.zeros(len(model.stops), dtype=np.int64),
+        np.full(pairs, FRONT, dtype=np.int64),
+        np.zeros(len(model.bearings), dtype=np.int64),
+        np.zeros(stops, dtype=np.int64),
         ratio,
-        np.zeros(pairs + len(model.stops), dtype=np.int64),
+        np.zeros(pairs + stops, dtype=np.int64),
         np.zeros(pairs),
         np.zeros(pairs, dtype=np.int64),
-        np.zeros((len(model.stops), 2)),
+        np.zeros((stops, 2)),
     )
 
 
 def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
     """Return an empty record for `n` coordinates, `rows` pairs and stops, and given numbers of samples and impacts."""
-    return RunRecord(
-        np.zeros(ENERGIES),
-        np.zeros((rows, COUNTS)),
-        np.zeros((samples, n)),
-        np.zeros((samples, n)),
-        np.zeros((samples, rows)),
-        np.zeros((samples, n)),
-        np.zeros((impacts, IMPACT_COLUMNS)),
-        np.zeros(DIVERGED + 1, dtype=np.int64),
-    )
+    sampled = [(samples, n), (samples, n), (samples, rows), (samples, n)]
+    shapes = [(ENERGIES,), (rows, COUNTS), *sampled, (impacts, IMPACT_COLUMNS)]
+    return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
 
 
-def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
+def empty_equations(n: int, pairs: int, stops: int) -> StepEquations:
     """Return empty arrays for the equations of one step."""
-    return StepEquations(
-        np.zeros(n),
-        np.zeros((pairs, 2)),
-        np.zeros(stops),
-        np.zeros((pairs, 2)),
-        np.zeros((pairs, 2)),
-        np.zeros((n, n)),
-        np.zeros(n),
-        np.zeros(near),
-        np.zeros(near),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(pairs + stops),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros((pairs, 2)),
-        np.zeros((pairs, 2)),
-        np.zeros(stops),
-        np.zeros(pairs + stops, dtype=np.int64),
-    )
+    flanks, contacts = (pairs, 2), pairs + stops
+    shapes: list[Any] = [n, flanks, stops, flanks, flanks, (n, n), n, (n, n), n, n, n, contacts, n, n, n]
+    shapes += [flanks, flanks, stops]
+    return StepEquations._make([*(np.zeros(shape) for shape in shapes), np.zeros(contacts, dtype=np.int64)])
 
 
-def _teeth(model: ContactModel, yields: ToothCompliance | None) -> CompliantTeeth | None:
-    if yields is None:
-        return None
-    pairs = len(model.pairs)
-    return CompliantTeeth(
-        yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2))
-    )
-
-
-def _midpoint_system(model: ContactModel, system: ContactSystem, step: float, yields: ToothCompliance) -> ContactSystem:
-    """Return the arrays for the midpoint rule, in which every pair is a compliant row and determines no coordinate."""
-    springs = system.matrix - system.mass - step * system.viscous  # step^2 K
-    return system._replace(
-        # the midpoint rule weighs drag by h/2 and springs by h^2/4
-        matrix=system.mass + step / 2 * system.viscous + springs / 4,
-        owner=np.full(len(model.torque), -1, dtype=np.int64),
-        stiff=step**2 / 4 * yields.stiffness + step / 2 * yields.damping,
-    )
+def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:
+    """Return the data of compliant teeth; zeros for rigid ones."""
+    stiffness, damping = (np.zeros(pairs), np.zeros(pairs)) if yields is None else yields
+    return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2)))
 
 
 def _stored(

@@ -1,4 +1,4 @@
-"""Contributions of one step to the results of a run: energies, times without contact, impacts."""
+"""Contributions of one step to the results of a run, for both tooth models: energies, times in contact, impacts."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ from geartrain.simulation.steps.contact_solution import (
     WORK_DRIVE,
     WORK_SPRING,
     WORK_TORQUE,
+    CompliantTeeth,
     ContactState,
     RunRecord,
     StepEquations,
@@ -47,26 +48,25 @@ def count_energy(
     record: RunRecord,
     rules: StepRules,
     speed: Floats,
-    share: float,
 ) -> None:
     """Add the work of drives, torques and springs, and the losses by drag, as impulses times mean speeds of the step.
 
-    speed   speed of drag and springs; `share`, the fraction of the step after which springs are evaluated
+    speed   speeds of drag and springs
     """
     for d in range(len(here.middle)):
         record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]
         record.energy[WORK_TORQUE] += rules.step * system.torque[d] * here.middle[d]
         record.energy[VISCOUS] += rules.step * system.viscous[d, d] * speed[d] * here.middle[d]
-        for x in range(system.near_at[d], system.near_at[d + 1]):
-            o = system.near[x]
+        for o in range(d):
             across = speed[d] * here.middle[o] + speed[o] * here.middle[d]
             record.energy[VISCOUS] += rules.step * system.viscous[d, o] * across
     for m in range(len(system.spring_stiffness)):
-        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + share * rules.step)
+        at = rules.share * rules.step
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + at)
         rate = 0.0
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
             o = system.spring_of[x]
-            pull -= system.spring_c[x] * (state.angle[o] + share * rules.step * speed[o])
+            pull -= system.spring_c[x] * (state.angle[o] + at * speed[o])
             rate += system.spring_c[x] * here.middle[o]
         record.energy[WORK_SPRING] += rules.step * system.spring_stiffness[m] * pull * rate
     for m in range(len(system.sliding)):
@@ -135,6 +135,92 @@ def count_contacts(
         else:
             record.energy[STEP] += taken
             state.steady[m] = abs(here.P[m])
+
+
+@kernel
+def count_compliant_contacts(
+    system: ContactSystem,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+    teeth: CompliantTeeth,
+) -> None:
+    """Add times in contact, losses of damping and friction, impacts and peak torques, by pair.
+
+    The work of a contact without its damping is added to the numerical dissipation, from which the change of the stored
+    energy must be subtracted.
+    """
+    for m in range(len(system.stiff)):
+        rate_S, rate_q, start_S, start_q = 0.0, 0.0, 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            rate_S += system.pair_driver[x] * here.v[o]
+            rate_q += system.pair_driven[x] * here.v[o]
+            start_S += system.pair_driver[x] * state.speed[o]
+            start_q += system.pair_driven[x] * state.speed[o]
+        mean_S, mean_q = (start_S + rate_S) / 2, (start_q + rate_q) / 2
+        counts = record.counts[m]
+        if system.two_sided[m] == 0:
+            ahead = teeth.gap[m, 0] + rules.step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
+            behind = teeth.gap[m, 1] + rules.step / 4 * (here.ratio[m, 1] * rate_S - rate_q)
+            count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
+            for side in range(2):
+                opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
+                count_released_energy(state, here, record, teeth, m, side, rules.step / 4 * opening)
+        now = state.touching[m]
+        if now == 0:
+            teeth.impact[m] = -1
+            continue
+        side = now - 1
+        sign = 1.0 - 2.0 * side
+        rate = mean_q - here.ratio[m, side] * mean_S
+        damped = rules.step * teeth.damping[m] * rate * rate
+        rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
+        record.energy[FRICTION] += rubbed
+        record.energy[IMPACT_LOSS] += damped
+        record.energy[STEP] += -here.P[m] * sign * rate - damped
+        counts[RUBBED] += rubbed
+        counts[IMPACT_ENERGY] += damped
+        counts[IMPULSE] += here.P[m] * sign
+        teeth.peak[m] = max(teeth.peak[m], abs(here.P[m]) / rules.step)
+        if now != here.before[m] and system.two_sided[m] == 0:
+            if here.before[m] != 0:
+                counts[CHANGES] += 1.0
+            counts[IMPACT_COUNT] += 1.0
+            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], -sign * rate)
+            # at first contact the force is only that of damping, which decreases within the first step
+            met = sign * (here.ratio[m, side] * start_S - start_q)
+            teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
+            teeth.impact[m] = record.numbers[IMPACTS]
+            note_impact(record, state.clock[0] + rules.step / 2, m, -sign * rate, 0.0, 0.0)
+        if 0 <= teeth.impact[m] < len(record.impacts):
+            # an impact lasts until its teeth separate
+            record.impacts[teeth.impact[m], 3] += damped
+            record.impacts[teeth.impact[m], 4] += here.P[m]
+
+
+@kernel
+def count_released_energy(
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    teeth: CompliantTeeth,
+    m: int,
+    side: int,
+    opened: float,
+) -> None:
+    """Add the energy stored in teeth at separation to the impact losses, because their damping dissipates it.
+
+    opened   change of the gap from the start to the middle of the step, at the initial speeds [rad]
+    """
+    parted = (1 if here.before[m] == side + 1 else 0) - (1 if state.touching[m] == side + 1 else 0)
+    if parted != 0:
+        pressed = min(teeth.gap[m, side] - opened, 0.0)
+        left = parted * teeth.stiffness[m] / 2 * pressed * pressed
+        record.energy[IMPACT_LOSS] += left
+        record.energy[STEP] -= left
+        record.counts[m, IMPACT_ENERGY] += left
 
 
 @kernel

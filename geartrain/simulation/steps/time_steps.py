@@ -1,7 +1,7 @@
-"""Nonsmooth time stepping after Moreau and Jean: a kernel that advances a train by steps of constant length.
+"""Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
 
-Contacts without rebound are enforced at the position level, docs/dynamics.md (12). With S* = S + h dS/dt and F*, tau*
-there,
+Rigid teeth are stepped after Moreau and Jean. Contacts without rebound are enforced at the position level,
+docs/dynamics.md (12). With S* = S + h dS/dt and F*, tau* there,
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
 
@@ -12,6 +12,15 @@ converge, the lowest index first (Murty's method).
 A train at rest takes identical steps at once, up to the next beat of an escapement. Between two beats a clock rests
 most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends without
 speed, and for which no contact state was flipped, is followed by the same step again.
+
+Compliant teeth have stiffness and damping, docs/dynamics.md (15) and (18):
+
+    P = h max(0, -k g - c dg/dt)   where g < 0,
+
+with gap and closing speed in the middle of the step. Both are linear in the speeds at its end, because the transmission
+function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance 1/s, s = h^2
+k/4 + h c/2, in the equations that also solve rigid contacts. The rule is of second order and conserves the energy of
+vibrations.
 """
 
 from __future__ import annotations
@@ -36,6 +45,7 @@ from geartrain.simulation.steps.contact_solution import (
     TIME_APART,
     TIME_COAST,
     UNSOLVED,
+    CompliantTeeth,
     ContactState,
     RunRecord,
     StepEquations,
@@ -43,7 +53,13 @@ from geartrain.simulation.steps.contact_solution import (
     correct_guess,
     solve_guess,
 )
-from geartrain.simulation.steps.step_account import count_contacts, count_energy, count_stops, leaps
+from geartrain.simulation.steps.step_account import (
+    count_compliant_contacts,
+    count_contacts,
+    count_energy,
+    count_stops,
+    leaps,
+)
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
@@ -103,6 +119,7 @@ def run_steps(
     here: StepEquations,
     record: RunRecord,
     rules: StepRules,
+    teeth: CompliantTeeth,
     steps: int,
     counted: bool,
 ) -> None:
@@ -110,6 +127,7 @@ def run_steps(
 
     Samples are always recorded; energies, times and impacts only if `counted`.
     """
+    rigid = rules.share == 1.0
     since, done, idle = 0, 0, 0
     still = rules.creep + rules.slack
     before = np.zeros_like(record.counts)
@@ -117,11 +135,14 @@ def run_steps(
         if idle > 1:
             before[:, :] = record.counts
         # the previous contact state is the first guess
-        rounds = solve_step(system, transmissions, state, here, rules)
+        if rigid:
+            rounds = solve_step(system, transmissions, state, here, rules)
+        else:
+            rounds = solve_midpoint_step(system, transmissions, state, here, rules, teeth)
         if diverges(here.v, rules.step):
             record.numbers[DIVERGED] = 1
             break
-        rests = rounds == 1 and is_at_rest(state.speed, here.v, still)
+        rests = rigid and rounds == 1 and is_at_rest(state.speed, here.v, still)
         # only a step that changed nothing may be repeated
         times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
@@ -132,8 +153,12 @@ def run_steps(
         if counted:
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += times
-            count_energy(system, state, here, record, rules, here.v, 1.0)
-            count_contacts(system, transmissions, state, here, record, rules)
+            if rigid:
+                count_energy(system, state, here, record, rules, here.v)
+                count_contacts(system, transmissions, state, here, record, rules)
+            else:
+                count_energy(system, state, here, record, rules, here.middle)
+                count_compliant_contacts(system, state, here, record, rules, teeth)
             if len(system.stop_stiff) > 0:
                 count_stops(system, state, here, record, rules.step)
             if times > 1:
@@ -144,7 +169,7 @@ def run_steps(
             state.flown[m] = 0 if state.touching[m] != OPEN else state.flown[m] + times
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
-            state.angle[d] += rules.step * here.v[d]
+            state.angle[d] += rules.step * (here.v[d] if rigid else here.middle[d])
         # time is counted in steps, so that rounding does not accumulate
         state.clock[1] += times
         state.clock[0] = state.clock[1] * rules.step
@@ -175,7 +200,7 @@ def solve_step(
     system: ContactSystem, transmissions: PairTables, state: ContactState, here: StepEquations, rules: StepRules
 ) -> int:
     """Solve for the speeds at the end of a step and return the number of iterations."""
-    find_loads(system, state, here, rules.step)
+    find_loads(system, state, here, rules.step, rules.share)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
     find_bounds(system, transmissions, state, here, rules.step)
@@ -231,20 +256,21 @@ def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
 
 
 @kernel
-def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the momentum, and the impulses of torques and springs."""
-    n = len(here.v)
-    for d in range(n):
-        here.load[d] = step * system.torque[d] + system.mass[d, d] * state.speed[d]
-        for x in range(system.near_at[d], system.near_at[d + 1]):
-            o = system.near[x]
-            here.load[d] += system.mass[d, o] * state.speed[o]
-            here.load[o] += system.mass[o, d] * state.speed[d]
+def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float, share: float) -> None:
+    """Compute the momentum, and the known parts of the impulses of torques, springs and drag.
+
+    share   fraction of the step at which springs and drag are evaluated
+    """
+    past = (1.0 - share) * step
+    for d in range(len(here.v)):
+        here.load[d] = step * system.torque[d]
+        for o in range(len(here.v)):
+            here.load[d] += (system.mass[d, o] - past * system.viscous[d, o]) * state.speed[o]
     for m in range(len(system.spring_stiffness)):
-        # implicit Euler: the rest angle at the end of the step
-        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step)
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + share * step)
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
-            pull -= system.spring_c[x] * state.angle[system.spring_of[x]]
+            o = system.spring_of[x]
+            pull -= system.spring_c[x] * (state.angle[o] + share * past * state.speed[o])
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
             here.load[system.spring_of[x]] += step * system.spring_stiffness[m] * pull * system.spring_c[x]
 
@@ -326,6 +352,70 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
         if abs(shift) > minimum * abs(speed):
             most = max(most, abs(shift))
     return most
+
+
+@kernel
+def solve_midpoint_step(
+    system: ContactSystem,
+    transmissions: PairTables,
+    state: ContactState,
+    here: StepEquations,
+    rules: StepRules,
+    teeth: CompliantTeeth,
+) -> int:
+    """Solve for the speeds at the end of a step; return the number of contact states tried."""
+    find_loads(system, state, here, rules.step, rules.share)
+    for m in range(len(system.stiff)):
+        here.before[m] = state.touching[m]
+    find_midpoint_bounds(system, transmissions, state, here, teeth, rules.step)
+    rounds = 0
+    while True:
+        solve_guess(system, state, here, rules.step, rules.creep)
+        rounds += 1
+        if rounds > rules.rounds:
+            return rounds
+        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) == 0:
+            return rounds
+
+
+@kernel
+def find_midpoint_bounds(
+    system: ContactSystem,
+    transmissions: PairTables,
+    state: ContactState,
+    here: StepEquations,
+    teeth: CompliantTeeth,
+    step: float,
+) -> None:
+    """Compute speed ratios, lever arms and gaps at the middle of the step, and the row speeds at which P vanishes."""
+    for m in range(len(system.stiff)):
+        S, q, dS, dq = system.start_driver[m], system.start_driven[m], 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            S += system.pair_driver[x] * state.angle[o]
+            q += system.pair_driven[x] * state.angle[o]
+            dS += system.pair_driver[x] * state.speed[o]
+            dq += system.pair_driven[x] * state.speed[o]
+        at = S + step / 2 * dS
+        way = 0 if dS >= 0 else 1
+        stiff, damped = step * teeth.stiffness[m], step * teeth.damping[m]
+        for side in range(2):
+            sign = 1.0 - 2.0 * side
+            angle, ratio = value_and_slope(transmissions, system.tables[m, side], at)
+            rate = sign * (dq - ratio * dS)
+            here.ratio[m, side] = ratio
+            here.arm[m, side] = ratio
+            if system.rubbing[m, 2 * side + way] >= 0:
+                more, _ = value_and_slope(transmissions, system.rubbing[m, 2 * side + way], at)
+                here.arm[m, side] += more
+            # with the row's speed r at the start and r+ at the end the gap is  gap + h/4 r+,  and P = s (bound - r+)
+            teeth.gap[m, side] = sign * (q + step / 2 * dq - angle) - step / 4 * rate
+            here.bound[m, side] = -(stiff * teeth.gap[m, side] + damped / 2 * rate) / system.stiff[m]
+            if system.two_sided[m] == 0 and teeth.gap[m, side] + step / 4 * rate >= 0.0:
+                # flanks without contact do not damp
+                here.bound[m, side] = -np.inf
+                if state.touching[m] == side + 1:
+                    state.touching[m] = 0
 
 
 @kernel

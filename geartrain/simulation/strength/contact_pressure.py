@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.train import Material
 
 
 WEAR_RANGE = (1e-7, 1e-3)
@@ -58,6 +59,11 @@ class Elasticity:
 
     youngs_modulus: float
     poisson: float
+
+    @classmethod
+    def of(cls, material: Material) -> Elasticity:
+        """Return the elastic constants of a material."""
+        return cls(material.youngs_modulus.si / 1e6, float(material.poisson.value))
 
 
 def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
@@ -338,14 +344,11 @@ class CrossedWheels:
     def flank_radius(self, at: int) -> float:
         """Return the radius of curvature of a flank at the pitch point, normal to its generatrices [mm]."""
         transverse = atan(tan(self.pressure_angle) / cos(self.helix[at]))
-        return self.radii[at] * sin(transverse) / cos(self._base_helix(at))
-
-    def _base_helix(self, at: int) -> float:
-        return asin(sin(self.helix[at]) * cos(self.pressure_angle))
+        return self.radii[at] * sin(transverse) / cos(base_helix_angle(self.helix[at], self.pressure_angle))
 
     def normal_count(self, at: int) -> float:
         """Return the virtual number of teeth in the normal section, in general not an integer."""
-        return 2 * self.radii[at] / self.module / cos(self._base_helix(at)) ** 2
+        return 2 * self.radii[at] / self.module / cos(base_helix_angle(self.helix[at], self.pressure_angle)) ** 2
 
     def tooth_length(self, at: int) -> float:
         """Return the length of a tooth along its pitch helix [mm]."""

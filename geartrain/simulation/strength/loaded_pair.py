@@ -13,7 +13,6 @@ import numpy as np
 from geartrain.errors import RangeError
 from geartrain.simulation.strength.contact_pressure import (
     ContactLoad,
-    ContactPlace,
     Elasticity,
     HelicalContactLoad,
     base_helix_angle,
@@ -33,6 +32,7 @@ from geartrain.simulation.strength.iso_6336 import (
     contact_stress,
     helical_root_stress,
     outer_single_contact,
+    pin_stress,
     root_stress,
 )
 from geartrain.simulation.strength.strength_results import FlankWear, PairStrength, WearRange, WheelStrength
@@ -67,11 +67,6 @@ class WheelUnderLoad:
     """Design torque [N m]; `turns` are the revolutions relative to the carrier, None if no service life is given."""
     turns: float | None
 
-    @property
-    def elasticity(self) -> Elasticity:
-        """Elastic constants of its material."""
-        return Elasticity(self.material.youngs_modulus.si / _MPA, float(self.material.poisson.value))
-
     @cached_property
     def side(self) -> ToothSide:
         """Half outline of a tooth [module]."""
@@ -101,7 +96,6 @@ class PairUnderLoad:
 
     def strength(self) -> PairStrength:
         """Return the stresses, safety factors and wear of the pair."""
-        places = self._places()
         iso, roots = self._iso()
         return PairStrength(
             self.mesh.name,
@@ -110,7 +104,7 @@ class PairUnderLoad:
             self.width,
             self.tangential,
             self.factor,
-            places,
+            () if self.load is None else self.load.places(),
             iso,
             tuple(self._wheel(at, roots) for at in (0, 1)),
             tuple(self._notes()),
@@ -121,7 +115,7 @@ class PairUnderLoad:
     @property
     def factor(self) -> float:
         """Elasticity factor ZE [sqrt(MPa)]."""
-        return elasticity_factor(*(each.elasticity for each in self.wheels))
+        return elasticity_factor(*(Elasticity.of(each.material) for each in self.wheels))
 
     def _radius(self, at: int) -> float:
         """Return the operating pitch radius of a wheel [mm]."""
@@ -171,9 +165,6 @@ class PairUnderLoad:
         # the declared module is transverse
         normal = self.module * cos(helix)
         return HelixData(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
-
-    def _places(self) -> tuple[ContactPlace, ...]:
-        return () if self.load is None else self.load.places()
 
     def _notes(self) -> Iterator[str]:
         yield from self.remarks
@@ -233,8 +224,6 @@ class PairUnderLoad:
         return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, HelicalContactLoad) else 1.0
 
     def _pin_stress(self, own: WheelUnderLoad) -> float:
-        from geartrain.simulation.strength.iso_6336 import pin_stress
-
         pins = own.teeth.pins
         return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
 

@@ -38,8 +38,7 @@ class PinnedDisc:
     @property
     def factor(self) -> float:
         """Elasticity factor ZE [sqrt(MPa)]."""
-        both = (Elasticity(each.youngs_modulus.si / _MPA, float(each.poisson.value)) for _, each in self.materials)
-        return elasticity_factor(*both)
+        return elasticity_factor(*(Elasticity.of(material) for _, material in self.materials))
 
     def lobes(self, pair: str, disc: CycloidalDisc, module: float) -> PinContact:
         """Return the contact of its lobes with the pins of the ring; `module` in mm."""

@@ -103,47 +103,25 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
         unknown.
         """
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
-        names = (
-            "wheel",
-            "material",
-            "torque",
-            "tip_stress",
-            "shared_stress",
-            "pressure",
-            "root_safety",
-            "contact_safety",
-        )
+        names = ["wheel", "material", "torque", "tip_stress", "shared_stress", "pressure"]
+        names += ["root_safety", "contact_safety"]
         own = {each: [getattr(wheel, each) for _, wheel in rows] for each in names}
         return {"pair": [name for name, _ in rows]} | own
 
     @property
     def weakest(self) -> WeakestPart | None:
         """Part with the minimum safety factor; None if no safety factor is known."""
-        # parts without a known strength have no safety factor and are skipped
-        found = [
-            WeakestPart(wheel.wheel, what, safety)
-            for pair in self.pairs.values()
-            for wheel in pair.wheels
-            for what, safety in (("root", wheel.root_safety), ("contact", wheel.contact_safety))
-            if safety is not None
+        candidates = [
+            *((wheel.wheel, "root", wheel.root_safety) for pair in self.pairs.values() for wheel in pair.wheels),
+            *((wheel.wheel, "contact", wheel.contact_safety) for pair in self.pairs.values() for wheel in pair.wheels),
+            *((wheel.wheel, "root", wheel.root_safety) for pair in self.points.values() for wheel in pair.wheels),
+            *((wheel.wheel, "contact", wheel.safety) for pair in self.points.values() for wheel in pair.wheels),
+            *((each.disc, "contact", each.contact_safety) for each in self.pins.values()),
+            *((each.name, "pin", each.pin_safety) for each in self.pins.values()),
+            *((each.link, "arbor", each.safety) for each in self.arbors),
         ]
-        found += [
-            WeakestPart(wheel.wheel, what, safety)
-            for pair in self.points.values()
-            for wheel in pair.wheels
-            for what, safety in (("root", wheel.root_safety), ("contact", wheel.safety))
-            if safety is not None
-        ]
-        found += [
-            WeakestPart(part, what, safety)
-            for each in self.pins.values()
-            for part, what, safety in (
-                (each.disc, "contact", each.contact_safety),
-                (each.name, "pin", each.pin_safety),
-            )
-            if safety is not None
-        ]
-        found += [WeakestPart(each.link, "arbor", each.safety) for each in self.arbors if each.safety is not None]
+        # parts without a known strength have no safety factor
+        found = [WeakestPart(part, what, safety) for part, what, safety in candidates if safety is not None]
         return min(found, key=lambda each: each.safety, default=None)
 
 

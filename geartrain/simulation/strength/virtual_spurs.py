@@ -187,10 +187,7 @@ class SkewPair:
         """Return the point contact of the pair with its stresses."""
         # the separating force is a fixed fraction of the normal force, whatever the friction
         normal = max(abs(each.radial or 0.0) for each in self.forces) / sin(self.wheels.pressure_angle)
-        elasticities = (
-            Elasticity(each.youngs_modulus.si / _MPA, float(each.poisson.value)) for _, each in self.materials
-        )
-        factor = elasticity_factor(*elasticities)
+        factor = elasticity_factor(*(Elasticity.of(material) for _, material in self.materials))
         worst = self.wheels.worst(normal, factor)
         return PointContact(
             self.forces[0].pair,

@@ -15,6 +15,7 @@ from geartrain.simulation.steps.contact_solution import IMPACT_ENERGY, TIME_APAR
 from geartrain.simulation.steps.simulation import (
     StepPlan,
     check_convergence,
+    compliant_teeth,
     empty_equations,
     empty_record,
     start_state,
@@ -83,6 +84,9 @@ class Simulation(Shown):
         drive: float | None = None,
         loads: Mapping[str, float] | None = None,
     ) -> None:
+        if not 0 < step < inf:
+            what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
+            raise QuestionError(Problem(what, why, "pass a step above 0, for example step=1e-4"))
         self._of, self._outputs, self._fast = of, tuple(outputs), fast
         self.step = step
         self.drive_link, self.drive_kind = of.case.drive.link, of.case.drive.kind
@@ -103,7 +107,8 @@ class Simulation(Shown):
             self._system.spring_rate[0] = self.drive
         self._state = start_state(model, self._system)
         self._names = list(self.restitution)
-        self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops), len(self._system.near))
+        self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops))
+        self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
         self._place = np.argsort(model.order.coordinates)
         self._torque = np.array(self._system.torque)
@@ -143,9 +148,6 @@ class Simulation(Shown):
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
-        if not 0 < step < inf:
-            what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
-            raise QuestionError(Problem(what, why, "pass for example step=1e-4"))
         if outside := [each for each in bounces.values() if not 0 <= each <= 1]:
             what, why = (
                 f"a restitution of {outside[0]:g} is out of range",
@@ -165,10 +167,8 @@ class Simulation(Shown):
     @property
     def angles(self) -> dict[str, float]:
         """Angles of the outputs by name, including their initial angles [rad]."""
-        late = self.time - float(self._state.clock[1]) * self.step
-        turned = self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
         start = self._of.problem.angles
-        return self._by_output(turned + np.array([start.get(link, 0.0) for link in self._of.index]))
+        return self._by_output(self._turned() + np.array([start.get(link, 0.0) for link in self._of.index]))
 
     @property
     def speeds(self) -> dict[str, float]:
@@ -178,9 +178,12 @@ class Simulation(Shown):
     @property
     def angle(self) -> float:
         """Angle through which the link at which power enters has turned since the start [rad]."""
+        return float(self._turned()[self._of.index[self.drive_link]])
+
+    def _turned(self) -> Floats:
+        """Return the angle through which each link has turned since the start [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
-        row = self._of.speeds[self._of.index[self.drive_link]]
-        return float(row @ (self._state.angle + late * self._state.speed)[self._place])
+        return self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
 
     @property
     def speed(self) -> float:
@@ -312,7 +315,8 @@ class Simulation(Shown):
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)
-        self._run(self._system, self._model.transmissions, self._state, self._room, record, rules, steps, True)
+        given = self._system, self._model.transmissions, self._state, self._room, record, rules, self._rigid
+        self._run(*given, steps, True)
         check_convergence(self._state, record, self.step)
 
     def _read(self, record: RunRecord, steps: int) -> None:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.simulation.contacts.link_inertia import LinkInertia
     from geartrain.simulation.contacts.separation_rate import SeparationRates
-    from geartrain.simulation.time.stepped_separation import SteppedSeparation
     from geartrain.simulation.time.time_run import ContactInTime, ConvergedFigure, TimeRun
 
 
@@ -36,7 +35,7 @@ class TimeReport(Result):
 
     PAGE = "simulation.time.time_report:describe_time_run"
 
-    KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
+    KEYS = ("title", "separation", "inertias", Key("", "run"))
 
     title: str
     """Title of the train in one line."""
@@ -48,13 +47,9 @@ class TimeReport(Result):
     """Moments of inertia of the moving links."""
     run: TimeRun
     """Result of the simulation in time."""
-    stepped: SteppedSeparation | None = None
-    """Input speed at which teeth first separate, found by time stepping; None if not requested."""
 
 
-def collect_time_report(
-    train: GearTrain, run: TimeRun, without: tuple[str, ...] = (), stepped: SteppedSeparation | None = None
-) -> TimeReport:
+def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...] = ()) -> TimeReport:
     """Return the report on a simulation in time, with the input speeds at which teeth first separate.
 
     Parameters
@@ -65,8 +60,6 @@ def collect_time_report(
         Result of `GearTrain.dynamics`.
     without : tuple of str
         Names of pairs that were ignored.
-    stepped : SteppedSeparation, optional
-        Result of `step_to_separation`.
 
     Returns
     -------
@@ -87,7 +80,7 @@ def collect_time_report(
     own, state = train.mechanics, run.state
     separation = find_separation(own, state, without) if has_separation(own, state) else None
     inertias = find_link_inertias(own, state, with_inputs=run.driven != "rate")
-    return TimeReport(train.declaration.title, separation, inertias, run, stepped)
+    return TimeReport(train.declaration.title, separation, inertias, run)
 
 
 def describe_time_run(found: TimeReport) -> Document:
@@ -133,8 +126,6 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 
         section = separation_section(found.separation)
         yield replace(section, paragraphs=(*section.paragraphs, *_validity_notes(run)))
-    if found.stepped is not None:
-        yield Section("Separation rate by time stepping", (_stepped(found.stepped),))
     if run.contacts:
         yield _contacts(run)
     yield _outputs(run)
@@ -196,22 +187,6 @@ def _summary(run: TimeRun) -> Iterator[str]:
         )
     yield from (f"Not included: {note}." for note in run.notes)
     yield from (f"Assumed: {each}." for each in run.assumed)
-
-
-def _stepped(found: SteppedSeparation) -> str:
-    text = "" if found.complete else "PARTIAL: the search was stopped. "
-    text += f"In a simulation without restitution over {turns_text(found.turns)} of '{found.input}'"
-    if found.rate is not None and found.error is not None and found.at is not None:
-        text += f", flanks of {found.pair} separate above {figure(found.rate, 6)} ± {figure(found.error, 2)} turn/s"
-        text += f", after {figure(found.at, 6)} turns"
-    elif found.holds is not None:
-        text += f", all flanks touch at {figure(found.holds, 5)} turn/s"
-    else:
-        text += ", no rate has been found yet"
-    return (
-        f"{text}; the closed-form condition predicts {figure(found.predicted, 6)} turn/s in these turns. "
-        f"Flights of less than {figure(found.flight, 3)} turns may be missed."
-    )
 
 
 def _contacts(run: TimeRun) -> Section:

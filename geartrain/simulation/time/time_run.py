@@ -51,28 +51,9 @@ class TimeRun(Tabular, Pictured, TrainResult):
     DRAWN_IN = "simulation"
 
     KEYS = (
-        "train",
-        "state",
-        "model",
-        "driving_link",
-        "rate",
-        "link",
-        "driven",
-        "restitution",
-        "step",
-        "skip",
-        "duration",
-        "torque",
-        "contacts",
-        "impacts",
-        group("energy", Key("", "energy")),
-        "deviations",
-        "spectra",
-        "figures",
-        "unsolved",
-        "notes",
-        "assumed",
-        "complete",
+        *("train", "state", "model", "driving_link", "rate", "link", "driven", "restitution", "step", "skip"),
+        *("duration", "torque", "contacts", "impacts", group("energy", Key("", "energy")), "deviations"),
+        *("spectra", "figures", "unsolved", "notes", "assumed", "complete"),
     )
 
     train: str
@@ -267,18 +248,8 @@ class EnergyAccount(Result):
     """
 
     KEYS = (
-        "drive",
-        "loads",
-        "springs",
-        "bearings",
-        "drag",
-        "friction",
-        "impact_loss",
-        "steps",
-        "kinetic",
-        "elastic",
-        "stored",
-        "closure",
+        *("drive", "loads", "springs", "bearings", "drag", "friction", "impact_loss", "steps", "kinetic", "elastic"),
+        *("stored", "closure"),
     )
 
     drive: float

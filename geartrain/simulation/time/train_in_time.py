@@ -1,9 +1,9 @@
-"""Entry points of the simulation in time: runs, step-by-step simulation, separation rate, and vibration modes."""
+"""Entry points of the simulation in time: runs, step-by-step simulation, and vibration modes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import inf, tau
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -15,7 +15,7 @@ from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.results import Result, Tabular
 from geartrain.simulation.contacts.compliant_train import CompliantTrain
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
-from geartrain.simulation.contacts.time_case import PowerInput, find_time_case
+from geartrain.simulation.contacts.time_case import find_time_case
 from geartrain.simulation.contacts.train_model import TrainModel
 from geartrain.simulation.time.time_study import TimeStudy
 
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics.train_mechanics import TrainMechanics
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.labelled_array import LabelledArray
-    from geartrain.simulation.time.stepped_separation import SteppedSeparation
     from geartrain.simulation.time.stepwise_simulation import Simulation
 
 
@@ -65,16 +64,9 @@ class DrivenTrain:
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
         check_numbers(step=step, restitution=self.restitution)
-        if step is not None and not 0 < step < inf:
-            raise QuestionError(
-                Problem(
-                    f"a time step of {step:g} s is out of range",
-                    "the time step must be positive and finite",
-                    "pass a step above 0, for example step=1e-4",
-                )
-            )
         seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate))
-        return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
+        step = TimeStudy(found, seen, 1).plan(2).step if step is None else step
+        return Simulation(found, seen, step, fast=is_fast(fast, inf))
 
     def _recorded_outputs(self) -> list[tuple[str, str, str]]:
         """Return name, link and reference link of each recorded output."""
@@ -154,80 +146,6 @@ def find_vibration_modes(
     found = model_in_time(train, state, without, None, None, yields=True, scale=1.0)
     assert isinstance(found, CompliantTrain)
     return find_modes(found)
-
-
-def step_to_separation(
-    train: TrainMechanics,
-    state: str | None = None,
-    turns: float = 10.0,
-    *,
-    steps: int | None = None,
-    without: Sequence[str] = (),
-    fast: bool | None = None,
-    on_done: Callable[[float], object] = lambda _: None,
-) -> SteppedSeparation:
-    """Return the input speed at which teeth first separate, found by time stepping, as a check of `find_separation`.
-
-    Parameters
-    ----------
-    train : TrainMechanics
-        `GearTrain.mechanics`.
-    state : str, optional
-        Name of a declared state; None only for a train that has no states.
-    turns : float
-        Simulated range of the input from the start [turn].
-    steps : int, optional
-        Number of time steps per turn; by default 200 in the shortest tooth-passing period.
-    without : sequence of str
-        Names of pairs to ignore.
-    fast : bool, optional
-        True to compile kernels. By default they are compiled if the run is long and numba is installed.
-    on_done : callable
-        Progress function, called with the fraction of the work that is done. The search stops if it returns True.
-
-    Returns
-    -------
-    SteppedSeparation
-        Input speed and the bound of its error. The time step is shortened successively at the positions where pairs
-        carry the minimum torque.
-
-    Raises
-    ------
-    QuestionError
-        If the flanks are predicted to separate at any speed or at no speed, or if the train cannot be simulated.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> train = geartrain.load('''
-    ... links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {q: 36}, inertia: 1 kg mm2}}
-    ... revolutes: {A: [frame, a], B: [frame, b]}
-    ... gears: [p ~ q]
-    ... tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-    ... friction: 0.1
-    ... loads: {b: -1 N mm}
-    ... inputs: {a: 1 rpm}
-    ... ''')
-    >>> found = step_to_separation(train.mechanics, turns=0.05, steps=500)
-    >>> found.pair, round(found.rate, 3)
-    ('p~q', 4.47)
-    """
-    from geartrain.simulation.contacts.inertial_contacts import loads_with_drive
-    from geartrain.simulation.contacts.separation_rate import find_separation
-    from geartrain.simulation.time.stepped_separation import FINE_TABLES, find_stepped_separation
-
-    check_numbers(turns=turns)
-    check_whole_numbers(steps=steps)
-    train = train.planets_as_one
-    # the prediction over the same range, for comparison
-    predicted = find_separation(train, state, without, turns).rate
-    found = model_in_time(train, state, without, tau * (predicted or 1.0), 0.0)
-    own = found.case
-    # as in the condition: a driving torque at another link acts there while the input turns uniformly
-    load = loads_with_drive(dict(own.load), train.declaration, train.kinematics.case(state), found.problem.speeds)
-    drive = own.drive if load == own.load else PowerInput(found.problem.driving_link, "rate", rate=own.rate)
-    found = replace(found, case=replace(own, load=load, drive=drive), tolerance=FINE_TABLES)
-    return find_stepped_separation(TimeStudy(found, (), turns, 0.0, steps, fast=fast), predicted, on_done)
 
 
 def radians_per_second(rate: str | float | None) -> float | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import tau
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -35,15 +35,9 @@ from geartrain.cli.long_runs import (
     TimeRequest,
     ToothModel,
     Turns,
-    interruptible,
     run_in_time,
 )
 from geartrain.cli.option_values import Theme
-
-if TYPE_CHECKING:
-    from geartrain.analysis.gear_train import GearTrain
-    from geartrain.simulation.time.stepped_separation import SteppedSeparation
-    from geartrain.simulation.time.time_run import TimeRun
 
 
 def run(
@@ -54,10 +48,6 @@ def run(
     steps: Steps = None,
     restitution: Restitution = None,
     model: ToothModel = None,
-    find_rate: Annotated[
-        bool,
-        typer.Option("--find-rate", help="Also find, by time stepping, the input speed at which teeth first separate."),
-    ] = False,
     output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
@@ -86,14 +76,10 @@ def run(
     requested = request.arguments() | {"outputs": tuple(output or ())}
     train = load(file)
     found = run_in_time(train, train.declaration.state_or_first(state), requested)
-    stepped = None
     if to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
-        # after an interruption a second long computation is not wanted
-        if find_rate and found.complete:
-            stepped = _stepped(train, found, requested)
-        report = collect_time_report(train, found, requested["without"], stepped)
+        report = collect_time_report(train, found, requested["without"])
         give(to, json, lambda: report, lambda: [describe_time_run(report)])
     if plot is not None:
         from geartrain.simulation.time.time_run_plot import time_run_figure
@@ -106,18 +92,5 @@ def run(
     if not found.complete:
         tell(f"stopped after {found.turns[-1]:.4g} turns; the results are for these turns")
         raise typer.Exit(INTERRUPTED)
-    if stepped is not None and not stepped.complete:
-        tell("stopped before the search for the separation rate converged")
-        raise typer.Exit(INTERRUPTED)
     if found.unsolved:
         raise typer.Exit(VERDICT)
-
-
-def _stepped(train: GearTrain, found: TimeRun, requested: dict[str, Any]) -> SteppedSeparation:
-    """Find the separation rate by time stepping in the revolutions of the run; Ctrl-C ends it with a partial result."""
-    from geartrain.simulation.time.train_in_time import step_to_separation
-
-    more = {name: requested[name] for name in ("steps", "without", "fast")}
-    with interruptible("separation rate") as on_done:
-        turns = requested["turns"] + requested["skip"]
-        return step_to_separation(train.mechanics, found.state, turns, **more, on_done=on_done)

@@ -33,7 +33,6 @@ from geartrain.workshop.monte_carlo.trial_run import check_trials
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics.turn.torque_cycle import CycleFigures
     from geartrain.numerics.arrays import Floats
     from geartrain.train import Train
 
@@ -91,7 +90,7 @@ class FrictionPlan(Shown):
         """Distributions of the friction coefficients, by the train, pair or coupling that declares each of them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
-    def follow(self, drawn: Train) -> CycleFigures:
+    def follow(self, drawn: Train) -> tuple[float | None, ...]:
         """Return the torques and the efficiency of the run with the friction coefficients of one trial.
 
         Parameters
@@ -101,8 +100,8 @@ class FrictionPlan(Shown):
 
         Returns
         -------
-        CycleFigures
-            Mean, maximum and starting torque, and efficiency.
+        tuple of float or None
+            Mean, maximum and starting torque, and efficiency; None if not defined, as for a train that locks.
 
         Raises
         ------
@@ -110,15 +109,13 @@ class FrictionPlan(Shown):
             If the torque cannot be determined.
         """
         from geartrain.analysis.gear_train import GearTrain
-        from geartrain.dynamics.torques.torque_results import TorqueVerdict
-        from geartrain.dynamics.turn.train_turn import run_figures
 
-        found = run_figures(GearTrain(drawn).mechanics, self.turns, self.samples, self.state, self.of)
-        if isinstance(found, TorqueVerdict):
+        found = GearTrain(drawn).torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
+        if found.turns is None:
             what = "the torque cannot be determined"
             fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
-            raise QuestionError(Problem(what, found.text, fix))
-        return found
+            raise QuestionError(Problem(what, found.verdict.text, fix))
+        return found.mean, found.maximum_torque, found.starting_torque, found.efficiency
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
         """Return all data on which the results depend. A journal identifies the run by these data.

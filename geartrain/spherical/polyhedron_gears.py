@@ -501,8 +501,7 @@ def _row(base: Polyhedron) -> SurveyRow:
     plan = places_on_polyhedron(base, "faces")
     types = [int(first) for first in np.unique(plan.movement.orbits())]
     configuration = from_polyhedron(base)
-    gridlock = GearSphere(configuration).gridlock
-    release = gridlock and gridlock.release
+    release = GearSphere(configuration).train.kinematics.gridlock.release
     angles = sorted(np.degrees([configuration.angle(i, j) for i, j in configuration.meshes]))
     return SurveyRow(
         solid=base.name,

@@ -32,7 +32,8 @@ from geartrain.spherical import (
     size_gears,
     suggest_tooth_counts,
 )
-from geartrain.spherical.configuration import fundamental_loops, loop_rules, mesh_kinds, regions, residue
+from geartrain.spherical.assembly import loop_rules, residue
+from geartrain.spherical.configuration import mesh_kinds
 from geartrain.spherical.pitch_cones import (
     base_pitch,
     operating_pitch,
@@ -419,16 +420,6 @@ def test_loops_that_only_nearly_close_pass_with_a_tolerance() -> None:
 def test_equal_spacing_gives_exact_rules(solid: str, rule: dict[str, Fraction]) -> None:
     assert loop_rules(quasiregular(solid)) == (tuple(rule.values()),)  # type: ignore[arg-type]
     assert loop_rules(quasiregular("octahedron")) == ()
-
-
-def test_regions_are_as_many_as_euler_says_and_turn_one_way() -> None:
-    configuration = quasiregular("icosidodecahedron")
-    found = regions(configuration)
-    assert sorted(map(len, found)) == [4] * 30
-    assert len(list(fundamental_loops(32, configuration.meshes))) == 60 - 32 + 1
-    for walk in found:
-        a, b, c, d = configuration.axes[walk]
-        assert (np.cross(b - a, c - b) + np.cross(d - c, a - d)) @ (a + b + c + d) > 0
 
 
 # families ------------------------------------------------------------------------------------------------------------

@@ -12,12 +12,11 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import (
     PhaseArithmetic,
-    PlanetArm,
+    Planet,
+    mesh_counts,
     neighbour_terms,
     passing_terms,
     phase_numbers,
-    planet_arm,
-    planet_contact,
 )
 from geartrain.search.constraints.count_conditions import (
     Condition,
@@ -33,7 +32,7 @@ from geartrain.search.constraints.count_conditions import (
 )
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly
     from geartrain.numerics.arrays import Bools, Ints
     from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
 
@@ -49,7 +48,7 @@ class EqualPlanets:
     """
 
     number: int
-    first: PlanetArm
+    first: Planet
 
     def __call__(self, columns: CandidateColumns) -> Bools:
         """Return whether the planets of each candidate can be assembled, shape (candidates,)."""
@@ -85,11 +84,13 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
     then be assembled.
     """
     assert found.planets is not None
-    first = planet_arm(found.planets)
-    if sum(len(planet.central) for planet in found.planets.walk()) < 2:
+    planets = list(found.planets.walk())
+    if sum(len(planet.central) for planet in planets) < 2:
         return None
-    wheels = free_of(*(part for contact in first.contacts() for part in (contact.own, contact.mate)))
-    return Condition(name, wheels, EqualPlanets(number, first)) if wheels else None
+    counts = [mesh_counts(planet, mesh) for planet in planets for mesh in planet.central]
+    counts += [mesh_counts(planet, mesh, other) for planet in planets for mesh, other in planet.outward]
+    wheels = free_of(*(part for pair in counts for part in pair))
+    return Condition(name, wheels, EqualPlanets(number, found.planets)) if wheels else None
 
 
 def reason(found: PlanetSet, number: int) -> str:
@@ -98,11 +99,11 @@ def reason(found: PlanetSet, number: int) -> str:
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
         return f"{head}: teeth of {found.title} mesh"
-    one, other = (planet_contact(planet, mesh) for mesh in planet.central)
-    sign = "+" if one.sense * other.sense < 0 else "-"
+    (own, mate), (own2, mate2) = (mesh_counts(planet, mesh) for mesh in planet.central)
+    sign = "+" if planet.central[0].sense * planet.central[1].sense < 0 else "-"
     if len(planet.wheels) == 1:
-        return f"{head}: {number} divides {one.mate} {sign} {other.mate}"
-    return f"{head}: {number} gcd({one.own}, {other.own}) divides {one.mate} {other.own} {sign} {other.mate} {one.own}"
+        return f"{head}: {number} divides {mate} {sign} {mate2}"
+    return f"{head}: {number} gcd({own}, {own2}) divides {mate} {own2} {sign} {mate2} {own}"
 
 
 # Clearance between planets: neighbours on a carrier, and planets that mesh with each other.

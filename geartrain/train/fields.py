@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -38,6 +38,9 @@ ExpectedVerdict = Literal["determined", "free", "locked"]
 class Declared(BaseModel):
     """Base class of all declared parts: frozen, without unknown keys, numbers accepted as names."""
 
+    SHORT: ClassVar[Mapping[str, Any] | None] = None
+    """JSON schema of the short form; None if the part has only its keys."""
+
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
     )
@@ -45,6 +48,11 @@ class Declared(BaseModel):
     def __repr__(self) -> str:
         given = (name for name in type(self).model_fields if name in self.model_fields_set)
         return summary_line(type(self).__name__, values_summary(self, given))
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return the JSON schema of the part, and of its short form if it has one."""
+        return handler(schema) if cls.SHORT is None else also(dict(cls.SHORT), handler(schema))
 
     def changed(self, **update: Any) -> Self:
         """Return a copy with changed fields; values cached from the old fields are not copied.
@@ -67,6 +75,23 @@ class Declared(BaseModel):
         if self.__pydantic_private__ is not None:  # line numbers
             copy.__pydantic_private__ = dict(self.__pydantic_private__)
         return copy
+
+
+DeclaredPart = TypeVar("DeclaredPart", bound=Declared)
+
+
+def exactly_one(part: DeclaredPart, what: str, keys: Sequence[str], noun: str = "of its keys") -> DeclaredPart:
+    """Return a part if exactly one of the keys is given; otherwise raise `PydanticCustomError`."""
+    given = [key for key in keys if getattr(part, key) is not None]
+    if len(given) != 1:
+        context = {
+            "what": what,
+            "noun": noun,
+            "given": " and ".join(given) or "nothing",
+            "fix": f"give exactly one of {', '.join(keys)}",
+        }
+        raise PydanticCustomError("keys", "{what} needs exactly one {noun}; found: {given}", context)
+    return part
 
 
 def _replacement_problem(error: Mapping[str, Any]) -> Problem:

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import networkx as nx
-import polyhedra
 import pytest
 from commands import call, imported_by
 from hypothesis import assume, given
@@ -24,69 +23,13 @@ from geartrain import GearTrain, load
 from geartrain.kinematics import MeshRemoval
 from geartrain.kinematics.gridlock.gain_graph import GainGraph, is_balanced, shortest_loop
 from geartrain.kinematics.gridlock.removal_choice import choose_removal
+from geartrain.spherical import Configuration, from_polyhedron, survey
+from geartrain.spherical.polyhedron_gears import SURVEYED
 
 Data = dict[str, Any]
 
 
 # gears on all faces of a polyhedron -----------------------------------------------------------------------------------
-
-PLATONIC = {
-    "tetrahedron": (polyhedra.TETRAHEDRON, 4, 6, 2),
-    "cube": (polyhedra.CUBE, 6, 12, 4),
-    "octahedron": (polyhedra.OCTAHEDRON, 8, 12, 0),
-    "dodecahedron": (polyhedra.DODECAHEDRON, 12, 30, 10),
-    "icosahedron": (polyhedra.ICOSAHEDRON, 20, 30, 6),
-}
-# gears, meshes, least number of meshes to disengage
-ARCHIMEDEAN = {
-    "truncated tetrahedron": (8, 18, 6),
-    "cuboctahedron": (14, 24, 0),
-    "truncated cube": (14, 36, 12),
-    "truncated octahedron": (14, 36, 12),
-    "rhombicuboctahedron": (26, 48, 0),
-    "truncated cuboctahedron": (26, 72, 24),
-    "snub cube": (38, 60, 12),
-    "icosidodecahedron": (32, 60, 0),
-    "truncated dodecahedron": (32, 90, 30),
-    "truncated icosahedron": (32, 90, 30),
-    "rhombicosidodecahedron": (62, 120, 0),
-    "truncated icosidodecahedron": (62, 180, 60),
-    "snub dodecahedron": (92, 150, 30),
-}
-# duals: the Catalan solids, by the name of the solid they are dual to
-CATALAN = {
-    "truncated tetrahedron": ("triakis tetrahedron", 4),
-    "cuboctahedron": ("rhombic dodecahedron", 8),
-    "truncated cube": ("triakis octahedron", 8),
-    "truncated octahedron": ("tetrakis hexahedron", 0),
-    "rhombicuboctahedron": ("deltoidal icositetrahedron", 8),
-    "truncated cuboctahedron": ("disdyakis dodecahedron", 0),
-    "snub cube": ("pentagonal icositetrahedron", 16),
-    "icosidodecahedron": ("rhombic triacontahedron", 20),
-    "truncated dodecahedron": ("triakis icosahedron", 20),
-    "truncated icosahedron": ("pentakis dodecahedron", 12),
-    "rhombicosidodecahedron": ("deltoidal hexecontahedron", 32),
-    "truncated icosidodecahedron": ("disdyakis triacontahedron", 0),
-    "snub dodecahedron": ("pentagonal hexecontahedron", 46),
-}
-
-
-def solids() -> Iterable[Any]:
-    for name, (solid, *counts) in PLATONIC.items():
-        yield pytest.param(solid, *counts, id=name)
-    for name, make in polyhedra.ARCHIMEDEAN.items():
-        solid = make()
-        gears, meshes, drop = ARCHIMEDEAN[name]
-        yield pytest.param(solid, gears, meshes, drop, id=name)
-        dual, minimum = CATALAN[name]
-        yield pytest.param(polyhedra.dual(solid), meshes + 2 - gears, meshes, minimum, id=dual)
-    for n in range(3, 9):
-        yield pytest.param(polyhedra.prism(n), n + 2, 3 * n, n, id=f"{n}-prism")
-    for n in range(4, 9):
-        yield pytest.param(polyhedra.antiprism(n), 2 * n + 2, 4 * n, 0, id=f"{n}-antiprism")
-    for n in range(4, 9):
-        minimum = 0 if n % 2 == 0 else 2
-        yield pytest.param(polyhedra.dual(polyhedra.prism(n)), 2 * n, 3 * n, minimum, id=f"{n}-bipyramid")
 
 
 def ordinary(teeth: Sequence[int], meshes: Iterable[tuple[int, int]], rings: Iterable[int] = ()) -> Data:
@@ -117,30 +60,34 @@ def proved(release: MeshRemoval, firm: Iterable[str] = ()) -> int:
     return sum(proof.at_least for proof in release.proofs)
 
 
-@pytest.mark.parametrize(("solid", "gears", "meshes", "drop"), list(solids()))
-def test_gears_on_all_faces_need_the_minimum_disengaging_that_is_known(
-    solid: polyhedra.Map, gears: int, meshes: int, drop: int
-) -> None:
-    pairs = polyhedra.neighbours(solid)
-    assert (len(solid), len(pairs)) == (gears, meshes)
-    data = ordinary([6 + 2 * len(face) for face in solid], pairs)
-    train = GearTrain.declare(data)
-    assert train.mobility.by_rank == (1 if drop == 0 else 0)
+@pytest.mark.parametrize(
+    "name",
+    [*SURVEYED, "rhombic dodecahedron", "pentagonal hexecontahedron", "5-bipyramid", "8-bipyramid", "6-antiprism"],
+)
+def test_gears_on_all_faces_need_the_minimum_disengaging_of_the_survey(name: str) -> None:
+    solid, (row,) = from_polyhedron(name), survey([name])
+    train = GearTrain.declare(data := on_faces(solid))
+    assert train.mobility.by_rank == (1 if row.drop == 0 else 0)
     found = train.kinematics.gridlock
-    assert found.moves == (drop == 0)
+    assert found.moves == (row.drop == 0)
     if found.release is not None:
-        assert len(found.release.meshes) == drop
+        assert len(found.release.meshes) == row.drop
         assert found.release.minimum
         assert GearTrain.declare(less(data, found.release.meshes)).solve().verdict
 
 
+def on_faces(solid: Configuration) -> Data:
+    """The gears of a solid on fixed axes, with teeth in proportion to the edges of their faces."""
+    return ordinary([6 + 2 * int(kind.rstrip("abc")) for kind in solid.kinds], solid.meshes)
+
+
 def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> None:
-    solid = polyhedra.ARCHIMEDEAN["truncated icosahedron"]()
-    data = ordinary([2 * len(face) for face in solid], polyhedra.neighbours(solid))
+    solid = from_polyhedron("truncated icosahedron")
+    data = on_faces(solid)
     release = GearTrain.declare(data).kinematics.gridlock.release
     assert release.method == "search"
     assert proved(release) == 30
-    hexagons = [f"{i}-{j}" for i, j in polyhedra.neighbours(solid) if len(solid[i]) == len(solid[j]) == 6]
+    hexagons = [f"{i}-{j}" for i, j in solid.meshes if solid.kinds[i] == solid.kinds[j] == "6"]
     assert len(hexagons) == 30
     assert GearTrain.declare(less(data, hexagons)).solve().verdict
     assert [(len(proof.loops), proof.sharing) for proof in release.proofs] == [(60, 2)]

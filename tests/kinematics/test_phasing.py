@@ -586,15 +586,6 @@ def test_the_residue_of_an_antiprism_is_that_of_its_formula(n: int) -> None:
                 assert min(abs((found - sign * expected + 0.5) % 1 - 0.5) for sign in (1, -1)) < 1e-12
 
 
-def test_equal_gears_on_an_antiprism_close_if_n_divides_three_times_their_teeth() -> None:
-    for n in (4, 5, 6):
-        k = math.cos(math.pi / n)
-        config = antiprism(n, math.asin(k / (1 + k)))
-        for teeth in range(8, 40):
-            closure = spherical_phasing(config, {"n": teeth, "3": teeth})
-            assert bool(closure) == (3 * teeth % n == 0)
-
-
 @pytest.mark.parametrize(
     ("spiders", "left", "right"), [(2, 16, 16), (2, 15, 16), (3, 16, 16), (3, 15, 18), (4, 14, 18)]
 )

@@ -574,24 +574,6 @@ def test_speeds_about_outward_axes_alternate_with_the_colour(
     assert [answer[gear] for gear in found.names] == [Fraction(c * z[0], n) for c, n in zip(colour, z, strict=True)]
 
 
-def test_gears_that_roll_on_each_other_have_one_velocity_where_they_touch() -> None:
-    found = from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12})
-    answer = GearTrain.declare(to_train(found)).solve()
-    for i, j in found.meshes:
-        n_i, n_j = found.axes[i], found.axes[j]
-        rho = radians(cones(found, found.kinds[i], found.kinds[j])[0])
-        across = n_j - (n_i @ n_j) * n_i
-        point = cos(rho) * n_i + sin(rho) * across / np.linalg.norm(across)
-        velocities = [float(answer[found.names[k]]) * np.cross(found.axes[k], point) for k in (i, j)]
-        assert velocities[0] == pytest.approx(velocities[1], abs=1e-14)
-
-
-@pytest.mark.parametrize("name", ["cube", "truncated icosahedron", "snub cube"])
-def test_a_gridlocked_solid_is_a_locked_train(name: str) -> None:
-    train = GearTrain.declare(to_train(from_polyhedron(name, teeth=12)))
-    assert train.solve().verdict.kind == "locked"
-
-
 def test_a_train_on_a_solid_counts_its_redundant_meshes() -> None:
     train = GearTrain.declare(to_train(from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12}), "scorg"))
     assert (train.name, train.mobility.by_rank, train.mobility.redundant) == ("scorg", 1, 29)

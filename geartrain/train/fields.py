@@ -103,14 +103,20 @@ def _replacement_problem(error: Mapping[str, Any]) -> Problem:
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"the given value is {str(error['input'])[:60]!r}", fix)
 
 
-def read_count(raw: object) -> int:
-    """Read a tooth count: an integer from 1 to 10^12."""
+def whole_number(raw: object, low: int, high: int) -> int | None:
+    """Return an integer within the bounds, given as such or as its digits; None for any other value."""
     try:
         # True is an int in Python; converting thousands of digits would take minutes
-        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
+        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
     except ValueError:
-        number = None
-    if number is not None and 0 < number <= MOST_TEETH and str(raw).isascii():
+        return None
+    return number if low <= number <= high and str(raw).isascii() else None
+
+
+def read_count(raw: object) -> int:
+    """Read a tooth count: an integer from 1 to 10^12."""
+    number = whole_number(raw, 1, MOST_TEETH)
+    if number is not None:
         return number
     shown = str(raw) if len(str(raw)) <= 30 else str(raw)[:27] + "..."
     digits = re.fullmatch(r"(\d{1,12}) *[a-zA-Z]+", shown)

@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Figure, Share, Span, above_zero, checked
-from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for
+from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for, whole_number
 
 _SIGNS = "Aries Taurus Gemini Cancer Leo Virgo Libra Scorpio Sagittarius Capricorn Aquarius Pisces"
 _MONTHS = "Thoth Phaophi Hathyr Choiak Tybi Mecheir Phamenoth Pharmuthi Pachon Payni Epeiph Mesore"
@@ -27,9 +27,8 @@ _MOST = 10**6
 
 def _read_whole(raw: object) -> int:
     """Read a whole number from 1 to 10^6."""
-    text = str(raw)
-    number = int(text) if not isinstance(raw, bool) and text.isascii() and text.isdigit() and len(text) < 10 else 0
-    if 0 < number <= _MOST:
+    text, number = str(raw), whole_number(raw, 1, _MOST)
+    if number is not None:
         return number
     shown = text if len(text) <= 30 else f"{text[:27]}..."
     fix = f"write `names: {text}`" if text in NAMED_SCALES else f"give a whole number from 1 to {_MOST:,}"

@@ -36,16 +36,16 @@ def choose(draw: st.DrawFn, items: Sequence[Item]) -> Item:
 
 
 @st.composite
-def skeletons(draw: st.DrawFn, most: int = 9, rooted: bool = False) -> Data:
-    """Links and turning pairs. `rooted`: the frame bears one axis only, so that it merely holds the train."""
+def skeletons(draw: st.DrawFn, most: int = 9) -> Data:
+    """Links and turning pairs."""
     count = draw(st.integers(min_value=2, max_value=most))
     links = ["frame"]
-    borne: dict[str, list[str]] = {"frame": ["A0"] if rooted else []}
+    borne: dict[str, list[str]] = {"frame": []}
     revolutes = []
     for at in range(1, count + 1):
         link = f"L{at}"
         parent = choose(draw, links)
-        fresh = not borne[parent] or (not (rooted and parent == "frame") and draw(st.integers(0, 2)) > 0)
+        fresh = not borne[parent] or draw(st.integers(0, 2)) > 0
         axis = f"A{at}" if fresh else choose(draw, borne[parent])
         if fresh:
             borne[parent].append(axis)
@@ -57,17 +57,11 @@ def skeletons(draw: st.DrawFn, most: int = 9, rooted: bool = False) -> Data:
 
 
 @st.composite
-def trains(
-    draw: st.DrawFn, most: int = 9, rooted: bool = False, couplings: bool = True, pairs: int | None = None
-) -> Data:
+def trains(draw: st.DrawFn, most: int = 9, couplings: bool = True, pairs: int | None = None) -> Data:
     """A train with nothing prescribed: free, locked or anything between."""
-    data = draw(skeletons(most, rooted))
+    data = draw(skeletons(most))
     graph = turning_graph(data)
-    able = [
-        pair
-        for pair in combinations(data["links"], 2)
-        if find_carrier(graph, *pair) is not None and not (rooted and "frame" in pair)
-    ]
+    able = [pair for pair in combinations(data["links"], 2) if find_carrier(graph, *pair) is not None]
     assume(able)
     one_wheel = {link: draw(teeth) for link in data["links"]} if draw(st.booleans()) else {}
     for at in range(draw(st.integers(min_value=1, max_value=pairs or len(data["links"])))):
@@ -113,7 +107,7 @@ def driven_trains(draw: st.DrawFn, **shape: Any) -> Data:
     """A determined train: inputs are added, by the naive solver's word, until nothing is free."""
     data = draw(trains(**shape))
     data["inputs"] = {}
-    if draw(st.integers(0, 3)) == 0 and not shape.get("rooted"):
+    if draw(st.integers(0, 3)) == 0:
         data["fixed"] = [choose(draw, [link for link in data["links"] if link != "frame"])]
         assume(not is_a_linkage(data))
     known = solve_naively(data)

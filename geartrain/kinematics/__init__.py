@@ -50,10 +50,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing.mesh_phasing import DivisibilityRule as DivisibilityRule
     from geartrain.kinematics.phasing.mesh_phasing import LoopPhase as LoopPhase
     from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
-    from geartrain.kinematics.phasing.mesh_phasing import SphericalGears as SphericalGears
     from geartrain.kinematics.phasing.mesh_phasing import find_divisibility_rule as find_divisibility_rule
-    from geartrain.kinematics.phasing.mesh_phasing import spherical_divisibility_rule as spherical_divisibility_rule
-    from geartrain.kinematics.phasing.mesh_phasing import spherical_phasing as spherical_phasing
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
@@ -76,7 +73,6 @@ __all__ = [
     "Mobility",
     "OutputResult",
     "Sensitivity",
-    "SphericalGears",
     "TargetResult",
     "TrainKinematics",
     "Verdict",
@@ -87,8 +83,6 @@ __all__ = [
     "adjacency_matrix",
     "find_divisibility_rule",
     "find_levers",
-    "spherical_divisibility_rule",
-    "spherical_phasing",
     "to_dot",
     "to_graphml",
     "to_json",
@@ -111,7 +105,6 @@ __getattr__ = lazy_names(
         "Mobility": "speeds.mobility",
         "OutputResult": "judged_outputs",
         "Sensitivity": "judged_outputs",
-        "SphericalGears": "phasing.mesh_phasing",
         "TargetResult": "judged_outputs",
         "TrainKinematics": "train_kinematics",
         "Verdict": "answer",
@@ -122,8 +115,6 @@ __getattr__ = lazy_names(
         "adjacency_matrix": "graph",
         "find_divisibility_rule": "phasing.mesh_phasing",
         "find_levers": "levers",
-        "spherical_divisibility_rule": "phasing.mesh_phasing",
-        "spherical_phasing": "phasing.mesh_phasing",
         "to_dot": "graph",
         "to_graphml": "graph",
         "to_json": "graph",

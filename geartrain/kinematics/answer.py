@@ -10,7 +10,6 @@ from typing import Any, ClassVar, Literal, TypedDict
 from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, SpeedValue, speed_figures
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import abridged_text
-from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
 
 MOST_NAMES = 12  # names listed in a sentence; the others are counted
@@ -114,8 +113,8 @@ class Verdict(Result):
 class SpeedAccuracy:
     """Error of a speed computed in float64: its estimate, and the true error if the exact speed is known."""
 
-    estimate: Real
-    true_error: Real | None
+    estimate: float
+    true_error: float | None
     condition: float | None = None
     """Component-wise condition number [1], (25) of docs/theory.md; infinite for a link at rest, None if not requested.
     """
@@ -170,9 +169,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     verdict: Verdict
     """Verdict on the speeds: determined, or the reason why they are not determined."""
     speeds: Mapping[str, SpeedValue]
-    """Link -> determined speed [`unit`]. Speeds are Fractions or floats (`LongFloat` above 1e308), depending on
-    `method`.
-    """
+    """Link -> determined speed [`unit`]. Speeds are Fractions or floats, depending on `method`."""
     outputs: Mapping[str, OutputResult]
     """Declared outputs by name, evaluated at the first access."""
     ratios: Mapping[str, Mapping[str, Fraction]]
@@ -263,8 +260,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         """Speeds and their errors by link, in the form of the JSON output [`unit`]."""
         found = {link: speed_figures(speed) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
-            found[link]["estimate"] = as_plain(accuracy.estimate)
-            found[link]["true_error"] = as_plain(accuracy.true_error)
+            found[link]["estimate"] = accuracy.estimate
+            found[link]["true_error"] = accuracy.true_error
             if accuracy.condition is not None:
                 found[link]["condition"] = finite(accuracy.condition)
         return found

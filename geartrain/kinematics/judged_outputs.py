@@ -9,13 +9,12 @@ from typing import Literal, NamedTuple, Required, TypedDict
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text
-from geartrain.numerics.long_float import LongFloat, as_plain
 from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
 
 DAYS_PER_CENTURY = 36525  # days in a Julian century
-SpeedValue = Fraction | float | LongFloat
+SpeedValue = Fraction | float
 Relative = Callable[[str, str], SpeedValue | None]
 """Function that returns the speed of a link relative to another, about the axis of the first; None if undetermined."""
 
@@ -181,7 +180,7 @@ class OutputResult(Result):
     """Link relative to which the speed is measured."""
     speed: SpeedValue | None
     """Speed of `of` relative to `relative_to`, about the axis of `of` [unit of the train]. It is exact, or a float
-    (`LongFloat` above 1e308) if solved in floats; None if undetermined.
+    if solved in floats; None if undetermined.
     """
     ratio: SpeedValue | None
     """Output speed divided by input speed; None unless exactly one input has a non-zero speed."""
@@ -241,7 +240,7 @@ class OutputResult(Result):
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
     """Return `value` times `times` as a float; None beyond the range of float64."""
-    size = as_float(value) if isinstance(value, Fraction) else as_plain(value)
+    size = as_float(value)
     return None if size is None else size * times
 
 
@@ -254,8 +253,6 @@ def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
     """Return a speed in the form of the JSON output; beyond the range of float64, `value` is None and `decimal` is
     given.
     """
-    if isinstance(speed, LongFloat):
-        return {"exact": None, "value": None, "decimal": f"{speed:.12g}"}
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
     value = as_float(speed)

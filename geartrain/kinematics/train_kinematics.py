@@ -31,7 +31,6 @@ from geartrain.kinematics.planet_copies import check_copies, has_copies
 from geartrain.kinematics.speeds import (
     EXACT_BUDGET,
     Solution,
-    determined_verdict,
     exact_verdict,
     solve,
 )
@@ -39,7 +38,6 @@ from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_sys
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.long_float import rounded, scaled
 from geartrain.numerics.results import Shown
 from geartrain.train import GearPair, StateCase, Train
 
@@ -409,19 +407,18 @@ class TrainKinematics(Shown):
         truth = solution.speeds if solution is not None else {}
         system = self._system(part, case)
         if solution is None:
-            solution = self._without_speeds(part, case, system)
+            solution = self._without_speeds(part, case)
         if not solution.verdict:  # the system is not square
             return self._rounded_answer(part, case, wanted, solution)
         found = solve_floats(system, condition_of=self._condition_links(part, case, wanted))
-        powers = found.exponents.values[:, 0].tolist()
-        speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
+        speeds: dict[str, SpeedValue] = dict(zip(part.links, found.speeds.values[:, 0].tolist(), strict=True))
 
         def accuracy() -> dict[str, SpeedAccuracy]:
-            estimates = map(scaled, found.estimate.values[:, 0].tolist(), powers)
+            estimates = found.estimate.values[:, 0].tolist()
             return {
                 link: SpeedAccuracy(
                     estimate,
-                    rounded(abs(Fraction(speed) - truth[link])) if link in truth else None,
+                    float(abs(Fraction(speed) - truth[link])) if link in truth else None,
                     found.condition.get(link),
                 )
                 for (link, speed), estimate in zip(speeds.items(), estimates, strict=True)
@@ -437,17 +434,10 @@ class TrainKinematics(Shown):
         answer = self._build_answer(case, solution.verdict, speeds, relative, wanted, work, None, lazy_accuracy)
         return replace(answer, residual=LazyMapping(residual))
 
-    def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
-        """Return the verdict without speeds: by LU factors if these prove regularity, else by elimination modulo a
-        prime.
-        """
-        from geartrain.kinematics.speeds import is_regular
-
-        moved = any(case.inputs.values())
-        if moved and is_regular(system):
-            return Solution(determined_verdict(case, part.reduced), {}, {}, self.signs)
+    def _without_speeds(self, part: SolvedPart, case: StateCase) -> Solution:
+        """Return the verdict without speeds, by elimination modulo a prime."""
         verdict = exact_verdict(part.reduced, case, self.signs)
-        still = verdict.kind == "locked" and not moved
+        still = verdict.kind == "locked" and not any(case.inputs.values())
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
     def _condition_links(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:

@@ -9,7 +9,6 @@ Exact numbers
     integer_lattice                       integer rows in a rational span
     rational_angles                       angles as fractions of a turn
 Floats
-    long_float                            floats with an unbounded exponent
     rounding_bounds, bounded_polynomials  error-free transformations and a priori bounds; polynomials with such bounds
     sparse_least_squares                  least squares with a few entries per row
     roots                                 bracketed roots, one by one and vectorised
@@ -43,7 +42,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
     from geartrain.numerics.exact import decimal as decimal
     from geartrain.numerics.labelled_array import LabelledArray as LabelledArray
-    from geartrain.numerics.long_float import LongFloat as LongFloat
     from geartrain.numerics.quantity import Figure as Figure
     from geartrain.numerics.quantity import Quantity as Quantity
     from geartrain.numerics.work.executors import open_executor as open_executor
@@ -57,7 +55,6 @@ __all__ = [
     "IntervalEstimate",
     "Journal",
     "LabelledArray",
-    "LongFloat",
     "ProbabilityEstimate",
     "Quantity",
     "decimal",
@@ -73,7 +70,6 @@ __getattr__ = lazy_names(
         **dict.fromkeys(("IntervalEstimate", "ProbabilityEstimate"), "confidence_intervals"),
         "Journal": "work.journal",
         "LabelledArray": "labelled_array",
-        "LongFloat": "long_float",
         "Quantity": "quantity",
         "decimal": "exact",
         "open_executor": "work.executors",

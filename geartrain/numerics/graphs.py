@@ -37,12 +37,6 @@ def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple
     return up, down
 
 
-def tree_path(i: V, j: V, above: Callable[[V], V | None]) -> list[V]:
-    """Return the vertices on the path from i to j in one tree, including both ends."""
-    up, down = ways_to_common_ancestor(i, j, above)
-    return up + down[-2::-1]
-
-
 class DisjointSets(Generic[V]):
     """Disjoint sets that can only be merged (union-find); an element not seen before is a set of its own."""
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
@@ -289,22 +290,26 @@ def _half_unit(text: str) -> Fraction | None:
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
 
-def _not_negative(figure: Figure) -> Figure:
-    if figure.value < 0:
-        raise PydanticCustomError(
-            "friction",
-            "the coefficient of friction {text} is negative",
-            {"text": figure.text, "fix": "give a coefficient of 0 or more"},
-        )
-    return figure
+def checked(is_valid: Callable[[Any], bool], message: str, fix: str) -> AfterValidator:
+    """Return a validator of numbers or quantities, whose error has a message with the given `{text}`, and a fix."""
+
+    def check(given: Any) -> Any:
+        if not is_valid(given):
+            raise PydanticCustomError("bound", message, {"text": given.text, "fix": fix})
+        return given
+
+    return AfterValidator(check)
+
+
+_COEFFICIENT = checked(
+    lambda given: given.value >= 0, "the coefficient of friction {text} is negative", "give a coefficient of 0 or more"
+)
+Friction = Annotated[Figure, _COEFFICIENT]
 
 
 def parse_friction(raw: object) -> Figure:
     """Parse a coefficient of friction, 0 or more."""
-    return _not_negative(Figure.parse(raw))
-
-
-Friction = Annotated[Figure, AfterValidator(_not_negative)]
+    return cast(Figure, cast(Any, _COEFFICIENT.func)(Figure.parse(raw)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -494,39 +499,19 @@ MeshDamping = Annotated[Quantity, Dimension("torsional damping or damping")]
 Share = Annotated[Quantity, Dimension("fraction", plain=True)]
 
 
-def above_zero(fix: str) -> AfterValidator:
+def above_zero(fix: str, noun: str = "the value") -> AfterValidator:
     """Return a validator that requires a number or quantity above 0."""
-
-    def check(given: Figure | Quantity) -> Figure | Quantity:
-        if given.value <= 0:
-            raise PydanticCustomError(
-                "bound", "the value must be greater than 0, not {text}", {"text": given.text, "fix": fix}
-            )
-        return given
-
-    return AfterValidator(check)
+    return checked(lambda given: given.value > 0, f"{noun} must be greater than 0, not {{text}}", fix)
 
 
 def below_right_angle(fix: str) -> AfterValidator:
     """Return a validator that requires an angle below 90 degrees."""
-
-    def check(given: Quantity) -> Quantity:
-        if given.si >= pi / 2:
-            raise PydanticCustomError("bound", "{text} is not less than 90 deg", {"text": given.text, "fix": fix})
-        return given
-
-    return AfterValidator(check)
+    return checked(lambda given: given.si < pi / 2, "{text} is not less than 90 deg", fix)
 
 
 def not_below_zero(fix: str) -> AfterValidator:
     """Return a validator that requires a number or quantity of 0 or more."""
-
-    def check(given: Figure | Quantity) -> Figure | Quantity:
-        if given.value < 0:
-            raise PydanticCustomError("bound", "{text} is below 0", {"text": given.text, "fix": fix})
-        return given
-
-    return AfterValidator(check)
+    return checked(lambda given: given.value >= 0, "{text} is below 0", fix)
 
 
 PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, such as 20 N/um")]

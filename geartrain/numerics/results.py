@@ -26,7 +26,6 @@ from typing import Any, ClassVar
 
 from geartrain.errors import MissingExtraError, printable
 from geartrain.numerics.exact import abridged_text, fraction_text
-from geartrain.numerics.long_float import LongFloat
 
 _SHOWN = 20  # rows of a table that are printed
 
@@ -423,8 +422,6 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
         return value
     if isinstance(value, Fraction):
         return fraction_text(value)
-    if isinstance(value, LongFloat):
-        return None  # out of the range of float64
     if hasattr(value, "model_dump"):  # a part of a declaration
         return value.model_dump(mode="json")
     return value.to_dict() if hasattr(value, "to_dict") else _plain_data(value)

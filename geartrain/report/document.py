@@ -14,7 +14,6 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
-from geartrain.numerics.long_float import Real
 from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120
@@ -26,9 +25,9 @@ class ExactText(str):
 
     __slots__ = ("_value",)
 
-    _value: Fraction | Real | str
+    _value: Fraction | float | str
 
-    def __new__(cls, text: str, value: Fraction | Real | None = None) -> ExactText:
+    def __new__(cls, text: str, value: Fraction | float | None = None) -> ExactText:
         """Return a cell that shows `text` for `value`. Without a value, the text itself is complete."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
@@ -290,14 +289,14 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
     return replace(document, sections=kept)
 
 
-def figure(value: Fraction | Real | None, digits: int = 8) -> str:
+def figure(value: Fraction | float | None, digits: int = 8) -> str:
     """Return a number in decimal notation with at most `digits` significant digits; a dash for None."""
     if value is None:
         return "-"
     return decimal(value, digits) if isinstance(value, Fraction) else f"{value:.{digits}g}"
 
 
-def exact(value: Fraction | Real | None) -> str:
+def exact(value: Fraction | float | None) -> str:
     """Return a number as a fraction, abridged if it is very long; a float has a tilde before it."""
     if value is None:
         return "undetermined"
@@ -306,7 +305,7 @@ def exact(value: Fraction | Real | None) -> str:
     return ExactText(abridged_text(value), value)
 
 
-def one_to(ratio: Fraction | Real | None) -> str:
+def one_to(ratio: Fraction | float | None) -> str:
     """Return a ratio output divided by input as text: `1 : n`, or `n : 1` if the output is faster than the input."""
     if not ratio:
         return "-"

@@ -21,7 +21,6 @@ from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, U
 from pydantic.json_schema import GenerateJsonSchema
 
 from geartrain.errors import check_choice
-from geartrain.numerics.long_float import LongFloat
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.numerics.results import Key, Result, field_docs, keys_of, whole
 from geartrain.report.document import Document, Section, Table
@@ -205,7 +204,7 @@ def _kinds(shape: Schema) -> Iterator[str]:
 _PLAIN: dict[Any, Schema] = {
     **{str: {"type": "string"}, Fraction: {"type": "string"}, bool: {"type": "boolean"}},
     **{int: {"type": "integer"}, float: {"type": "number"}, math.degrees: {"type": "number"}},
-    **{NoneType: {"type": "null"}, LongFloat: {"type": "null"}, Any: {}, object: {}},
+    **{NoneType: {"type": "null"}, Any: {}, object: {}},
 }
 
 

@@ -12,7 +12,7 @@ phases close (docs/closure.md).
 polyhedra                                    solids from vertices and by name, with their symmetries
 polyhedron_gears                             sets of gears on a solid (axes, kinds, names); a survey of solids
 circle_packing, graph_set                    sets of gears from any planar graph
-configuration                                axes, meshes and kinds of gear of a set; its assembly conditions
+configuration, assembly                      axes, meshes and kinds of gear of a set; its assembly conditions
 gear_sphere, gear_sizes                      mobility and assembly of a set; sizes of its gears
 pitch_cones                                  pitch and base cones of a pair
 tooth_count_search                           tooth numbers that nearly share one pitch (exhaustive search)
@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.spherical.assembly import spherical_divisibility_rule, spherical_phasing
     from geartrain.spherical.configuration import Configuration, to_train
     from geartrain.spherical.gear_sizes import SphereSizing, one_pitch, size_gears
     from geartrain.spherical.gear_sphere import GearSphere
@@ -58,6 +59,8 @@ __all__ = [
     "size_gears",
     "solid",
     "solid_names",
+    "spherical_divisibility_rule",
+    "spherical_phasing",
     "suggest_tooth_counts",
     "survey",
     "to_train",
@@ -81,6 +84,8 @@ _PLACES = {
     "size_gears": "gear_sizes",
     "solid": "polyhedra",
     "solid_names": "polyhedra",
+    "spherical_divisibility_rule": "assembly",
+    "spherical_phasing": "assembly",
     "suggest_tooth_counts": "tooth_count_search",
     "survey": "polyhedron_gears",
     "to_train": "configuration",

@@ -1,25 +1,20 @@
-"""Set of gears on a sphere: axes, meshes and kinds of gear, its declaration as a train, and its assembly conditions.
+"""Set of gears on a sphere: axes, meshes and kinds of gear, and its declaration as a train.
 
 A train is declared with a link, a bevel wheel and an axis for each gear.
-
-The set can be assembled if each loop of a basis contains an integer number of teeth, equation (3) of docs/closure.md.
-The basis consists of the regions between the meshes, by Euler's formula, or of the fundamental loops if arcs cross.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
-from math import degrees, inf, lcm, pi
+from math import degrees, inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.graphs import tree_path
 from geartrain.numerics.results import Shown
 from geartrain.spherical.pitch_cones import angle_between, frames, mesh_angles, separations
 
@@ -246,147 +241,3 @@ def _direction(axis: list[float]) -> list[str]:
 
 def _link(gear: str, teeth: int) -> dict[str, Any]:
     return {"wheels": {gear: {"teeth": teeth, "kind": "bevel"}}}
-
-
-# ------------------------------------------------------------------------------------------------------- assembly loops
-
-
-def wrapped(turns: Floats) -> Floats:
-    """Return `turns` minus the nearest integer, -1/2 to 1/2."""
-    return np.asarray(turns - np.round(turns), dtype=float)
-
-
-def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float], tolerance: float) -> Mask:
-    """Return a mask of the tooth numbers for which sum z_k a_k is an integer, docs/closure.md (3).
-
-    The test is exact if all a_k are Fractions, otherwise with `tolerance` [pitch]. z_k a_k is the signed number of
-    teeth that gears of kind k have inside one loop of meshes.
-    """
-    if all(isinstance(share, Fraction) for share in rule):
-        # integer arithmetic over the common denominator
-        whole = lcm(*(Fraction(share).denominator for share in rule))
-        total = sum(z * int(Fraction(share) * whole) for z, share in zip(teeth, rule, strict=True))
-        return np.asarray(total % whole == 0)
-    return np.asarray(np.abs(residue(teeth, rule)) <= tolerance)
-
-
-def residue(teeth: Sequence[Any], rule: Sequence[Fraction | float]) -> Floats:
-    """Return the closing error of a loop [pitch]: sum z_k a_k minus the nearest integer."""
-    return wrapped(np.asarray(sum(z * float(share) for z, share in zip(teeth, rule, strict=True)), dtype=float))
-
-
-def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[int]:
-    """Return for each kind an integer that divides its tooth number if all exact rules are satisfied.
-
-    If sum z_k a_k is an integer, m a_i z_i is an integer too, where m is the common denominator of the other a_k.
-    """
-    found = [1] * kinds
-    for rule in rules:
-        if all(isinstance(share, Fraction) for share in rule):
-            shares = [Fraction(share) for share in rule]
-            for at, share in enumerate(shares):
-                others = lcm(*(other.denominator for k, other in enumerate(shares) if k != at))
-                found[at] = lcm(found[at], (others * share).denominator)
-    return found
-
-
-def loops(configuration: Configuration) -> list[list[int]]:
-    """Return a basis of all loops of gears: the regions between the meshes, or fundamental loops if mesh arcs cross."""
-    found = regions(configuration)
-    gears, meshes = len(configuration.axes), configuration.meshes
-    fundamental = list(fundamental_loops(gears, meshes))
-    # connected components by the cycle rank
-    parts = gears - len(meshes) + len(fundamental)
-    meshing = len({gear for mesh in meshes for gear in mesh})
-    # Euler on the sphere; gears without a mesh bound no region
-    return found if len(found) == len(meshes) - meshing + 2 * (parts - gears + meshing) else fundamental
-
-
-def regions(configuration: Configuration) -> list[list[int]]:
-    """Return the boundary walks of the regions between the arcs of the meshes, counterclockwise, by face tracing."""
-    beside: dict[int, list[int]] = {}
-    for i, j in configuration.meshes:
-        # adjacency of the meshes
-        beside.setdefault(i, []).append(j)
-        beside.setdefault(j, []).append(i)
-    onward: dict[tuple[int, int], tuple[int, int]] = {}
-    for gear, others in beside.items():
-        bearing = {other: configuration.azimuth(gear, other) for other in others}
-        around = sorted(others, key=bearing.__getitem__)
-        # a walk that arrives from one contact leaves by the one before it, counterclockwise
-        onward.update({(other, gear): (gear, around[at - 1]) for at, other in enumerate(around)})
-    found = []
-    while onward:
-        step, following = onward.popitem()
-        walk = [step[0]]
-        while following in onward:
-            walk.append(following[0])
-            following = onward.pop(following)
-        found.append(walk)
-    return found
-
-
-def fundamental_loops(gears: int, meshes: Sequence[tuple[int, int]]) -> Iterator[list[int]]:
-    """Yield one loop of gears for every mesh outside a breadth-first spanning forest: a basis of all loops."""
-    beside: list[list[int]] = [[] for _ in range(gears)]
-    for i, j in meshes:
-        beside[i].append(j)
-        beside[j].append(i)
-    parent: dict[int, int] = {}
-    for root in range(gears):
-        queue = deque([root] if root not in parent else [])
-        parent.setdefault(root, -1)
-        while queue:
-            gear = queue.popleft()
-            for other in beside[gear]:
-                if other not in parent:
-                    parent[other] = gear
-                    queue.append(other)
-    for i, j in meshes:
-        if parent[i] != j and parent[j] != i:
-            yield tree_path(i, j, lambda gear: parent[gear] if parent[gear] >= 0 else None)
-
-
-def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:
-    """Return the assembly conditions as factors a_k of the kinds' tooth numbers, each distinct condition once.
-
-    Around every loop of a basis, sum (-1)^k z_k alpha_k / 2 pi must be an integer, where alpha_k is the angle at gear k
-    from its previous to its next contact, counterclockwise. The factors are Fractions if the contacts of every gear in
-    the loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
-    """
-    kinds = kinds_in_order(configuration)
-    found: dict[tuple[Fraction | float, ...], None] = {}
-    for loop in loops(configuration):
-        if len(loop) % 2:
-            names = " - ".join(configuration.names[gear] for gear in loop)
-            raise QuestionError(
-                Problem(
-                    f"loop {names} has an odd number of gears",
-                    "meshing gears turn in opposite senses, so an odd loop locks",
-                    "remove one mesh of the loop",
-                )
-            )
-        shares = _shares(configuration, loop, kinds)
-        if any(shares):
-            found[shares] = None
-    return tuple(found)
-
-
-def _shares(configuration: Configuration, loop: Sequence[int], kinds: Sequence[str]) -> tuple[Fraction | float, ...]:
-    """Return the factors of the kinds' tooth numbers in the condition of one loop, modulo integers and up to sign."""
-    # one irregular gear makes the whole condition inexact
-    exact = all(configuration.regular[gear] for gear in loop)
-    total: dict[str, Fraction | float] = dict.fromkeys(kinds, Fraction(0) if exact else 0.0)
-    for at, gear in enumerate(loop):
-        into, out = loop[at - 1], loop[(at + 1) % len(loop)]
-        turn = (configuration.azimuth(gear, out) - configuration.azimuth(gear, into)) / (2 * pi) % 1
-        spaced = configuration.regular[gear]
-        share = Fraction(round(turn * spaced), spaced) if exact else round(turn * spaced) / spaced if spaced else turn
-        total[configuration.kinds[gear]] += -share if at % 2 else share
-    if exact:
-        shares = [Fraction(share) % 1 for share in total.values()]
-        # a loop traversed backwards gives the same condition
-        return min(tuple(shares), tuple(-share % 1 for share in shares))
-    # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule
-    around = [round(float(wrapped(np.asarray(share))), 13) for share in total.values()]
-    return max(tuple(around), tuple(-share if share else 0.0 for share in around))

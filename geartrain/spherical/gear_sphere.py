@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
+from geartrain.spherical.assembly import spherical_divisibility_rule, spherical_phasing
 from geartrain.spherical.configuration import Configuration, kinds_in_order, mesh_kinds, to_train
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
 from geartrain.spherical.pitch_cones import wheel_radius
@@ -96,8 +97,6 @@ class GearSphere(Result):
     @cached_property
     def closure(self) -> MeshPhasing | None:
         """Phases of the meshes around every loop; None if a tooth number is missing, or if the set cannot turn."""
-        from geartrain.kinematics.phasing import spherical_phasing
-
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
@@ -124,8 +123,6 @@ class GearSphere(Result):
         """Divisibility condition that the tooth numbers must satisfy to close the loops; None if the contacts are not
         at known fractions of a revolution.
         """
-        from geartrain.kinematics.phasing import spherical_divisibility_rule
-
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None
         return None if rule is None else rule.text
 

@@ -27,7 +27,7 @@ from geartrain.spherical.axis_adjustment import (
     loop_sums,
 )
 from geartrain.spherical.circle_packing import SpherePacking, pack_circles
-from geartrain.spherical.configuration import Configuration, fundamental_loops
+from geartrain.spherical.configuration import Configuration
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
 
 if TYPE_CHECKING:
@@ -122,12 +122,17 @@ def _check_connected(found: nx.Graph[Any]) -> None:
 
 
 def _check_bipartite(found: nx.Graph[Any]) -> None:
-    names = list(found)
-    at = {name: k for k, name in enumerate(names)}
-    loops = fundamental_loops(len(names), [(at[i], at[j]) for i, j in found.edges()])
-    odd = [loop for loop in loops if len(loop) % 2]
+    """Raise `QuestionError` if a mesh joins two gears at equal numbers of meshes from a third, which is an odd loop."""
+    import networkx as nx
+
+    paths: dict[Any, list[Any]] = {}
+    for part in nx.connected_components(found):
+        paths |= nx.single_source_shortest_path(found, min(part, key=str))
+    odd = [(paths[i], paths[j]) for i, j in found.edges() if len(paths[i]) == len(paths[j])]
     if odd:
-        walk = " - ".join(str(names[k]) for k in min(odd, key=len))
+        first, second = min(odd, key=lambda ways: len(set(ways[0]) - set(ways[1])))
+        shared = sum(one == other for one, other in zip(first, second, strict=True))
+        walk = " - ".join(map(str, [*first[shared - 1 :], *second[: shared - 1 : -1]]))
         raise _refused(
             f"loop {walk} has an odd number of gears",
             "meshing gears turn in opposite senses, so an odd loop locks",

@@ -17,11 +17,11 @@ import numpy as np
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Result
 from geartrain.spherical.configuration import Configuration
+from geartrain.spherical.gear_sphere import GearSphere
 from geartrain.spherical.polyhedra import Polyhedron, from_the_top, polyhedron, solid
 from geartrain.spherical.symmetric_displacement import SymmetricFreedom, equal_pitch
 
 if TYPE_CHECKING:
-    import networkx as nx
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
@@ -501,6 +501,7 @@ def _row(base: Polyhedron) -> SurveyRow:
     plan = places_on_polyhedron(base, "faces")
     types = [int(first) for first in np.unique(plan.movement.orbits())]
     configuration = from_polyhedron(base)
+    release = GearSphere(configuration).train.kinematics.gridlock.release
     angles = sorted(np.degrees([configuration.angle(i, j) for i, j in configuration.meshes]))
     return SurveyRow(
         solid=base.name,
@@ -509,33 +510,9 @@ def _row(base: Polyhedron) -> SurveyRow:
         # the faces of a map are two-colourable if every vertex has an even degree
         bipartite=not any(degree % 2 for degree in base.degrees),
         gruebler=len(base.faces) - len(base.edges),
-        drop=least_drop(base),
+        drop=0 if release is None else len(release.meshes),
         types=len(types),
         mesh_kinds=len(np.unique(plan.movement.mesh_orbits(plan.meshes))),
         positions=sum(len(plan.movement.freedom(gear, plan.axes[gear])) for gear in types),
         angles=tuple(float(a) for at, a in enumerate(angles) if at == 0 or a - angles[at - 1] > 1e-9),
     )
-
-
-def least_drop(base: Polyhedron) -> int:
-    """Return the minimum number of meshes to remove from gears on all faces of a solid so that they move.
-
-    An edge of the solid is a mesh. The faces can be coloured with two colours if an odd number of edges is removed at
-    every odd vertex, and an even number at every even vertex. The smallest such set is a minimum T-join: shortest paths
-    between pairs of odd vertices (Edmonds and Johnson 1973), found by minimum-weight matching.
-    """
-    import networkx as nx
-
-    graph: nx.Graph[int] = nx.Graph(base.edges)
-    odd = [vertex for vertex, degree in enumerate(base.degrees) if degree % 2]
-    # a perfect matching along edges removes one mesh for two odd vertices, the minimum possible, and needs no weights
-    neighbours = nx.max_weight_matching(graph.subgraph(odd), maxcardinality=True)
-    if 2 * len(neighbours) == len(odd):
-        return len(neighbours)
-    paths: nx.Graph[int] = nx.Graph()
-    for at, start in enumerate(odd):
-        steps = nx.single_source_shortest_path_length(graph, start)
-        # complete graph of the odd vertices, weighted by distances
-        paths.add_weighted_edges_from((start, end, steps[end]) for end in odd[at + 1 :])
-    pairs = nx.min_weight_matching(paths)
-    return int(sum(paths[a][b]["weight"] for a, b in pairs))

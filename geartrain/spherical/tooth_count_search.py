@@ -16,16 +16,13 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.results import Key, Result, Shown
+from geartrain.spherical.assembly import closes, divisors, loop_rules, residue
 from geartrain.spherical.configuration import (
     Configuration,
     MeshKind,
-    closes,
-    divisors,
     kinds_in_order,
-    loop_rules,
     mesh_kinds,
     nearest_unmeshed,
-    residue,
 )
 from geartrain.spherical.gear_sizes import TIP_ROOM
 from geartrain.spherical.pitch_cones import base_pitch, operating_pitch, overlap_limit, pitch_cone, pressure_angle

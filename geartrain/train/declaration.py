@@ -10,9 +10,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
@@ -28,7 +28,6 @@ from geartrain.train.fields import (
     ExpectedVerdict,
     Id,
     Nothing,
-    also,
     short_for,
 )
 from geartrain.train.manufacturing import FaceWidth, Material, PairMounting, WheelManufacture
@@ -62,6 +61,8 @@ class Epoch(Declared):
     >>> Epoch(date="2000-01-01").julian_day
     Fraction(2451545, 1)
     """
+
+    SHORT: ClassVar = {"type": "string"}
 
     date: str = Field(
         description="Year, month, day, such as -204-05-12 for 12 May 205 BC, optionally with a time such as "
@@ -99,10 +100,6 @@ class Epoch(Declared):
     def julian_day(self) -> Fraction:
         """Julian day of the date [d]; day 0 begins at noon of -4712-01-01 in the Julian calendar."""
         return julian_day(self._read())
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "string"}, handler(schema))
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]

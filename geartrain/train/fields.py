@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -38,6 +38,9 @@ ExpectedVerdict = Literal["determined", "free", "locked"]
 class Declared(BaseModel):
     """Base class of all declared parts: frozen, without unknown keys, numbers accepted as names."""
 
+    SHORT: ClassVar[Mapping[str, Any] | None] = None
+    """JSON schema of the short form; None if the part has only its keys."""
+
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
     )
@@ -45,6 +48,11 @@ class Declared(BaseModel):
     def __repr__(self) -> str:
         given = (name for name in type(self).model_fields if name in self.model_fields_set)
         return summary_line(type(self).__name__, values_summary(self, given))
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return the JSON schema of the part, and of its short form if it has one."""
+        return handler(schema) if cls.SHORT is None else also(dict(cls.SHORT), handler(schema))
 
     def changed(self, **update: Any) -> Self:
         """Return a copy with changed fields; values cached from the old fields are not copied.
@@ -69,6 +77,23 @@ class Declared(BaseModel):
         return copy
 
 
+DeclaredPart = TypeVar("DeclaredPart", bound=Declared)
+
+
+def exactly_one(part: DeclaredPart, what: str, keys: Sequence[str], noun: str = "of its keys") -> DeclaredPart:
+    """Return a part if exactly one of the keys is given; otherwise raise `PydanticCustomError`."""
+    given = [key for key in keys if getattr(part, key) is not None]
+    if len(given) != 1:
+        context = {
+            "what": what,
+            "noun": noun,
+            "given": " and ".join(given) or "nothing",
+            "fix": f"give exactly one of {', '.join(keys)}",
+        }
+        raise PydanticCustomError("keys", "{what} needs exactly one {noun}; found: {given}", context)
+    return part
+
+
 def _replacement_problem(error: Mapping[str, Any]) -> Problem:
     """Return the problem of a replacement value that was not valid."""
     if error["type"] == "missing":
@@ -78,14 +103,20 @@ def _replacement_problem(error: Mapping[str, Any]) -> Problem:
     return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"the given value is {str(error['input'])[:60]!r}", fix)
 
 
-def read_count(raw: object) -> int:
-    """Read a tooth count: an integer from 1 to 10^12."""
+def whole_number(raw: object, low: int, high: int) -> int | None:
+    """Return an integer within the bounds, given as such or as its digits; None for any other value."""
     try:
         # True is an int in Python; converting thousands of digits would take minutes
-        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
+        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
     except ValueError:
-        number = None
-    if number is not None and 0 < number <= MOST_TEETH and str(raw).isascii():
+        return None
+    return number if low <= number <= high and str(raw).isascii() else None
+
+
+def read_count(raw: object) -> int:
+    """Read a tooth count: an integer from 1 to 10^12."""
+    number = whole_number(raw, 1, MOST_TEETH)
+    if number is not None:
         return number
     shown = str(raw) if len(str(raw)) <= 30 else str(raw)[:27] + "..."
     digits = re.fullmatch(r"(\d{1,12}) *[a-zA-Z]+", shown)

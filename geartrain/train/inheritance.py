@@ -12,8 +12,6 @@ from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 if TYPE_CHECKING:
     from geartrain.train.declaration import Train
 
-_OWN = ("name", "title", "note", "extends", "remove")
-
 _NOT_INHERITED = ("name", "title", "note", "extends", "remove")
 _BY_NAME = ("sources", "links", "axes", "outputs", "dials", "clutches", "states")
 _SHORT = {"wheels": "teeth", "sources": "cite"}
@@ -55,7 +53,7 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
         return declared.place(*loc)
 
     merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
-    kept = {key: getattr(declared, key) for key in _OWN if key in declared.model_fields_set}
+    kept = {key: getattr(declared, key) for key in _NOT_INHERITED if key in declared.model_fields_set}
     new = {key: value for key, value in merged.plain().items() if key != "remove"}  # already applied
     return declare(kept | new, merged.place_of)
 

@@ -11,9 +11,9 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
-from pydantic import AfterValidator, Field, GetJsonSchemaHandler, model_validator
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import (
@@ -25,35 +25,23 @@ from geartrain.numerics.quantity import (
     Pressure,
     Quantity,
     above_zero,
+    checked,
 )
-from geartrain.train.fields import Declared, also, short_for
-
-if TYPE_CHECKING:
-    pass
+from geartrain.train.fields import Declared, exactly_one, short_for
 
 _VICKERS = 9.80665e6  # Pa per HV: 1 HV is 1 kgf/mm2
 
 
-def _check_poisson(figure: Figure) -> Figure:
-    if not 0 <= figure.value < 0.5:
-        raise PydanticCustomError(
-            "poisson",
-            "Poisson's ratio {text} is out of range",
-            {"text": figure.text, "fix": "give a number from 0 to less than 0.5, about 0.3 for metals"},
-        )
-    return figure
-
-
-def _check_spread(figure: Figure) -> Figure:
-    if not 0 <= figure.value < 1:
-        raise PydanticCustomError(
-            "spread",
-            "a spread of {text} is out of range",
-            {"text": figure.text, "fix": "give a fraction from 0 to less than 1, such as 0.3 for 30 % to either side"},
-        )
-    return figure
-
-
+_POISSON = checked(
+    lambda given: 0 <= given.value < 0.5,
+    "Poisson's ratio {text} is out of range",
+    "give a number from 0 to less than 0.5, about 0.3 for metals",
+)
+_SPREAD = checked(
+    lambda given: 0 <= given.value < 1,
+    "a spread of {text} is out of range",
+    "give a fraction from 0 to less than 1, such as 0.3 for 30 % to either side",
+)
 _STRENGTH = "give for example 200 MPa"
 
 
@@ -72,9 +60,7 @@ class Material(Declared):
     """
 
     youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
-    poisson: Annotated[Figure, AfterValidator(_check_poisson)] = Field(
-        Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5"
-    )
+    poisson: Annotated[Figure, _POISSON] = Field(Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5")
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
         description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
@@ -86,7 +72,7 @@ class Material(Declared):
     density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
         None, description="Density; the `density` of a wheel takes precedence"
     )
-    spread: Annotated[Figure, AfterValidator(_check_spread)] = Field(
+    spread: Annotated[Figure, _SPREAD] = Field(
         Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
     )
     what: str = Field("", description="Description of the material")
@@ -142,17 +128,8 @@ class _DeclaredError(Declared):
     fixed.
     """
 
-    dimension: ClassVar[str]
-
     @model_validator(mode="after")
     def _has_one_key(self) -> _DeclaredError:
-        given = [key for key in ("value", "normal", "uniform") if getattr(self, key) is not None]
-        if len(given) != 1:
-            raise PydanticCustomError(
-                "error",
-                "an error needs exactly one key; found: {given}",
-                {"given": " and ".join(given) or "nothing", "fix": "give exactly one of value, normal, uniform"},
-            )
         for key in ("normal", "uniform"):
             width: Quantity | None = getattr(self, key)
             if width is not None and width.value < 0:
@@ -161,11 +138,7 @@ class _DeclaredError(Declared):
                     "{key}: {text} is negative",
                     {"key": key, "text": width.text, "fix": "give the width of the distribution, 0 or more"},
                 )
-        return self
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["number", "string"], "format": cls.dimension}, handler(schema))
+        return exactly_one(self, "an error", ("value", "normal", "uniform"), "key")
 
 
 class AngleError(_DeclaredError):
@@ -173,7 +146,7 @@ class AngleError(_DeclaredError):
     nominal value.
     """
 
-    dimension = "angle or fraction"
+    SHORT: ClassVar = {"type": ["number", "string"], "format": "angle or fraction"}
 
     value: AngleOff | None = Field(None, description="Fixed error")
     normal: AngleOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -185,7 +158,7 @@ class LengthError(_DeclaredError):
     tooth depth.
     """
 
-    dimension = "length or fraction"
+    SHORT: ClassVar = {"type": ["number", "string"], "format": "length or fraction"}
 
     value: LengthOff | None = Field(None, description="Fixed error")
     normal: LengthOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -253,22 +226,12 @@ class Filing(Declared):
     PairMounting : has it as `filing`
     """
 
-    stroke: LengthOff = Field(
+    stroke: Annotated[
+        LengthOff,
+        above_zero("give a length above 0, such as 0.02 mm, or a fraction of the tooth depth", "a stroke"),
+    ] = Field(
         description="Thickness that one stroke of the file removes from a flank, as a length or a fraction of the depth"
     )
-
-    @model_validator(mode="after")
-    def _check_stroke(self) -> Filing:
-        if self.stroke.value <= 0:
-            raise PydanticCustomError(
-                "error",
-                "a stroke must be greater than 0, not {text}",
-                {
-                    "text": self.stroke.text,
-                    "fix": "give a length above 0, such as 0.02 mm, or a fraction of the tooth depth",
-                },
-            )
-        return self
 
 
 class PairMounting(Declared):

@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from math import cos
-from typing import Annotated, Any, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import (
     AfterValidator,
     BeforeValidator,
     Discriminator,
     Field,
-    GetJsonSchemaHandler,
     Tag,
     model_validator,
 )
@@ -38,6 +37,7 @@ from geartrain.numerics.quantity import (
     TorsionalDamping,
     above_zero,
     below_right_angle,
+    checked,
     millimetres,
     not_below_zero,
 )
@@ -53,7 +53,6 @@ from geartrain.train.fields import (
     DeclaredToothForm,
     Id,
     Status,
-    also,
     read_count,
     short_for,
     side,
@@ -70,17 +69,14 @@ _JOINT_SCHEMA = {
 """JSON Schema of the short form of `revolutes`."""
 
 
-def _not_negative(torque: Quantity) -> Quantity:
-    if torque.value < 0:
-        raise PydanticCustomError(
-            "bearing",
-            "a friction torque must not be negative",
-            {"fix": "give its magnitude: it is always opposed to the rotation"},
-        )
-    return torque
-
-
-FrictionTorque = Annotated[Torque, AfterValidator(_not_negative)]
+FrictionTorque = Annotated[
+    Torque,
+    checked(
+        lambda given: given.value >= 0,
+        "a friction torque must not be negative",
+        "give its magnitude: it is always opposed to the rotation",
+    ),
+]
 
 
 class BearingFriction(Declared):
@@ -96,6 +92,8 @@ class BearingFriction(Declared):
     >>> BearingFriction(sliding="0.5 N m").at_rest.si
     0.5
     """
+
+    SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
 
     sliding: FrictionTorque = Field(description="Sliding friction torque, opposed to the rotation")
     static: FrictionTorque | None = Field(
@@ -123,18 +121,8 @@ class BearingFriction(Declared):
         """Static friction torque: `static`, or `sliding` if `static` is not declared."""
         return self.sliding if self.static is None else self.static
 
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["string", "number"], "format": "torque"}, handler(schema))
 
-
-def _read_bearing(raw: object) -> object:
-    if isinstance(raw, dict | BearingFriction):
-        return raw
-    return {"sliding": _not_negative(Quantity.parse(raw, "torque", plain=True))}
-
-
-DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_read_bearing)]
+DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 """Friction of a bearing, or its sliding torque as a single value."""
 
 
@@ -164,6 +152,8 @@ class Efficiencies(Declared):
     A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
     """
 
+    SHORT: ClassVar = {"type": ["number", "string"]}
+
     forward: Efficiency = Field(
         description="Efficiency with the first wheel driving, at most 1; 0 or less means self-locking"
     )
@@ -180,10 +170,6 @@ class Efficiencies(Declared):
                 {"text": self.forward.text, "fix": "give an efficiency above 0 and at most 1, such as 0.98 or 98 %"},
             )
         return self
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["number", "string"]}, handler(schema))
 
 
 def _efficiency(raw: object) -> object:
@@ -316,13 +302,11 @@ class Source(Declared):
     Train : its field `sources`, by key
     """
 
+    SHORT: ClassVar = {"type": "string"}
+
     cite: str = Field(description="Bibliographic citation")
     url: str | None = Field(None, description="Address (URL) of the source")
     note: str | None = Field(None, description="Remark on access to the source or its reliability")
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "string"}, handler(schema))
 
 
 def _teeth_kind(raw: object) -> str:
@@ -347,6 +331,8 @@ class Wheel(Declared):
     >>> doubtful.count, doubtful.uncertainty.allowed
     (64, (64, 65, 66))
     """
+
+    SHORT: ClassVar = {"type": "integer", "minimum": 1}
 
     teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
         Field(description="Tooth count, or an uncertain count with its range; for a worm, the number of starts")
@@ -445,10 +431,6 @@ class Wheel(Declared):
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
 
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "integer", "minimum": 1}, handler(schema))
-
 
 class Link(Declared):
     """Rigid body of a train: an arbor with its wheels, a carrier, or the frame.
@@ -457,6 +439,8 @@ class Link(Declared):
     --------
     Train : its field `links`, by name
     """
+
+    SHORT: ClassVar = {"type": "null"}
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
         {}, validate_default=True, description="Wheels fixed on this link, by id"
@@ -482,10 +466,6 @@ class Link(Declared):
     )
     angle: Angle | None = Field(None, description="Angle at the start; default follows from the meshes")
     note: str | None = Field(None, description="Remark for readers")
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "null"}, handler(schema))
 
 
 class Axis(Declared):
@@ -547,16 +527,6 @@ class Revolute(Declared):
 Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
 
 
-def _positive(figure: Figure) -> Figure:
-    if figure.value <= 0:
-        raise PydanticCustomError(
-            "share",
-            "a share must be greater than 0, not {text}",
-            {"text": figure.text, "fix": "give a share above 0, or omit it if it is unknown"},
-        )
-    return figure
-
-
 class GearPair(Declared):
     """Pair of wheels in mesh. The carrier is derived from the turning pairs, not declared.
 
@@ -566,6 +536,8 @@ class GearPair(Declared):
     >>> pair.name, pair.efficiency.backward.base
     ('sun~planet', Fraction(49, 50))
     """
+
+    SHORT: ClassVar = {"type": "string"}
 
     id: str = Field("", description="Name of the pair; default `first~second`")
     pair: tuple[Id, Id] = Field(description="Ids of the two wheels")
@@ -593,7 +565,7 @@ class GearPair(Declared):
         description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
         "`{forward, backward}`; default from friction and tooth form",
     )
-    share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
+    share: Annotated[Figure, above_zero("give a share above 0, or omit it if it is unknown", "a share")] | None = Field(
         None,
         description="Share of the torque of a wheel with several pairs, relative to its other pairs; above 0",
     )
@@ -606,10 +578,6 @@ class GearPair(Declared):
     fitting: PairMounting | None = Field(None, description="Mounting errors of its axes; default from the train")
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "string"}, handler(schema))
 
     @property
     def name(self) -> str:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, GetJsonSchemaHandler, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Figure, Quantity, Share, Span
-from geartrain.train.fields import AlsoShort, Declared, Id, also, short_for
+from geartrain.numerics.quantity import Figure, Share, Span, above_zero, checked
+from geartrain.train.fields import AlsoShort, Declared, Id, exactly_one, short_for, whole_number
 
 _SIGNS = "Aries Taurus Gemini Cancer Leo Virgo Libra Scorpio Sagittarius Capricorn Aquarius Pisces"
 _MONTHS = "Thoth Phaophi Hathyr Choiak Tybi Mecheir Phamenoth Pharmuthi Pachon Payni Epeiph Mesore"
@@ -27,9 +27,8 @@ _MOST = 10**6
 
 def _read_whole(raw: object) -> int:
     """Read a whole number from 1 to 10^6."""
-    text = str(raw)
-    number = int(text) if not isinstance(raw, bool) and text.isascii() and text.isdigit() and len(text) < 10 else 0
-    if 0 < number <= _MOST:
+    text, number = str(raw), whole_number(raw, 1, _MOST)
+    if number is not None:
         return number
     shown = text if len(text) <= 30 else f"{text[:27]}..."
     fix = f"write `names: {text}`" if text in NAMED_SCALES else f"give a whole number from 1 to {_MOST:,}"
@@ -50,12 +49,10 @@ class DialName(Declared):
     Dial : its field `names`
     """
 
+    SHORT: ClassVar = {"type": ["string", "number", "null"]}
+
     name: str = Field("", description="Engraved label; empty for divisions without a label")
     span: Whole | None = Field(None, description="Number of divisions of the label; default equal for all labels")
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["string", "number", "null"]}, handler(schema))
 
 
 class DialNumerals(Declared):
@@ -67,6 +64,8 @@ class DialNumerals(Declared):
     Dial : its field `numerals`
     """
 
+    SHORT: ClassVar = {"enum": ["roman", "arabic"]}
+
     style: Literal["roman", "arabic"] = Field("arabic", description="Style of the numerals")
     every: Whole | None = Field(
         None, description="Number of divisions between numerals; default the smallest that fits"
@@ -75,10 +74,6 @@ class DialNumerals(Declared):
         None,
         description="Highest numeral before they start again, such as 12 on a dial of 24 hours; default all divisions",
     )
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"enum": ["roman", "arabic"]}, handler(schema))
 
 
 class Graduation(Declared):
@@ -205,6 +200,8 @@ class Dial(Graduation):
     Train : its field `dials`, by name
     """
 
+    SHORT: ClassVar = {"type": "null"}
+
     face: str | None = Field(None, description="Side from which the dial is read, front or back")
     turns: Whole = Field(1, description="Number of turns of a spiral scale")
     counted: Literal["clockwise", "counter-clockwise"] = Field(
@@ -216,10 +213,6 @@ class Dial(Graduation):
         description="Appearance: a scale with a pointer, or a half-black ball that shows the Moon's phase",
     )
     note: str | None = Field(None, description="Remark for readers")
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "null"}, handler(schema))
 
 
 _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face the front
@@ -236,35 +229,12 @@ def looks_away(face: str | None, seen_from: str | None) -> bool:
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 
-def _period_above_zero(period: Quantity) -> Quantity:
-    if period.value <= 0:
-        raise PydanticCustomError(
-            "target",
-            "a period must be greater than 0, not {text}",
-            {"text": period.text, "fix": "give a period above 0, with `sense: retrograde` for retrograde motion"},
-        )
-    return period
-
-
-def _turns_above_zero(figure: Figure) -> Figure:
-    if figure.value <= 0:
-        raise PydanticCustomError(
-            "target",
-            "{text} turns is not a number above 0",
-            {"text": figure.text, "fix": "give a number above 0, with `sense: retrograde` for retrograde motion"},
-        )
-    return figure
-
-
-def _negative_tolerance(text: str) -> PydanticCustomError:
-    fix = {"text": text, "fix": "give the magnitude of the permitted error, 0 or more"}
-    return PydanticCustomError("tolerance", "a tolerance of {text} is negative", fix)
-
-
-def _not_negative(figure: Figure) -> Figure:
-    if figure.value < 0:
-        raise _negative_tolerance(figure.text)
-    return figure
+_RETROGRADE = "above 0, with `sense: retrograde` for retrograde motion"
+_TOLERANCE = checked(
+    lambda given: given.value >= 0,
+    "a tolerance of {text} is negative",
+    "give the magnitude of the permitted error, 0 or more",
+)
 
 
 class Target(Declared):
@@ -280,8 +250,10 @@ class Target(Declared):
     geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
+    SHORT: ClassVar = {"type": "string"}
+
     name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
-    period: Annotated[Span, AfterValidator(_period_above_zero)] | None = Field(
+    period: Annotated[Span, above_zero(f"give a period {_RETROGRADE}", "a period")] | None = Field(
         None, description="Time or length of `turns` turns, above 0"
     )
     speed: Figure | None = Field(
@@ -290,10 +262,11 @@ class Target(Declared):
     sense: Literal["direct", "retrograde"] | None = Field(
         None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
     )
-    turns: Annotated[Figure, AfterValidator(_turns_above_zero)] = Field(
-        Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0"
-    )
-    tolerance: Share | None = Field(
+    turns: Annotated[
+        Figure,
+        checked(lambda given: given.value > 0, "{text} turns is not a number above 0", f"give a number {_RETROGRADE}"),
+    ] = Field(Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0")
+    tolerance: Annotated[Share, _TOLERANCE] | None = Field(
         None,
         description="Maximum relative error, above which `geartrain check` fails; for a speed of 0 the maximum "
         "difference, as a number in the train's unit; default the error is only reported",
@@ -303,14 +276,7 @@ class Target(Declared):
 
     @model_validator(mode="after")
     def _has_one_key(self) -> Target:
-        given = [key for key in ("name", "period", "speed") if getattr(self, key) is not None]
-        if len(given) != 1:
-            raise PydanticCustomError(
-                "target",
-                "a target needs exactly one of its keys; found: {given}",
-                {"given": " and ".join(given) or "nothing", "fix": "give exactly one of name, period, speed"},
-            )
-        return self
+        return exactly_one(self, "a target", ("name", "period", "speed"))
 
     @model_validator(mode="after")
     def _check_sign(self) -> Target:
@@ -325,11 +291,7 @@ class Target(Declared):
     @model_validator(mode="after")
     def _check_tolerance(self) -> Target:
         tolerance = self.tolerance
-        if tolerance is None:
-            return self
-        if tolerance.value < 0:
-            raise _negative_tolerance(tolerance.text)
-        if self.speed is not None and not self.speed.value and tolerance.unit is not None:
+        if tolerance and tolerance.unit is not None and self.speed is not None and not self.speed.value:
             raise PydanticCustomError(
                 "target",
                 "a relative tolerance of {tolerance} is 0 for a speed of 0",
@@ -339,10 +301,6 @@ class Target(Declared):
                 },
             )
         return self
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "string"}, handler(schema))
 
 
 class Expect(Declared):
@@ -358,11 +316,13 @@ class Expect(Declared):
     False
     """
 
+    SHORT: ClassVar = {"type": ["number", "string"]}
+
     value: Figure = Field(
         description="Expected speed in the train's unit; integers and fractions are exact, "
         "decimals are compared to their digits"
     )
-    tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
+    tolerance: Annotated[Figure, _TOLERANCE] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
     )
 
@@ -375,10 +335,6 @@ class Expect(Declared):
             Exact speed [unit of the train].
         """
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["number", "string"]}, handler(schema))
 
 
 class Published(Declared):
@@ -393,7 +349,7 @@ class Published(Declared):
     as_: Literal["speed", "input/output", "output/input"] = Field(
         "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
-    tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
+    tolerance: Annotated[Figure, _TOLERANCE] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
     )
     place: str | None = Field(None, description="Page or table of the source")
@@ -421,6 +377,8 @@ class Output(Declared):
     Fraction(-20, 21)
     """
 
+    SHORT: ClassVar = {"type": "null"}
+
     of: Id | None = Field(None, description="Link that turns; default the name of the output")
     relative_to: Id | None = Field(None, description="Link to which the speed is relative; default the frame")
     expect: Annotated[Expect, short_for("value")] | None = Field(None, description="Required speed in the train's unit")
@@ -447,10 +405,6 @@ class Output(Declared):
             Frame of the train.
         """
         return self.of or name, self.relative_to or frame
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": "null"}, handler(schema))
 
 
 class SpeedUnit(Declared):

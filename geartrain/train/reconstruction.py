@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share, above_zero
-from geartrain.train.fields import Boolean, Count, Declared, Id
+from geartrain.train.fields import Boolean, Count, Declared, Id, whole_number
 
 MOST_ADDED = 1000
 NEW_ARBOR = "new"
@@ -20,12 +20,8 @@ NEW_ARBOR = "new"
 
 def _read_part_number(raw: object) -> object:
     """Read a whole number from 0 to 1000."""
-    try:
-        # True is an int in Python; converting thousands of digits would take minutes
-        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
-    except ValueError:
-        number = None
-    if number is not None and 0 <= number <= MOST_ADDED and str(raw).isascii():
+    number = whole_number(raw, 0, MOST_ADDED)
+    if number is not None:
         return number
     fix = f"give a whole number from 0 to {MOST_ADDED}"
     raise PydanticCustomError("number", "{shown} is not a valid number of parts", {"shown": str(raw)[:30], "fix": fix})

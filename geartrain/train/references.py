@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
+from typing import Any
 
 from geartrain.errors import Loc, Problem, dotted, suggest
-from geartrain.numerics.quantity import Quantity, units_of
+from geartrain.numerics.quantity import units_of
 from geartrain.train.declaration import Train
 from geartrain.train.manufacturing import material_table
 from geartrain.train.outputs import Output, Target
 from geartrain.train.periods import period_table, suggested_period
 from geartrain.train.reconstruction import NEW_ARBOR
-from geartrain.train.states import Drive
+from geartrain.train.states import Drive, State
 
 # ----------------------------------------------------------------------------------------------------- unit consistency
 
 
+def _cases(train: Train) -> Iterator[tuple[Loc, Train | State]]:
+    """Yield the train and its states with their paths: both have inputs, loads, fixed links, locks and outputs."""
+    yield (), train
+    for name, state in train.states.items():
+        yield ("states", name), state
+
+
 def mixed_inputs(train: Train) -> Iterator[Problem]:
     """Yield problems of inputs with and without units in one train; inputs of 0 are compatible with both."""
-    named: tuple[Loc, Quantity] | None = None
-    plain: tuple[Loc, Quantity] | None = None
-    groups: list[tuple[Loc, Mapping[str, Quantity]]] = [((), train.inputs)]
-    groups += [(("states", name), state.inputs or {}) for name, state in train.states.items()]
-    for loc, inputs in groups:
-        for link, speed in inputs.items():
-            if speed.unit is not None:
-                named = named or ((*loc, "inputs", link), speed)
-            elif speed.value:
-                plain = plain or ((*loc, "inputs", link), speed)
+    inputs = [
+        ((*loc, "inputs", link), speed) for loc, part in _cases(train) for link, speed in (part.inputs or {}).items()
+    ]
+    named = next((each for each in inputs if each[1].unit is not None), None)
+    plain = next((each for each in inputs if each[1].unit is None and each[1].value), None)
     if named is None:
         return
     if plain is not None:
@@ -43,9 +46,9 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
     """Yield a problem if torques with and without units are mixed; torques of 0 are compatible with both."""
-    groups: list[tuple[Loc, Mapping[str, Quantity]]] = [(("loads",), train.loads)]
-    groups += [(("states", name, "loads"), state.loads or {}) for name, state in train.states.items()]
-    found = [((*loc, link), torque) for loc, loads in groups for link, torque in loads.items()]
+    found = [
+        ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
+    ]
     found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
     found += [(loc, torque) for loc, drive in declared_drives(train) for torque in drive.torques]
     named = next((torque for _, torque in found if torque.unit is not None), None)
@@ -59,11 +62,9 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
 
 def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
     """Yield the drives of the train and of its states with their paths."""
-    if train.drive is not None:
-        yield ("drive",), train.drive
-    for name, state in train.states.items():
-        if state.drive is not None:
-            yield ("states", name, "drive"), state.drive
+    for loc, part in _cases(train):
+        if part.drive is not None:
+            yield (*loc, "drive"), part.drive
 
 
 def rates(train: Train) -> Iterator[Problem]:
@@ -203,9 +204,8 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from _wheels(train)
     yield from _materials(train)
     yield from _couplings(train)
+    yield from _unresolved(train)
     yield from _prescriptions(train)
-    yield from _outputs(train)
-    yield from _sources(train)
     yield from _reconstruction(train)
     yield from declared_units(train)
 
@@ -378,9 +378,6 @@ def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
 
 def _couplings(train: Train) -> Iterator[Problem]:
     for at, coupling in enumerate(train.couplings):
-        for key in ("pin", "slot"):
-            if (link := getattr(coupling, key)) not in train.links:
-                yield _unknown(train, "link", link, train.links, "couplings", at, key)
         if coupling.pin == coupling.slot:
             yield Problem(
                 f"coupling '{coupling.name}' joins '{coupling.pin}' to itself",
@@ -390,119 +387,93 @@ def _couplings(train: Train) -> Iterator[Problem]:
             )
 
 
+def _unresolved(train: Train) -> Iterator[Problem]:
+    """Yield a problem for each name of a link, wheel, dial, clutch or source that is not declared."""
+    known: dict[str, Collection[str]] = {
+        "link": train.links,
+        "wheel": train.wheels,
+        "dial": train.dials,
+        "clutch": train.clutches,
+        "source": train.sources,
+    }
+    for kind, name, loc in _references(train):
+        if name is not None and name not in known[kind]:
+            yield _unknown(train, kind, name, known[kind], *loc)
+
+
+def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
+    """Yield the kind, name (None if none is given) and path of references, except those of turning and gear pairs."""
+    loc: Loc
+    for at, coupling in enumerate(train.couplings):
+        yield "link", coupling.pin, ("couplings", at, "pin")
+        yield "link", coupling.slot, ("couplings", at, "slot")
+        yield "source", coupling.source, ("couplings", at)
+    for loc, part in _cases(train):
+        for key in ("inputs", "fixed", "loads"):
+            yield from (("link", link, (*loc, key)) for link in getattr(part, key) or ())
+        for at, pair in enumerate(part.locks or ()):
+            yield from (("link", link, (*loc, "locks", at)) for link in pair)
+        for name, output in part.outputs.items():
+            yield from _output_references(train, name, output, (*loc, "outputs", name))
+    if train.escapement is not None:
+        yield "link", train.escapement.link, ("escapement", "link")
+    yield "link", train.crank, ("crank",)
+    yield "link", train.solve_for, ("solve_for",)
+    for name, clutch in train.clutches.items():
+        yield from (("link", link, ("clutches", name)) for link in (*(clutch.locks or ()), clutch.fixes))
+    for name, state in train.states.items():
+        yield from (("clutch", clutch, ("states", name, "engaged", at)) for at, clutch in enumerate(state.engaged))
+    stated: list[tuple[Loc, Any]] = [((key,), getattr(train, key)) for key in ("epoch", "cutting", "fitting")]
+    for link, each in train.links.items():
+        for name, wheel in each.wheels.items():
+            loc = ("links", link, "wheels", name)
+            stated += [(loc, wheel), ((*loc, "cutting"), wheel.cutting)]
+            if not isinstance(wheel.teeth, int):
+                stated.append(((*loc, "teeth"), wheel.teeth))
+    for at, gear in enumerate(train.gears):
+        stated += [(("gears", at), gear), (("gears", at, "fitting"), gear.fitting)]
+    yield from (("source", part.source, loc) for loc, part in stated if part is not None)
+    if train.reconstruct is not None:
+        for at, pair in enumerate(train.reconstruct.apart):
+            yield from (("wheel", wheel, ("reconstruct", "apart", at)) for wheel in pair)
+        for at, given in enumerate(train.reconstruct.given):
+            yield from (("link", link, ("reconstruct", "given", at, "pair")) for link in given.pair)
+        if train.reconstruct.geometry is not None:
+            for name in train.reconstruct.geometry.radii:
+                yield "wheel", name, ("reconstruct", "geometry", "radii", name)
+
+
+def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Iterator[tuple[str, str | None, Loc]]:
+    """Yield the references of an output; in a state it may inherit its link, and in evidence it may have none."""
+    inherited = loc[0] == "states" and name in train.outputs and output.of is None
+    to_be_found = train.reconstruct is not None and output.of in (None, NEW_ARBOR)
+    if not inherited and not to_be_found:
+        yield "link", output.of if output.of is not None else name, loc
+    yield "link", output.relative_to, (*loc, "relative_to")
+    yield "dial", output.dial, (*loc, "dial")
+    if output.published:
+        yield "source", output.published.source, (*loc, "published")
+    yield from (("source", target.source, (*loc, "targets", at)) for at, target in enumerate(output.targets))
+
+
 def _prescriptions(train: Train) -> Iterator[Problem]:
-    yield from _prescribed_links(train, train.inputs, train.fixed, train.locks, ())
+    for loc, part in _cases(train):
+        if train.frame in (part.inputs or ()):
+            yield Problem(
+                f"the frame '{train.frame}' is an input",
+                "its speed is 0 by definition",
+                "prescribe the speed of another link",
+                train.place(*loc, "inputs"),
+            )
+        for name, output in part.outputs.items():
+            for at, target in enumerate(output.targets):
+                yield from target_units(train, target, (*loc, "outputs", name, "targets", at))
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from rates(train)
-    yield from _escapement(train)
-    yield from _named_links(train, train.loads, "loads")
-    for key in ("crank", "solve_for"):
-        if (link := getattr(train, key)) is not None and link not in train.links:
-            yield _unknown(train, "link", link, train.links, key)
-    for name, clutch in train.clutches.items():
-        for link in (*(clutch.locks or ()), *((clutch.fixes,) if clutch.fixes else ())):
-            if link not in train.links:
-                yield _unknown(train, "link", link, train.links, "clutches", name)
-    for name, state in train.states.items():
-        loc = ("states", name)
-        yield from _prescribed_links(train, state.inputs or {}, state.fixed or (), state.locks or (), loc)
-        yield from _named_links(train, state.loads or {}, *loc, "loads")
-        for at, clutch_name in enumerate(state.engaged):
-            if clutch_name not in train.clutches:
-                yield _unknown(train, "clutch", clutch_name, train.clutches, *loc, "engaged", at)
-
-
-def _escapement(train: Train) -> Iterator[Problem]:
-    if train.escapement is None:
-        return
-    link = train.escapement.link
-    if link not in train.links:
-        yield _unknown(train, "link", link, train.links, "escapement", "link")
-    elif link == train.frame:
-        what = f"the escapement is on the frame '{link}', which does not turn"
+    if train.escapement is not None and train.escapement.link == train.frame in train.links:
+        what = f"the escapement is on the frame '{train.frame}', which does not turn"
         yield Problem(what, "", "name the link of the escape wheel", train.place("escapement", "link"))
-
-
-def _prescribed_links(
-    train: Train,
-    inputs: Mapping[str, Quantity],
-    fixed: Iterable[str],
-    locks: Iterable[tuple[str, str]],
-    loc: Loc,
-) -> Iterator[Problem]:
-    yield from _named_links(train, inputs, *loc, "inputs")
-    yield from _named_links(train, fixed, *loc, "fixed")
-    for at, pair in enumerate(locks):
-        for link in pair:
-            if link not in train.links:
-                yield _unknown(train, "link", link, train.links, *loc, "locks", at)
-    if train.frame in inputs:
-        yield Problem(
-            f"the frame '{train.frame}' is an input",
-            "its speed is 0 by definition",
-            "prescribe the speed of another link",
-            train.place(*loc, "inputs"),
-        )
-
-
-def _named_links(train: Train, names: Iterable[str], *loc: str | int) -> Iterator[Problem]:
-    for name in names:
-        if name not in train.links:
-            yield _unknown(train, "link", name, train.links, *loc)
-
-
-def _outputs(train: Train) -> Iterator[Problem]:
-    for name, output in train.outputs.items():
-        yield from _output(train, name, output, ("outputs", name))
-    for state, part in train.states.items():
-        for name, output in part.outputs.items():
-            inherited = name in train.outputs and output.of is None
-            yield from _output(train, name, output, ("states", state, "outputs", name), link_given=inherited)
-
-
-def _output(train: Train, name: str, output: Output, loc: Loc, link_given: bool = False) -> Iterator[Problem]:
-    link = output.of if output.of is not None else name
-    to_be_found = train.reconstruct is not None and output.of in (None, NEW_ARBOR)
-    if not link_given and not to_be_found and link not in train.links:
-        yield _unknown(train, "link", link, train.links, *loc)
-    if output.relative_to is not None and output.relative_to not in train.links:
-        yield _unknown(train, "link", output.relative_to, train.links, *loc, "relative_to")
-    if output.dial is not None and output.dial not in train.dials:
-        yield _unknown(train, "dial", output.dial, train.dials, *loc, "dial")
-    for at, target in enumerate(output.targets):
-        yield from target_units(train, target, (*loc, "targets", at))
-
-
-def _sources(train: Train) -> Iterator[Problem]:
-    for link, part in train.links.items():
-        for name, wheel in part.wheels.items():
-            if wheel.source is not None:
-                yield from _source(train, wheel.source, "links", link, "wheels", name)
-            if not isinstance(wheel.teeth, int):
-                yield from _source(train, wheel.teeth.source, "links", link, "wheels", name, "teeth")
-            if wheel.cutting is not None:
-                yield from _source(train, wheel.cutting.source, "links", link, "wheels", name, "cutting")
-    for at, gear in enumerate(train.gears):
-        if gear.source is not None:
-            yield from _source(train, gear.source, "gears", at)
-        if gear.fitting is not None:
-            yield from _source(train, gear.fitting.source, "gears", at, "fitting")
-    for key, stated in (("epoch", train.epoch), ("cutting", train.cutting), ("fitting", train.fitting)):
-        if stated is not None:
-            yield from _source(train, stated.source, key)
-    for at, coupling in enumerate(train.couplings):
-        yield from _source(train, coupling.source, "couplings", at)
-    for name, output in train.outputs.items():
-        if output.published:
-            yield from _source(train, output.published.source, "outputs", name, "published")
-        for at, target in enumerate(output.targets):
-            yield from _source(train, target.source, "outputs", name, "targets", at)
-
-
-def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]:
-    if key is not None and key not in train.sources:
-        yield _unknown(train, "source", key, train.sources, *loc)
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:
@@ -519,10 +490,6 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
         )
     if requested.carrier is not None and requested.carrier not in (*train.links, train.frame):
         yield _unknown(train, "link", requested.carrier, train.links, "reconstruct", "carrier")
-    for at, pair in enumerate(requested.apart):
-        for wheel in pair:
-            if wheel not in train.wheels:
-                yield _unknown(train, "wheel", wheel, train.wheels, "reconstruct", "apart", at)
     seen = {frozenset(gear.pair) for gear in train.gears}
     for at, pair in enumerate(requested.apart):
         if frozenset(pair) in seen:
@@ -532,19 +499,12 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
                 "remove it from one of the two lists",
                 train.place("reconstruct", "apart", at),
             )
-    for at, coupling in enumerate(requested.given):
-        for link in coupling.pair:
-            if link not in train.links:
-                yield _unknown(train, "link", link, train.links, "reconstruct", "given", at, "pair")
     for wheel in requested.geometry.radii if requested.geometry is not None else ():
-        place = ("reconstruct", "geometry", "radii", wheel)
-        if wheel not in train.wheels:
-            yield _unknown(train, "wheel", wheel, train.wheels, *place)
-        elif train.wheels[wheel][1].module is not None:
+        if wheel in train.wheels and train.wheels[wheel][1].module is not None:
             why = "one follows from the other and the tooth count"
             yield Problem(
                 f"'{wheel}' has a module and a pitch radius",
                 why,
                 "give only the one that was measured",
-                train.place(*place),
+                train.place("reconstruct", "geometry", "radii", wheel),
             )

@@ -30,7 +30,7 @@ from geartrain.numerics.quantity import (
     not_below_zero,
 )
 from geartrain.numerics.results import Shown
-from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing
+from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id, Nothing, exactly_one
 from geartrain.train.outputs import Output
 
 GRAVITY = 9.80665
@@ -86,10 +86,7 @@ class HandDrive(Declared):
 
     @model_validator(mode="after")
     def _has_one_key(self) -> HandDrive:
-        if (self.torque is None) == (self.rate is None):
-            raise PydanticCustomError(
-                "drive", "a hand needs either a torque or a rate", {"fix": "give exactly one of torque, rate"}
-            )
+        exactly_one(self, "a hand", ("torque", "rate"))
         if self.torque is not None and self.stiffness is not None:
             raise PydanticCustomError(
                 "drive",
@@ -97,6 +94,9 @@ class HandDrive(Declared):
                 {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
         return self
+
+
+_KINDS = ("rate", "torque", "weight", "spring", "hand")
 
 
 class Drive(Declared):
@@ -134,14 +134,7 @@ class Drive(Declared):
 
     @model_validator(mode="after")
     def _has_one_key(self) -> Drive:
-        kinds = ("rate", "torque", "weight", "spring", "hand")
-        given = [key for key in kinds if getattr(self, key) is not None]
-        if len(given) != 1:
-            raise PydanticCustomError(
-                "drive",
-                "a drive needs exactly one kind; found: {given}",
-                {"given": " and ".join(given) or "nothing", "fix": f"give exactly one of {', '.join(kinds)}"},
-            )
+        exactly_one(self, "a drive", _KINDS, "kind")
         if (self.weight is None) != (self.drum is None):
             raise PydanticCustomError(
                 "drive",
@@ -171,7 +164,7 @@ class Drive(Declared):
     @property
     def kind(self) -> str:
         """Kind of the drive: rate, torque, weight, spring or hand."""
-        return next(key for key in ("rate", "torque", "weight", "spring", "hand") if getattr(self, key) is not None)
+        return next(key for key in _KINDS if getattr(self, key) is not None)
 
 
 class Escapement(Declared):
@@ -246,11 +239,7 @@ class Clutch(Declared):
 
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
-        if (self.fixes is None) == (self.locks is None):
-            raise PydanticCustomError(
-                "clutch", "a clutch needs either `fixes` or `locks`", {"fix": "give exactly one of fixes, locks"}
-            )
-        return self
+        return exactly_one(self, "a clutch", ("fixes", "locks"))
 
 
 class State(Declared):

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import networkx as nx
-import polyhedra
 import pytest
 from commands import call, imported_by
 from hypothesis import assume, given
@@ -22,78 +21,15 @@ from test_cases import KINEMATIC, REJECT, declaration
 
 from geartrain import GearTrain, load
 from geartrain.kinematics import MeshRemoval
-from geartrain.kinematics.gridlock.gain_graph import (
-    GainGraph,
-    biconnected_blocks,
-    is_balanced,
-    shortest_loop,
-    single_mesh_removals,
-    walk_gain_graph,
-)
-from geartrain.kinematics.gridlock.removal_choice import SMALL, choose_removal, greedy_removal, planar_removal
+from geartrain.kinematics.gridlock.gain_graph import GainGraph, is_balanced, shortest_loop
+from geartrain.kinematics.gridlock.removal_choice import choose_removal
+from geartrain.spherical import Configuration, from_polyhedron, survey
+from geartrain.spherical.polyhedron_gears import SURVEYED
 
 Data = dict[str, Any]
 
 
 # gears on all faces of a polyhedron -----------------------------------------------------------------------------------
-
-PLATONIC = {
-    "tetrahedron": (polyhedra.TETRAHEDRON, 4, 6, 2),
-    "cube": (polyhedra.CUBE, 6, 12, 4),
-    "octahedron": (polyhedra.OCTAHEDRON, 8, 12, 0),
-    "dodecahedron": (polyhedra.DODECAHEDRON, 12, 30, 10),
-    "icosahedron": (polyhedra.ICOSAHEDRON, 20, 30, 6),
-}
-# gears, meshes, least number of meshes to disengage
-ARCHIMEDEAN = {
-    "truncated tetrahedron": (8, 18, 6),
-    "cuboctahedron": (14, 24, 0),
-    "truncated cube": (14, 36, 12),
-    "truncated octahedron": (14, 36, 12),
-    "rhombicuboctahedron": (26, 48, 0),
-    "truncated cuboctahedron": (26, 72, 24),
-    "snub cube": (38, 60, 12),
-    "icosidodecahedron": (32, 60, 0),
-    "truncated dodecahedron": (32, 90, 30),
-    "truncated icosahedron": (32, 90, 30),
-    "rhombicosidodecahedron": (62, 120, 0),
-    "truncated icosidodecahedron": (62, 180, 60),
-    "snub dodecahedron": (92, 150, 30),
-}
-# duals: the Catalan solids, by the name of the solid they are dual to
-CATALAN = {
-    "truncated tetrahedron": ("triakis tetrahedron", 4),
-    "cuboctahedron": ("rhombic dodecahedron", 8),
-    "truncated cube": ("triakis octahedron", 8),
-    "truncated octahedron": ("tetrakis hexahedron", 0),
-    "rhombicuboctahedron": ("deltoidal icositetrahedron", 8),
-    "truncated cuboctahedron": ("disdyakis dodecahedron", 0),
-    "snub cube": ("pentagonal icositetrahedron", 16),
-    "icosidodecahedron": ("rhombic triacontahedron", 20),
-    "truncated dodecahedron": ("triakis icosahedron", 20),
-    "truncated icosahedron": ("pentakis dodecahedron", 12),
-    "rhombicosidodecahedron": ("deltoidal hexecontahedron", 32),
-    "truncated icosidodecahedron": ("disdyakis triacontahedron", 0),
-    "snub dodecahedron": ("pentagonal hexecontahedron", 46),
-}
-
-
-def solids() -> Iterable[Any]:
-    for name, (solid, *counts) in PLATONIC.items():
-        yield pytest.param(solid, *counts, id=name)
-    for name, make in polyhedra.ARCHIMEDEAN.items():
-        solid = make()
-        gears, meshes, drop = ARCHIMEDEAN[name]
-        yield pytest.param(solid, gears, meshes, drop, id=name)
-        dual, minimum = CATALAN[name]
-        yield pytest.param(polyhedra.dual(solid), meshes + 2 - gears, meshes, minimum, id=dual)
-    for n in range(3, 9):
-        yield pytest.param(polyhedra.prism(n), n + 2, 3 * n, n, id=f"{n}-prism")
-    for n in range(4, 9):
-        yield pytest.param(polyhedra.antiprism(n), 2 * n + 2, 4 * n, 0, id=f"{n}-antiprism")
-    for n in range(4, 9):
-        minimum = 0 if n % 2 == 0 else 2
-        yield pytest.param(polyhedra.dual(polyhedra.prism(n)), 2 * n, 3 * n, minimum, id=f"{n}-bipyramid")
 
 
 def ordinary(teeth: Sequence[int], meshes: Iterable[tuple[int, int]], rings: Iterable[int] = ()) -> Data:
@@ -124,30 +60,34 @@ def proved(release: MeshRemoval, firm: Iterable[str] = ()) -> int:
     return sum(proof.at_least for proof in release.proofs)
 
 
-@pytest.mark.parametrize(("solid", "gears", "meshes", "drop"), list(solids()))
-def test_gears_on_all_faces_need_the_minimum_disengaging_that_is_known(
-    solid: polyhedra.Map, gears: int, meshes: int, drop: int
-) -> None:
-    pairs = polyhedra.neighbours(solid)
-    assert (len(solid), len(pairs)) == (gears, meshes)
-    data = ordinary([6 + 2 * len(face) for face in solid], pairs)
-    train = GearTrain.declare(data)
-    assert train.mobility.by_rank == (1 if drop == 0 else 0)
+@pytest.mark.parametrize(
+    "name",
+    [*SURVEYED, "rhombic dodecahedron", "pentagonal hexecontahedron", "5-bipyramid", "8-bipyramid", "6-antiprism"],
+)
+def test_gears_on_all_faces_need_the_minimum_disengaging_of_the_survey(name: str) -> None:
+    solid, (row,) = from_polyhedron(name), survey([name])
+    train = GearTrain.declare(data := on_faces(solid))
+    assert train.mobility.by_rank == (1 if row.drop == 0 else 0)
     found = train.kinematics.gridlock
-    assert found.moves == (drop == 0)
+    assert found.moves == (row.drop == 0)
     if found.release is not None:
-        assert len(found.release.meshes) == drop
+        assert len(found.release.meshes) == row.drop
         assert found.release.minimum
         assert GearTrain.declare(less(data, found.release.meshes)).solve().verdict
 
 
+def on_faces(solid: Configuration) -> Data:
+    """The gears of a solid on fixed axes, with teeth in proportion to the edges of their faces."""
+    return ordinary([6 + 2 * int(kind.rstrip("abc")) for kind in solid.kinds], solid.meshes)
+
+
 def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> None:
-    solid = polyhedra.ARCHIMEDEAN["truncated icosahedron"]()
-    data = ordinary([2 * len(face) for face in solid], polyhedra.neighbours(solid))
+    solid = from_polyhedron("truncated icosahedron")
+    data = on_faces(solid)
     release = GearTrain.declare(data).kinematics.gridlock.release
-    assert release.method == "matching"
+    assert release.method == "search"
     assert proved(release) == 30
-    hexagons = [f"{i}-{j}" for i, j in polyhedra.neighbours(solid) if len(solid[i]) == len(solid[j]) == 6]
+    hexagons = [f"{i}-{j}" for i, j in solid.meshes if solid.kinds[i] == solid.kinds[j] == "6"]
     assert len(hexagons) == 30
     assert GearTrain.declare(less(data, hexagons)).solve().verdict
     assert [(len(proof.loops), proof.sharing) for proof in release.proofs] == [(60, 2)]
@@ -207,16 +147,13 @@ def test_a_lattice_moves_and_one_diagonal_more_is_the_one_mesh_to_take_out(k: in
     assert found.release.choices == (f"0-{k + 1}",)
 
 
-@pytest.mark.parametrize("large", [False, True])
-def test_each_diagonal_of_a_lattice_costs_one_mesh(large: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    if large:
-        monkeypatch.setattr("geartrain.kinematics.gridlock.removal_choice.LARGE", 100)
+def test_each_diagonal_of_a_lattice_costs_one_mesh() -> None:
     data = lattice(30, [(3, 4), (3, 20), (17, 9), (28, 28)])
     found = GearTrain.declare(data).kinematics.gridlock
     assert found.release.minimum
     assert proved(found.release) == 4
     assert set(found.release.meshes) == {gear["id"] for gear in data["gears"][-4:]}
-    assert found.release.method == ("loops" if large else "matching")
+    assert found.release.method == "loops"
 
 
 # rings, pins, carriers, brakes ----------------------------------------------------------------------------------------
@@ -377,7 +314,7 @@ def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: GainGraph) -
     minimum = minimum_by_trying(network)
     assert is_balanced(network) == (minimum == 0)
     assume(minimum > 0)
-    choice = choose_removal(network, walk_gain_graph(network))
+    choice = choose_removal(network)
     assert _closed(network, choice.meshes)
     assert not network.firm.intersection(choice.meshes)
     assert len(choice.meshes) == choice.at_least == minimum
@@ -387,79 +324,45 @@ def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: GainGraph) -
         ]
 
 
-@given(networks(SIGNS, firm=True))
-def test_a_matching_of_odd_regions_is_as_small_as_trying_all_sets_finds(network: GainGraph) -> None:
-    for block in biconnected_blocks(network):
-        part, _ = network.part(block)
-        found = walk_gain_graph(part)
-        plain = GainGraph(part.size, part.ends, found.breaking, part.firm)
-        join = planar_removal(plain)
-        graph = nx.Graph(part.ends)
-        assert (join is not None) or not nx.check_planarity(graph)[0]
-        if join is not None:
-            assert _closed(part, join.meshes)
-            assert not part.firm.intersection(join.meshes)
-            assert len(join.meshes) == minimum_by_trying(part)
-
-
 @given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
-def test_no_mesh_of_a_greedy_set_can_stay_and_its_loops_share_none(network: GainGraph) -> None:
-    meshes, loops = greedy_removal(network, walk_gain_graph(network))
-    assert _closed(network, meshes)
-    assert not network.firm.intersection(meshes)
-    assert not any(_closed(network, set(meshes) - {mesh}) for mesh in meshes)
-    every = [mesh for loop in loops for _, mesh in loop if mesh not in network.firm]
-    assert len(every) == len(set(every))
-    for loop in loops:
+def test_without_a_proof_the_set_is_minimal_and_the_bound_is_valid(network: GainGraph) -> None:
+    minimum = minimum_by_trying(network)
+    assume(minimum > 1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("geartrain.kinematics.gridlock.removal_choice._ROUNDS", 1)
+        choice = choose_removal(network)
+    assert choice.at_least <= minimum <= len(choice.meshes)
+    assert _closed(network, choice.meshes)
+    assert not network.firm.intersection(choice.meshes)
+    assert not any(_closed(network, set(choice.meshes) - {mesh}) for mesh in choice.meshes)
+    for loop in (choice.example, *choice.proof):
         assert network.product(loop) != 1
         assert [network.other(mesh, node) for node, mesh in loop] == [node for node, _ in loop[1:] + loop[:1]]
 
 
 @given(networks(RATIOS))
-def test_every_single_mesh_that_frees_is_found(network: GainGraph) -> None:
-    assume(not is_balanced(network))
-    found = single_mesh_removals(network, walk_gain_graph(network))
-    assert sorted(found) == [mesh for mesh in range(len(network.ends)) if _closed(network, [mesh])]
-
-
-@given(networks(RATIOS))
 def test_the_shortest_loop_that_fails_is_found(network: GainGraph) -> None:
-    loop = shortest_loop(network)
-    if loop is None:
+    loop = shortest_loop(network, range(network.size))
+    if not loop:
         assert _closed(network, ())
         return
     assert network.product(loop) != 1
     assert len({mesh for _, mesh in loop}) == len(loop) == len({node for node, _ in loop})
     for size in range(2, len(loop)):
         for some in itertools.combinations(range(len(network.ends)), size):
-            part, _ = network.part(some)
-            assert part.size > size or not _is_ring(part) or _closed(part, ())
+            rest = set(range(len(network.ends))) - set(some)
+            degrees = [end for mesh in some for end in network.ends[mesh]]
+            assert any(degrees.count(end) != 2 for end in degrees) or _closed(network, rest)
 
 
-def _is_ring(part: GainGraph) -> bool:
-    degrees = [end for ends in part.ends for end in ends]
-    return all(degrees.count(node) == 2 for node in range(part.size))
-
-
-@given(networks(SIGNS))
-def test_blocks_are_those_of_networkx(network: GainGraph) -> None:
-    found = [{frozenset(network.ends[mesh]) for mesh in block} for block in biconnected_blocks(network)]
-    known = nx.biconnected_component_edges(nx.Graph(network.ends))
-    assert sorted(map(sorted, (map(sorted, block) for block in found))) == sorted(
-        map(sorted, ([sorted(pair) for pair in block] for block in known))
-    )
-
-
-def test_nine_mutual_wheels_are_beyond_the_plane_and_small_enough_to_search_or_said_to_be_greedy() -> None:
-    for count in (5, 6, 7, 9):
+def test_up_to_seven_mutual_wheels_are_searched() -> None:
+    for count in (5, 6, 7):
         pairs = list(itertools.combinations(range(count), 2))
         network = GainGraph(count, pairs, dict.fromkeys(range(len(pairs)), -1))
-        choice = choose_removal(network, walk_gain_graph(network))
+        choice = choose_removal(network)
         minimum = len(pairs) - (count // 2) * (count - count // 2)  # what no two halves can keep
         assert is_balanced(network, choice.meshes)
-        assert choice.at_least <= minimum <= len(choice.meshes)
-        if len(pairs) <= SMALL or choice.method != "greedy":
-            assert len(choice.meshes) == choice.at_least == minimum
+        assert len(choice.meshes) == choice.at_least == minimum
 
 
 def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:

@@ -18,7 +18,6 @@ from contextlib import closing, contextmanager
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from threading import Lock
 from typing import Any
 
@@ -31,7 +30,6 @@ from clusters import (
     failing,
     gated,
     mixed,
-    next_line,
     not_plain,
     slow,
     small_cluster,
@@ -379,23 +377,6 @@ def test_a_journal_with_a_wrong_byte_gives_no_wrong_result(no_disk: None, tmp_pa
             assert at <= whole.index(b"\n"), "the first line is no journal's, or of another question"
 
 
-@settings(max_examples=20)
-@given(st.lists(st.text() | st.floats() | st.integers(), max_size=8), st.data())
-def test_what_is_kept_is_recalled(results: list[Any], data: st.DataObject) -> None:
-    order = data.draw(st.permutations(range(len(results))))
-    texts = [json.dumps(result) for result in results]
-    with TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
-        patch.setattr(os, "fsync", lambda _: None)
-        path = Path(folder) / "journal"
-        with Journal(path, {"order": list(order)}) as journal:
-            for count, number in enumerate(order):
-                assert journal.recall(number) is None
-                journal.keep(number, "", texts[number])
-                assert len(journal) == count + 1
-        with Journal(path, {"order": order}) as journal:
-            assert [journal.recall(number) for number in range(len(texts) + 1)] == [*texts, None]
-
-
 def test_floats_come_back_to_the_last_bit(tmp_path: Path) -> None:
     numbers = [0.1, math.pi, 5e-324, 1.7976931348623157e308, -0.0, math.inf]
     with Journal(tmp_path / "journal", {}) as journal:
@@ -469,21 +450,6 @@ def test_two_runs_do_not_share_a_journal(tmp_path: Path) -> None:
         Journal(tmp_path / "journal", {})
     Journal(tmp_path / "journal", {}).close()
     assert list(tmp_path.iterdir()) == [tmp_path / "journal"], "the lock goes with the run"
-
-
-def test_a_process_that_writes_a_journal_keeps_others_out_on_every_system(tmp_path: Path) -> None:
-    """The lock is that of filelock, which locks on Windows too; it is held by another process here."""
-    lock = "from filelock import FileLock; lock = FileLock({!r}); lock.acquire(); print('held', flush=True); input()"
-    code = lock.format(str(tmp_path / "journal.lock"))
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    with subprocess.Popen([sys.executable, "-c", code], text=True, **pipes) as holder:
-        assert holder.stdout is not None
-        assert next_line(holder.stdout) == "held\n"
-        with pytest.raises(QuestionError, match="another run is writing"):
-            Journal(tmp_path / "journal", {})
-        holder.kill()
-    with Journal(tmp_path / "journal", {}) as journal:
-        assert list(run(abs, [-1], None, journal)) == [1]
 
 
 def test_a_journal_goes_when_the_run_is_whole_and_only_then(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.spherical import from_polyhedron
-from geartrain.spherical.configuration import closes, loop_rules, residue
+from geartrain.spherical.assembly import closes, loop_rules, residue
 from studies.measurement import timed
 from studies.sphere_records import TOLERANCE, ClosureRecord
 

@@ -295,47 +295,17 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class PlanetContact:
-    """Mesh of a planet in the assembly rule: its tooth count, the mate's tooth count, and the sense (1 external, -1
-    with a ring).
-    """
-
-    own: CountRef
-    mate: CountRef
-    sense: int
-
-
-@dataclass(frozen=True, slots=True)
-class PlanetArm:
-    """Meshes of a planet in the assembly rule: with central wheels, and with its child planets."""
-
-    central: tuple[PlanetContact, ...]
-    outward: tuple[tuple[PlanetContact, PlanetArm], ...]
-
-    def contacts(self) -> Iterator[PlanetContact]:
-        """Yield the contacts of this planet and of its descendants."""
-        yield from self.central
-        for contact, arm in self.outward:
-            yield contact
-            yield from arm.contacts()
-
-
-def planet_arm(planet: Planet) -> PlanetArm:
-    """Return the meshes of a planet and of its descendants in the form of the assembly rule."""
-    outward = tuple((planet_contact(planet, mesh, other), planet_arm(other)) for mesh, other in planet.outward)
-    return PlanetArm(tuple(planet_contact(planet, mesh) for mesh in planet.central), outward)
-
-
-def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None) -> PlanetContact:
-    """Return one mesh of a planet in the form of the assembly rule.
+def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None) -> tuple[CountRef, CountRef]:
+    """Return the tooth counts of a planet and of its mate in one of its meshes, in the form of the assembly rule.
 
     The assembly rule contains only the product z phi for a planet with one wheel, so its tooth count z is replaced by
     1.
+
+    other   the child planet, if it is the mate
     """
     side = planet.side(mesh)
     own = mesh.parts[side] if len(planet.wheels) > 1 else 1
-    return PlanetContact(own, 1 if other and len(other.wheels) == 1 else mesh.parts[1 - side], mesh.sense)
+    return own, 1 if other and len(other.wheels) == 1 else mesh.parts[1 - side]
 
 
 @dataclass(frozen=True, slots=True)
@@ -354,7 +324,7 @@ class PhaseArithmetic:
     """Function that reduces a number modulo the number of planets, or returns it unchanged."""
 
 
-def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
+def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
     """Return integers E of the assembly rule: a set of planets, rotated by t turns, also meshes if every E t is an
     integer.
 
@@ -378,29 +348,29 @@ def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
     close.
     """
     found: list[Any] = []
-    left = _angle_conditions(arm, kind, found)
+    left = _angle_conditions(root, kind, found)
     # pairwise compatible conditions are compatible together, because their solutions are multiples of one step
     found += (_compatibility_number(one, other, kind.gcd(one[0], other[0])) for one, other in combinations(left, 2))
     return found
 
 
-def _angle_conditions(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
+def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
     """Return D and b of the conditions D phi = b t on a planet's angle; append the integers E of its descendants to
     `found`.
     """
     left = []
-    for contact in arm.central:
-        own, mate = kind.count(contact.own), kind.count(contact.mate)
-        left.append((own, kind.reduced(-contact.sense * mate)))
-    for contact, other in arm.outward:
+    for mesh in planet.central:
+        own, mate = map(kind.count, mesh_counts(planet, mesh))
+        left.append((own, kind.reduced(-mesh.sense * mate)))
+    for mesh, other in planet.outward:
         further = _angle_conditions(other, kind, found)
         if not further:
             continue
         D, b = _combined_condition(further, kind, found)
-        own, mate = kind.count(contact.own), kind.count(contact.mate)
+        own, mate = map(kind.count, mesh_counts(planet, mesh, other))
         # z phi of the child planet is known up to multiples of gcd(z, D)/D
         common = kind.gcd(mate, D)
-        left.append((D // common * own, kind.reduced(-contact.sense * kind.reduced(mate // common) * b)))
+        left.append((D // common * own, kind.reduced(-mesh.sense * kind.reduced(mate // common) * b)))
     return left
 
 
@@ -439,7 +409,7 @@ def assembly_number(planet: Planet) -> int:
     G is 0 if they mesh at any angle.
     """
     exact = PhaseArithmetic(int, gcd, bezout, lambda number: number)
-    return gcd(*phase_numbers(planet_arm(planet), exact))
+    return gcd(*phase_numbers(planet, exact))
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:

@@ -7,16 +7,13 @@ are computed from pseudo-remainders in one variable after another. Formulas of t
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from heapq import heapify, heappop, heappush
 from typing import NamedTuple
 
 from geartrain.kinematics.formulas import laurent
-from geartrain.numerics.elimination import PRIME
 
 Exponents = tuple[int, ...]
 
@@ -212,15 +209,9 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
     rest = dict(p.shifted(_negated(low_p)).terms)
     divisor = q.shifted(_negated(low_q)).terms
     lead = max(divisor)
-    queue = [
-        _negated(exponents) for exponents in rest
-    ]  # negated, because the heap returns the smallest and the highest powers are needed
-    heapify(queue)
     found: dict[Exponents, Fraction] = {}
-    while queue:
-        top = _negated(heappop(queue))
-        if top not in rest:
-            continue
+    while rest:
+        top = max(rest)
         step = tuple(map(int.__sub__, top, lead))
         if min(step, default=0) < 0:
             return None
@@ -229,29 +220,21 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
         factor = found[step] = rest[top] / divisor[lead]
         for exponents, value in divisor.items():
             at = tuple(map(int.__add__, exponents, step))
-            if at not in rest:
-                heappush(queue, _negated(at))
-            new = rest.get(at, Fraction(0)) - factor * value
+            new = rest.pop(at, Fraction(0)) - factor * value
             if new:
                 rest[at] = new
-            else:
-                del rest[at]
     return Laurent(p.width, found).shifted(tuple(map(int.__sub__, low_p, low_q)))
 
 
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
 
-    Euclid's algorithm with primitive remainders over the rationals, in one variable after another. Coprime polynomials
-    are usually recognised at once by their images modulo a prime, because the degree of the images' common divisor is
-    never
-    lower.
+    Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:
         return p if p else q
     shared = [at for at in range(p.width) if _degree(p, at) and _degree(q, at)]
-    shared = [at for at in shared if _may_have_common_divisor(p, q, at)]
     if not shared:
         return Laurent.constant(1, p.width)
     for whole, other in ((p, q), (q, p)):
@@ -318,48 +301,3 @@ def _divide_exactly(p: Laurent, q: Laurent) -> Laurent:
 
 def _negated(exponents: Exponents) -> Exponents:
     return tuple(-power for power in exponents)
-
-
-def _may_have_common_divisor(p: Laurent, q: Laurent, at: int) -> bool:
-    """Return False only if no common divisor contains the variable `at`. Other variables are set to random numbers
-    modulo a prime.
-    """
-    draw = random.Random(len(p) * 1000 + len(q))
-    # at a random point the degree of the common divisor may be too high, never too low
-    point = [draw.randrange(1, PRIME) for _ in range(p.width)]
-    left, right = (_image(each, at, point) for each in (p, q))
-    if len(left) <= _degree(p, at) and len(right) <= _degree(q, at):
-        return True  # both leading coefficients vanish by coincidence, so nothing is known
-    while right:
-        left, right = right, _remainder(left, right)
-    return len(left) > 1
-
-
-def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
-    """Return the coefficients of p as a polynomial in the variable `at`, at a point modulo the prime, without trailing
-    zeros.
-    """
-    image = [0] * (_degree(p, at) + 1)
-    for exponents, value in p.terms.items():
-        alone = Laurent(p.width, {tuple(0 if o == at else e for o, e in enumerate(exponents)): value})
-        image[exponents[at]] = (image[exponents[at]] + alone.modulo(point, PRIME)) % PRIME
-    return _trimmed(image)
-
-
-def _remainder(p: Sequence[int], q: Sequence[int]) -> list[int]:
-    rest = list(p)
-    # schoolbook division with the inverse of the leading coefficient
-    inverse = pow(q[-1], -1, PRIME)
-    while len(rest) >= len(q):
-        factor = rest[-1] * inverse % PRIME
-        start = len(rest) - len(q)
-        for at, value in enumerate(q):
-            rest[start + at] = (rest[start + at] - factor * value) % PRIME
-        rest = _trimmed(rest[:-1])
-    return rest
-
-
-def _trimmed(values: list[int]) -> list[int]:
-    while values and not values[-1]:
-        values.pop()
-    return values

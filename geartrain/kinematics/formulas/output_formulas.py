@@ -12,16 +12,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from operator import itemgetter
+from typing import NamedTuple
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import Components, find_components, reduce_components, relevant_circuits
-from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, minors, product
+from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, minors
 from geartrain.kinematics.formulas.laurent import Term as Term
 from geartrain.kinematics.formulas.rational_functions import Formula as Formula
 from geartrain.kinematics.formulas.rational_functions import MonomialGroup as MonomialGroup
 from geartrain.kinematics.formulas.rational_functions import make_formula
-from geartrain.numerics.block_triangular import find_blocks
 from geartrain.numerics.elimination import PRIME, add_into, eliminate_units
 from geartrain.numerics.results import Result
 from geartrain.train import StateCase, Teeth, Train, Wheel
@@ -35,14 +35,11 @@ GIVEN = -1  # column of prescribed speeds; unknowns have columns from 0
 _Residues = dict[int, int]
 
 
-@dataclass(frozen=True, slots=True)
-class SymbolicValue:
-    """Rational function: a numerator divided by the product of the determinants of some blocks, each to the first
-    power.
-    """
+class SymbolicValue(NamedTuple):
+    """Rational function of tooth counts."""
 
     numerator: Laurent
-    blocks: frozenset[int] = frozenset()
+    denominator: Laurent
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,10 +50,10 @@ class SymbolicSolution:
     point: Sequence[int]
     pivots: Sequence[tuple[int, Row]]
     """Pairs (column, rest), which mean: unknown = -rest. `rest` contains no column of an earlier pair."""
-    values: Mapping[int, SymbolicValue]
-    """Values of the unknowns of the core, by column; undetermined unknowns are set to 0."""
-    determinants: Sequence[Laurent]
-    """Determinants of the diagonal blocks of the core."""
+    values: Mapping[int, Laurent]
+    """Numerators of the unknowns of the core, by column; undetermined unknowns are set to 0."""
+    determinant: Laurent
+    """Determinant of the core, the denominator of `values`."""
     span: Mapping[int, _Residues]
     """Rows of the core at a random point, in echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
@@ -73,11 +70,7 @@ class SymbolicSolution:
         # not in the row space of the core: the form contains a free unknown
         if _reduced_row(free, self.span):
             return None
-        return _combined(rest, self.values, self.determinants, self.width)
-
-    def denominator(self, value: SymbolicValue) -> Laurent:
-        """Return the denominator of a value: the product of the determinants of its blocks."""
-        return product((self.determinants[block] for block in sorted(value.blocks)), self.width)
+        return _combined(rest, self.values, self.determinant)
 
 
 def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None = None) -> SymbolicSolution:
@@ -100,12 +93,12 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
         meant, there = _independent(core, preferred)
         if len(meant) == len(chosen):
             chosen, leading = meant, there
-    values, determinants = _solve_core([core[at][1] for at in chosen], sorted(leading), width)
+    values, determinant = _solve_core([core[at][1] for at in chosen], sorted(leading), width)
     for at, (origin, row) in enumerate(core):
         if at not in chosen:
-            left = _combined(row, values, determinants, width).numerator
+            left = _combined(row, values, determinant).numerator
             conditions += [(origin, left)] if left else []
-    return SymbolicSolution(width, point, pivots, values, determinants, span, conditions)
+    return SymbolicSolution(width, point, pivots, values, determinant, span, conditions)
 
 
 class _LaurentRing:
@@ -164,56 +157,31 @@ def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Resi
                 rest.pop(column, None)
 
 
-def _solve_core(
-    rows: Sequence[Row], columns: Sequence[int], width: int
-) -> tuple[dict[int, SymbolicValue], list[Laurent]]:
-    """Solve a square core by blocks of its block triangular form; unknowns of other columns are set to 0."""
+def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tuple[dict[int, Laurent], Laurent]:
+    """Return the numerators of the unknowns of a square core, and its determinant, by Cramer's rule; unknowns of other
+    columns are set to 0.
+    """
     place = {column: at for at, column in enumerate(columns)}
-    blocks = find_blocks([[place[column] for column in row if column in place] for row in rows])
-    assert blocks is not None, "a system of full rank has a matching"
-    values: dict[int, SymbolicValue] = {}
-    determinants: list[Laurent] = []
-    for number, block in enumerate(blocks):
-        inside = {columns[at]: index for index, at in enumerate(block.columns)}
-        outside = [{c: entry for c, entry in rows[at].items() if c not in inside} for at in block.rows]
-        used = frozenset().union(*(values[c].blocks for row in outside for c in row if c in values))
-        size = len(inside)
-        matrix = [
-            {inside[c]: entry for c, entry in rows[at].items() if c in inside}
-            | {size: -_over_blocks(row, values, determinants, used, width)}
-            for at, row in zip(block.rows, outside, strict=True)
-        ]
-        *replaced, whole = minors(matrix, width)
-        for column, index in inside.items():
-            # Cramer's rule: the right-hand side is the last column, and moves past the columns after the replaced one
-            odd = (size - 1 - index) & 1
-            values[column] = SymbolicValue(-replaced[index] if odd else replaced[index], used | {number})
-        determinants.append(whole)
-    return values, determinants
+    size = len(columns)
+    zero = Laurent.constant(0, width)
+    matrix = [
+        {place[c]: entry for c, entry in row.items() if c in place} | {size: -row.get(GIVEN, zero)} for row in rows
+    ]
+    *replaced, determinant = minors(matrix, width)
+    # the right-hand side is the last column, and moves past the columns after the replaced one
+    values = {column: -replaced[at] if (size - 1 - at) & 1 else replaced[at] for column, at in place.items()}
+    return values, determinant
 
 
-def _combined(
-    form: Mapping[int, Laurent], values: Mapping[int, SymbolicValue], determinants: Sequence[Laurent], width: int
-) -> SymbolicValue:
-    used = frozenset().union(*(values[column].blocks for column in form if column in values))
-    return SymbolicValue(_over_blocks(form, values, determinants, used, width), used)
-
-
-def _over_blocks(
-    form: Mapping[int, Laurent],
-    values: Mapping[int, SymbolicValue],
-    determinants: Sequence[Laurent],
-    used: frozenset[int],
-    width: int,
-) -> Laurent:
-    """Return the numerator of a linear form divided by the product of the determinants of the blocks `used`."""
-    total = Laurent.constant(0, width)
+def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
+    """Return the value of a linear form of the unknowns of the core."""
+    one, total = Laurent.constant(1, determinant.width), Laurent.constant(0, determinant.width)
+    denominator = determinant if any(column in values for column in form) else one
     for column, entry in form.items():
-        value = SymbolicValue(Laurent.constant(1, width)) if column == GIVEN else values.get(column)
-        if value is not None and value.numerator:
-            missing = (determinants[block] for block in sorted(used - value.blocks))
-            total = total + product((entry, value.numerator, *missing), width)
-    return total
+        numerator = denominator if column == GIVEN else values.get(column)
+        if numerator:
+            total = total + entry * numerator
+    return SymbolicValue(total, denominator)
 
 
 # --------------------------------------------------------------------------------------------------- symbolic equations
@@ -499,8 +467,7 @@ def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquation
         if value is None:
             undetermined.append(name)
             continue
-        denominator = solution.denominator(value)
-        outputs[name], common = make_formula(name, wheels, value.numerator, denominator)
+        outputs[name], common = make_formula(name, wheels, *value)
         # a cancelled factor that can vanish hides tooth counts at which the train is locked or free
         if not common.is_definite:
             cancelled[name] = common

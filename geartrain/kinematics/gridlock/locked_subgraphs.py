@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.components import Components, SolvedPart, relevant_circuits
-from geartrain.kinematics.gridlock.gain_graph import Gain, GainGraph, walk_gain_graph
+from geartrain.kinematics.gridlock.gain_graph import Gain, GainGraph
 from geartrain.kinematics.gridlock.gain_graph import GainLoop as Steps
 from geartrain.kinematics.gridlock.removal import Gridlock, LockedSubgraph, MeshRemoval, RemovalBound, join_removals
-from geartrain.kinematics.gridlock.removal_choice import LoopPacking, RemovalChoice, choose_removal, open_loop
+from geartrain.kinematics.gridlock.removal_choice import choose_removal
 from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
 
@@ -102,30 +102,20 @@ def _gain(parts: Components, chord: int) -> Gain:
 
 def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
     network = jammed.network
-    found = walk_gain_graph(network)
-    choice = choose_removal(network, found)
-    # the loop that proves a single removal is also the example
-    steps = choice.bounds[0].loops[0] if choice.method == "one" else open_loop(network, found)
-    return LockedSubgraph(
-        jammed.carrier,
-        _loop(parts, jammed, steps),
-        tuple(jammed.links),
-        len(network.ends) - len(network.firm),
-        "sign" if all(gain == -1 for gain in found.breaking.values()) else "ratio",
-        _release(parts, jammed, choice),
-    )
-
-
-def _release(parts: Components, jammed: LockedNetwork, choice: RemovalChoice) -> MeshRemoval:
+    choice = choose_removal(network)
     meshes, choices = (
         tuple(parts.circuits[jammed.circuits[mesh]].id for mesh in some) for some in (choice.meshes, choice.choices)
     )
-    proofs = tuple(_proof(parts, jammed, bound) for bound in choice.bounds)
-    return MeshRemoval(meshes, choice.method, choice.at_least, choices, proofs)
-
-
-def _proof(parts: Components, jammed: LockedNetwork, bound: LoopPacking) -> RemovalBound:
-    return RemovalBound(tuple(_loop(parts, jammed, steps) for steps in bound.loops), bound.sharing)
+    loops = tuple(_loop(parts, jammed, steps) for steps in choice.proof)
+    proofs = (RemovalBound(loops, choice.sharing),) if loops else ()
+    return LockedSubgraph(
+        jammed.carrier,
+        _loop(parts, jammed, choice.example),
+        tuple(jammed.links),
+        len(network.ends) - len(network.firm),
+        "sign" if set(network.gains.values()) == {-1} else "ratio",
+        MeshRemoval(meshes, choice.method, choice.at_least, choices, proofs),
+    )
 
 
 def _loop(parts: Components, jammed: LockedNetwork, steps: Steps) -> Loop:

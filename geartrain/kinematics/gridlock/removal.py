@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from geartrain.kinematics.answer import MOST_NAMES, Loop, abridged_names
 from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.results import Result
 
-RemovalMethod = Literal["one", "loops", "matching", "search", "greedy"]
-_WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "greedy")
+RemovalMethod = Literal["one", "loops", "search", "greedy"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +58,8 @@ class MeshRemoval(Result):
     """Method by which the set of meshes was found.
 
     "one": a single mesh is enough for each part. "loops": the set is the smallest, because an equal number of
-    inconsistent loops share no mesh. "matching": the set is the smallest, found by matching the odd faces of a planar
-    graph (a T-join). "search": the set is the smallest, found by exhaustive search or branch and bound. "greedy": the
-    set was found by a heuristic and is not proved to be the smallest.
+    inconsistent loops share no mesh. "search": the set is the smallest, found by exhaustive search or branch and bound.
+    "greedy": the set is not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
@@ -95,7 +93,6 @@ class MeshRemoval(Result):
             )
         exact = {
             "one": "at least one mesh must go",
-            "matching": "minimum-weight matching of the odd faces of the mesh graph, which is planar",
             "search": "branch and bound excludes all smaller sets",
             "loops": "the same number of loops share no mesh",
             "greedy": "a smaller set does not exist",
@@ -145,9 +142,8 @@ class Gridlock(Result):
 
     Notes
     -----
-    The size of the smallest set of meshes is the frustration index of a gain graph. If all gains are 1 and -1 and the
-    graph is planar, the set is a minimum T-join (Katai and Iwai 1978); otherwise it is found by branch and bound;
-    docs/theory.md, 7.
+    The size of the smallest set of meshes is the frustration index of a gain graph. The set is found by integer
+    programming (docs/theory.md, 7).
 
     Examples
     --------
@@ -207,11 +203,6 @@ class Gridlock(Result):
             yield "no set of meshes was found to free it: pins in slots lock it, or there are too many meshes to try"
 
 
-def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:
-    """Return the method with the weakest proof; a combined result is proved only by this method."""
-    return max(methods, key=_WEAKER.index)
-
-
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
     """Combine the removals of components without common meshes."""
     parts = tuple(releases)
@@ -220,7 +211,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
         return parts[0]
     return MeshRemoval(
         tuple(mesh for part in parts for mesh in part.meshes),
-        weakest_method(part.method for part in parts),
+        max((part.method for part in parts), key=get_args(RemovalMethod).index),
         sum(part.at_least for part in parts),
         (),
         tuple(merge_bounds(proof for part in parts for proof in part.proofs)),

@@ -7,21 +7,15 @@ from geartrain.kinematics.phasing.mesh_phasing import (
     DivisibilityRule,
     LoopPhase,
     MeshPhasing,
-    SphericalGears,
     find_divisibility_rule,
     find_phasing,
-    spherical_divisibility_rule,
-    spherical_phasing,
 )
 
 __all__ = [
     "DivisibilityRule",
     "LoopPhase",
     "MeshPhasing",
-    "SphericalGears",
     "UnplacedPair",
     "find_divisibility_rule",
     "find_phasing",
-    "spherical_divisibility_rule",
-    "spherical_phasing",
 ]

@@ -11,20 +11,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
-from geartrain.errors import Problem as Trouble
-from geartrain.errors import QuestionError
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import find_components
 from geartrain.kinematics.phasing.azimuths import (
-    EPS,
     MOUNT,
-    PitchPoints,
     UnplacedPair,
-    contact_families,
     mount_frame_wheels,
     place_pitch_points,
 )
@@ -641,45 +634,6 @@ def _name(link: str) -> str:
     return link.rpartition(MOUNT)[2]
 
 
-_FRAME = MOUNT  # cannot be the name of a gear
-_OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regular
-
-
-class SphericalGears(Protocol):
-    """Interface (`typing.Protocol`) of a set of gears whose axes pass through one point.
-
-    See Also
-    --------
-    geartrain.spherical.Configuration : has these attributes
-    """
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the gears."""
-
-    @property
-    def axes(self) -> Floats:
-        """Outward unit vectors of the axes, shape (gears, 3)."""
-
-    @property
-    def meshes(self) -> tuple[tuple[int, int], ...]:
-        """Meshing pairs of gears, by index."""
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """Kind of each gear; gears of one kind have equal tooth counts."""
-
-    @property
-    def regular(self) -> tuple[int, ...]:
-        """Integer p of each gear if its contacts are at multiples of 1/p turn; 0 if the angles are known only as
-        floats.
-        """
-
-    @property
-    def teeth(self) -> Mapping[str, int]:
-        """Tooth count of each kind of gear."""
-
-
 def find_phasing(
     train: Train, tree: Tree, circuits: Sequence[Circuit], backlashes: Mapping[str, float] | None = None
 ) -> MeshPhasing:
@@ -712,126 +666,3 @@ def _equal_wheels(train: Train) -> dict[str, str]:
         mates[second].append(marks[first])
     heads: dict[object, str] = {}
     return {name: heads.setdefault((mark, tuple(sorted(map(repr, mates[name])))), name) for name, mark in marks.items()}
-
-
-def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | None = None) -> MeshPhasing:
-    """Check the assembly condition of gears whose axes pass through one point.
-
-    Parameters
-    ----------
-    configuration : SphericalGears
-        Configuration of gears, such as a `geartrain.spherical.Configuration`.
-    teeth : mapping of str to int, optional
-        Kind -> tooth count, instead of the counts of the configuration.
-
-    Returns
-    -------
-    MeshPhasing
-        Phasing; angles of links are measured from the first direction of `configuration.frame`.
-
-    Raises
-    ------
-    QuestionError
-        If a kind has no tooth count.
-
-    Examples
-    --------
-    Gears in the faces of an icosidodecahedron; 3 must divide z3, and 5 must divide z5:
-
-    >>> from geartrain.spherical import from_polyhedron, solid
-    >>> gears = from_polyhedron(solid("icosidodecahedron"))
-    >>> [bool(spherical_phasing(gears, {"5": five, "3": 6})) for five in (10, 12)]
-    [True, False]
-    """
-    counts = {**configuration.teeth, **(teeth or {})}
-    missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
-    if missing:
-        what = f"no tooth count is given for {', '.join(missing)}"
-        raise QuestionError(
-            Trouble(
-                what,
-                "phases depend on tooth counts",
-                "give `teeth` for every kind, or use `spherical_divisibility_rule`",
-            )
-        )
-    return _closure(configuration, [counts[kind] for kind in configuration.kinds])
-
-
-def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRule | None:
-    """Return the divisibility rule that tooth counts must satisfy for the assembly of gears whose axes pass
-    through one point.
-
-    Parameters
-    ----------
-    configuration : SphericalGears
-        Configuration of gears, such as a `geartrain.spherical.Configuration`; its tooth counts do not matter.
-
-    Returns
-    -------
-    DivisibilityRule or None
-        Rule; None if the contacts are not at known rational fractions of a turn.
-
-    Examples
-    --------
-    >>> from geartrain.spherical import from_polyhedron, solid
-    >>> spherical_divisibility_rule(from_polyhedron(solid("icosidodecahedron"))).text
-    '3 divides z3 and 5 divides z5'
-    """
-    return _closure(configuration, [1] * len(configuration.names)).rule
-
-
-def _closure(configuration: SphericalGears, counts: Sequence[int]) -> MeshPhasing:
-    names = configuration.names
-    circuits = tuple(
-        Circuit(
-            f"{names[i]}~{names[j]}", "gear", names[i], names[j], _FRAME, counts[i], counts[j], (names[i], names[j])
-        )
-        for i, j in configuration.meshes
-    )
-    contacts = _contacts(configuration, circuits)
-    parts = find_components((_FRAME, *names), _FRAME, circuits)
-    return MeshPhasing(PhaseSystem(parts, contacts), {}, lambda: dict(zip(names, configuration.kinds, strict=True)))
-
-
-def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> PitchPoints:
-    meshes = np.array(configuration.meshes, int).reshape(-1, 2)
-    azimuth, sine = spherical_azimuths(np.asarray(configuration.axes, float), meshes)
-    keys: list[tuple[object, object]] = []
-    part: list[tuple[Fraction, Fraction]] = []
-    first: dict[int, float] = {}
-    for pair, turns in zip(meshes.tolist(), azimuth.tolist(), strict=True):
-        found = []
-        key: list[object] = []
-        for gear, turn in zip(pair, turns, strict=True):
-            parts = configuration.regular[gear]
-            step = (turn - first.setdefault(gear, turn)) * parts
-            if abs(step - round(step)) > _OFF * parts:
-                what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
-                why = f"it is declared with `regular` {parts}"
-                raise QuestionError(Trouble(what, why, "declare it with `regular` 0"))
-            found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
-            key.append(gear if parts else (len(keys), gear))
-        part.append((found[0], found[1]))
-        keys.append((key[0], key[1]))
-    family, _ = contact_families(keys)
-    # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
-    slack = 16 * EPS / sine[:, None] * np.ones(2)
-    return PitchPoints(circuits, azimuth, slack, family, part)
-
-
-def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats]:
-    """Return the azimuths of both contacts of every mesh about outward axes [turn], and the sine of the angle between
-    the axes.
-
-    The azimuth is measured from the direction normal to the axis and to the coordinate axis farthest from it.
-    """
-    # coordinate axis farthest from the axis, so that the cross product is never near 0
-    minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
-    first = np.cross(axes, minimum)
-    first /= np.linalg.norm(first, axis=1)[:, None]
-    second = np.cross(axes, first)
-    own, mate = axes[meshes], axes[meshes[:, ::-1]]
-    x = (mate * first[meshes]).sum(axis=2)
-    y = (mate * second[meshes]).sum(axis=2)
-    sine = np.linalg.norm(np.cross(own[:, 0], mate[:, 0]), axis=1)
-    return np.mod(np.arctan2(y, x) / math.tau, 1.0), sine

@@ -405,7 +405,7 @@ class PhaseSystem:
 
     def _condition(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> PhaseCondition:
         contacts = self.contacts
-        families = self._families(cycle, row)
+        families = self._families(row)
         slack = 0.0
         for mesh, weight in row.items():
             slack += abs(weight) * self._uncertainty[mesh]
@@ -437,26 +437,14 @@ class PhaseSystem:
             Fraction(weight) * Fraction(constant) % 1
         )  # exact, because a large weight would cancel the digits of the fraction
 
-    def _families(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> list[int] | None:
+    def _families(self, row: Mapping[int, int]) -> list[int] | None:
         """Return the families of all contacts of a condition if their unknown angles cancel; None if the residue is
         known only in floats.
         """
-        family = self.contacts.family
-        if cycle is not None:
-            found = []
-            before = cycle.meshes[-1]
-            for node, mesh in zip(cycle.nodes, cycle.meshes, strict=True):
-                came = family[before][self.ends[before][1] == node]
-                # contacts of different families have an unknown angle between them
-                if came != family[mesh][self.ends[mesh][1] == node]:
-                    return None
-                found.append(came)
-                before = mesh
-            return found
         total: dict[int, int] = {}
         for mesh, weight in row.items():
             circuit = self.circuits[mesh]
-            for number, factor in zip(family[mesh], (circuit.a, circuit.b), strict=True):
+            for number, factor in zip(self.contacts.family[mesh], (circuit.a, circuit.b), strict=True):
                 total[number] = total.get(number, 0) + weight * factor
         return None if any(total.values()) else list(total)
 

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 from geartrain.kinematics.speeds.exact_speeds import (
     EXACT_BUDGET,
     Solution,
-    determined_verdict,
     exact_verdict,
     solve,
 )
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, is_regular, solve_floats
+    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
     from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
 
 __all__ = [
@@ -22,10 +21,8 @@ __all__ = [
     "FloatSpeeds",
     "Mobility",
     "Solution",
-    "determined_verdict",
     "exact_verdict",
     "find_mobility",
-    "is_regular",
     "solve",
     "solve_floats",
 ]
@@ -34,7 +31,7 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
-        **dict.fromkeys(("FloatSpeeds", "is_regular", "solve_floats"), "float_speeds"),
+        **dict.fromkeys(("FloatSpeeds", "solve_floats"), "float_speeds"),
         **dict.fromkeys(("Mobility", "find_mobility"), "mobility"),
     },
 )

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from copy import copy
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.rounding_bounds import two_product, two_sum
@@ -16,7 +14,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 _ABREAST = 64  # right-hand sides solved together, which bounds memory
-_LOW = 1e-200  # smaller entries of a scaled row are dropped: their products would underflow
 
 
 class PaddedRows:
@@ -32,23 +29,6 @@ class PaddedRows:
             for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
                 self.columns[at, position] = self.at[link]
                 self.coefficients[at, position] = coefficient
-        self.low = np.zeros_like(self.coefficients, dtype=bool)
-
-    def scaled(self, exponents: NDArray[np.int64]) -> tuple[PaddedRows, NDArray[np.int64]]:
-        """Return the rows for scaled speeds, and the exponent of the power of two by which each row was divided.
-
-        The largest entry of each row is then between 1 and 2. Scaling causes no rounding. Entries below 1e-200 are
-        dropped, because their products would underflow in residuals. `sunk` returns a bound on their effect.
-        """
-        sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
-        shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
-        # clipped to fit a C int; times 2**-2000 every float64 underflows to 0
-        moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
-        near = copy(self)
-        near.coefficients = np.ldexp(self.coefficients, moved)
-        near.low = (self.coefficients != 0) & (np.abs(near.coefficients) < _LOW)
-        near.coefficients[near.low] = 0.0
-        return near, shifts
 
     def matrix(self) -> Any:
         """Return the rows as a sparse matrix in compressed column format."""
@@ -60,12 +40,14 @@ class PaddedRows:
         entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
         return csc_array(entries, shape=(size, len(self.at)))
 
-    def factorise(self, ordering: str) -> Any:
-        """Return the sparse LU factors of the matrix, computed by SuperLU."""
+    def factorise(self) -> Any:
+        """Return the sparse LU factors of the matrix, computed by SuperLU; only the ordering COLAMD never takes
+        quadratic time.
+        """
         from scipy.sparse import linalg
 
         solver: Any = linalg
-        return solver.splu(self.matrix(), permc_spec=ordering)
+        return solver.splu(self.matrix(), permc_spec="COLAMD")
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
         """Return right + remainder - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump
@@ -89,11 +71,6 @@ class PaddedRows:
     def size(self, x: Floats) -> Floats:
         """Return |A| |x|, one value for each row and case."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
-        return total
-
-    def sunk(self, x: Floats) -> Floats:
-        """Return a bound on the contribution of dropped entries, one value for each row and case."""
-        total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition number beyond float64 is infinite

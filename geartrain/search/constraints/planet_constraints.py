@@ -13,12 +13,11 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import (
     PhaseArithmetic,
-    PlanetArm,
+    Planet,
+    mesh_counts,
     neighbour_terms,
     passing_terms,
     phase_numbers,
-    planet_arm,
-    planet_contact,
 )
 from geartrain.search.constraints.count_conditions import (
     Condition,
@@ -34,7 +33,7 @@ from geartrain.search.constraints.count_conditions import (
 )
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, Planet, PlanetSet, TrainAssembly
+    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly
     from geartrain.numerics.arrays import Bools, Ints
     from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
 
@@ -42,7 +41,7 @@ if TYPE_CHECKING:
 # Assembly of equal, equally spaced planets.
 
 
-def can_mesh(number: int, first: PlanetArm, columns: CandidateColumns) -> Bools:
+def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
     """Return whether n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
     The condition is that n divides each number of `phase_numbers`, which derives it.
@@ -78,11 +77,13 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
     then be assembled.
     """
     assert found.planets is not None
-    first = planet_arm(found.planets)
-    if sum(len(planet.central) for planet in found.planets.walk()) < 2:
+    planets = list(found.planets.walk())
+    if sum(len(planet.central) for planet in planets) < 2:
         return None
-    wheels = free_of(*(part for contact in first.contacts() for part in (contact.own, contact.mate)))
-    return Condition(name, wheels, partial(can_mesh, number, first)) if wheels else None
+    counts = [mesh_counts(planet, mesh) for planet in planets for mesh in planet.central]
+    counts += [mesh_counts(planet, mesh, other) for planet in planets for mesh, other in planet.outward]
+    wheels = free_of(*(part for pair in counts for part in pair))
+    return Condition(name, wheels, partial(can_mesh, number, found.planets)) if wheels else None
 
 
 def reason(found: PlanetSet, number: int) -> str:
@@ -91,11 +92,11 @@ def reason(found: PlanetSet, number: int) -> str:
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
         return f"{head}: teeth of {found.title} mesh"
-    one, other = (planet_contact(planet, mesh) for mesh in planet.central)
-    sign = "+" if one.sense * other.sense < 0 else "-"
+    (own, mate), (own2, mate2) = (mesh_counts(planet, mesh) for mesh in planet.central)
+    sign = "+" if planet.central[0].sense * planet.central[1].sense < 0 else "-"
     if len(planet.wheels) == 1:
-        return f"{head}: {number} divides {one.mate} {sign} {other.mate}"
-    return f"{head}: {number} gcd({one.own}, {other.own}) divides {one.mate} {other.own} {sign} {other.mate} {one.own}"
+        return f"{head}: {number} divides {mate} {sign} {mate2}"
+    return f"{head}: {number} gcd({own}, {own2}) divides {mate} {own2} {sign} {mate2} {own}"
 
 
 # Clearance between planets: neighbours on a carrier, and planets that mesh with each other.

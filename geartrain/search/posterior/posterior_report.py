@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.long_float import rounded
 from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.search.tooth_numbers_report import error_text
 
@@ -156,8 +155,7 @@ def _deciding(shares: Sequence[VarianceShares]) -> Section:
         strongest = sorted(one.whole, key=lambda wheel: -float(one.whole[wheel]))[:_DECIDING]
         listed = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
         listed = listed if one.exact else f"about {listed}"
-        mean = rounded(one.mean) if isinstance(one.mean, Fraction) else one.mean
-        rows.append((one.output, figure(mean), figure(one.spread, 4), listed))
+        rows.append((one.output, figure(one.mean), figure(one.spread, 4), listed))
     line = "Shares of the prior variance of each speed that remain if all other counts are known (total Sobol indices)."
     return Section("Sensitivity of outputs to tooth counts", [line], [Table(_DECIDED, cut(rows))])
 

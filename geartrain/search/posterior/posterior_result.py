@@ -9,7 +9,6 @@ from itertools import islice
 from typing import Any, ClassVar, Literal, NotRequired, TypedDict
 
 from geartrain.numerics.exact import as_float, decimal
-from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.posterior.inference_problem import ObservedOutput, ToothCountPrior
 from geartrain.search.weighted_alternatives import relative_entropy
@@ -161,7 +160,7 @@ class VarianceShares(Result):
     """
 
     KEYS = (
-        *("output", Key("mean", to=as_float), Key("spread", to=as_plain), Key("own", to=float), Key("whole", to=float)),
+        *("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float)),
         *("exact", "samples"),
     )
 
@@ -169,8 +168,8 @@ class VarianceShares(Result):
     """Name of the output."""
     mean: Fraction | float
     """Prior mean of the speed in the unit of the train."""
-    spread: Real
-    """Prior standard deviation of the speed in the unit of the train; a `LongFloat` beyond 1e308."""
+    spread: float | None
+    """Prior standard deviation of the speed in the unit of the train; None beyond the range of float64."""
     own: Mapping[str, Fraction | float]
     """First-order Sobol index of each wheel, 0 to 1: fraction of the variance that vanishes if its count is known."""
     whole: Mapping[str, Fraction | float]

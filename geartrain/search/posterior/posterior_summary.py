@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from geartrain.kinematics.formulas import Formula
 from geartrain.numerics.arrays import Floats
 from geartrain.numerics.confidence_intervals import deviations, wilson
+from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
-from geartrain.numerics.long_float import Real, rounded
 from geartrain.search.join.inside_outside import GradedAssignment
 from geartrain.search.posterior.inference_problem import InferenceProblem, ToothCountPrior
 from geartrain.search.posterior.posterior_result import (
@@ -331,12 +331,12 @@ def _exact_indices(
     return VarianceShares(name, mean, _root(variance), own, whole, True)
 
 
-def _root(value: Fraction) -> Real:
-    """Return the square root of a positive Fraction of any size, to 53 bits."""
+def _root(value: Fraction) -> float | None:
+    """Return the square root of a positive Fraction, to 53 bits; None beyond the range of float64."""
     # scale by an even power of two to about 2^128, so that the integer square root has at least 63 bits
     shift = (128 - value.numerator.bit_length() + value.denominator.bit_length()) // 2
     power = Fraction(2) ** shift
-    return rounded(Fraction(isqrt(int(value * power * power))) / power)
+    return as_float(Fraction(isqrt(int(value * power * power))) / power)
 
 
 def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior]) -> VarianceShares | None:

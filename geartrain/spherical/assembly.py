@@ -1,0 +1,216 @@
+"""Assembly conditions of gears on a sphere: phases of their meshes, and rules for the tooth numbers.
+
+The set can be assembled if each loop of a basis contains an integer number of teeth, equation (3) of docs/closure.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import lcm, tau
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.components import find_components
+from geartrain.kinematics.phasing import DivisibilityRule, MeshPhasing
+from geartrain.kinematics.phasing.azimuths import EPS, MOUNT, PitchPoints, contact_families
+from geartrain.kinematics.phasing.phase_system import PhaseSystem
+from geartrain.spherical.configuration import Configuration, kinds_in_order
+from geartrain.spherical.pitch_cones import azimuths
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+    Mask = NDArray[np.bool_]
+
+_FRAME = MOUNT  # cannot be the name of a gear
+_OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regular
+
+
+def spherical_phasing(configuration: Configuration, teeth: Mapping[str, int] | None = None) -> MeshPhasing:
+    """Check the assembly condition of gears whose axes pass through one point.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        Set of gears.
+    teeth : mapping of str to int, optional
+        Kind -> tooth count, instead of the counts of the configuration.
+
+    Returns
+    -------
+    MeshPhasing
+        Phasing; angles of links are measured from the first direction of `configuration.frame`.
+
+    Raises
+    ------
+    QuestionError
+        If a kind has no tooth count.
+
+    Examples
+    --------
+    Gears in the faces of an icosidodecahedron; 3 must divide z3, and 5 must divide z5:
+
+    >>> from geartrain.spherical import from_polyhedron, solid
+    >>> gears = from_polyhedron(solid("icosidodecahedron"))
+    >>> [bool(spherical_phasing(gears, {"5": five, "3": 6})) for five in (10, 12)]
+    [True, False]
+    """
+    counts = {**configuration.teeth, **(teeth or {})}
+    missing = [kind for kind in kinds_in_order(configuration) if kind not in counts]
+    if missing:
+        what = f"no tooth count is given for {', '.join(missing)}"
+        raise QuestionError(
+            Problem(
+                what,
+                "phases depend on tooth counts",
+                "give `teeth` for every kind, or use `spherical_divisibility_rule`",
+            )
+        )
+    return _closure(configuration, [counts[kind] for kind in configuration.kinds])
+
+
+def spherical_divisibility_rule(configuration: Configuration) -> DivisibilityRule | None:
+    """Return the divisibility rule that tooth counts must satisfy for the assembly of gears whose axes pass
+    through one point.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        Set of gears; its tooth counts do not matter.
+
+    Returns
+    -------
+    DivisibilityRule or None
+        Rule; None if the contacts are not at known rational fractions of a turn.
+
+    Examples
+    --------
+    >>> from geartrain.spherical import from_polyhedron, solid
+    >>> spherical_divisibility_rule(from_polyhedron(solid("icosidodecahedron"))).text
+    '3 divides z3 and 5 divides z5'
+    """
+    return _closure(configuration, [1] * len(configuration.names)).rule
+
+
+def _closure(configuration: Configuration, counts: Sequence[int]) -> MeshPhasing:
+    names = configuration.names
+    circuits = tuple(
+        Circuit(
+            f"{names[i]}~{names[j]}", "gear", names[i], names[j], _FRAME, counts[i], counts[j], (names[i], names[j])
+        )
+        for i, j in configuration.meshes
+    )
+    contacts = _contacts(configuration, circuits)
+    parts = find_components((_FRAME, *names), _FRAME, circuits)
+    return MeshPhasing(PhaseSystem(parts, contacts), {}, lambda: dict(zip(names, configuration.kinds, strict=True)))
+
+
+def _contacts(configuration: Configuration, circuits: tuple[Circuit, ...]) -> PitchPoints:
+    meshes = np.array(configuration.meshes, int).reshape(-1, 2)
+    axes, (i, j) = configuration.axes, meshes.T
+    azimuth = np.stack([azimuths(axes, i, j), azimuths(axes, j, i)], axis=1) / tau % 1.0
+    sine = np.linalg.norm(np.cross(axes[i], axes[j]), axis=1)
+    keys: list[tuple[object, object]] = []
+    part: list[tuple[Fraction, Fraction]] = []
+    first: dict[int, float] = {}
+    for pair, turns in zip(meshes.tolist(), azimuth.tolist(), strict=True):
+        found = []
+        key: list[object] = []
+        for gear, turn in zip(pair, turns, strict=True):
+            parts = configuration.regular[gear]
+            step = (turn - first.setdefault(gear, turn)) * parts
+            if abs(step - round(step)) > _OFF * parts:
+                what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
+                why = f"it is declared with `regular` {parts}"
+                raise QuestionError(Problem(what, why, "declare it with `regular` 0"))
+            found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
+            key.append(gear if parts else (len(keys), gear))
+        part.append((found[0], found[1]))
+        keys.append((key[0], key[1]))
+    family, _ = contact_families(keys)
+    # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
+    slack = 16 * EPS / sine[:, None] * np.ones(2)
+    return PitchPoints(circuits, azimuth, slack, family, part)
+
+
+def wrapped(turns: Floats) -> Floats:
+    """Return `turns` minus the nearest integer, -1/2 to 1/2."""
+    return np.asarray(turns - np.round(turns), dtype=float)
+
+
+def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float], tolerance: float) -> Mask:
+    """Return a mask of the tooth numbers for which sum z_k a_k is an integer, docs/closure.md (3).
+
+    The test is exact if all a_k are Fractions, otherwise with `tolerance` [pitch]. z_k a_k is the signed number of
+    teeth that gears of kind k have inside one loop of meshes.
+    """
+    if all(isinstance(share, Fraction) for share in rule):
+        # integer arithmetic over the common denominator
+        whole = lcm(*(Fraction(share).denominator for share in rule))
+        total = sum(z * int(Fraction(share) * whole) for z, share in zip(teeth, rule, strict=True))
+        return np.asarray(total % whole == 0)
+    return np.asarray(np.abs(residue(teeth, rule)) <= tolerance)
+
+
+def residue(teeth: Sequence[Any], rule: Sequence[Fraction | float]) -> Floats:
+    """Return the closing error of a loop [pitch]: sum z_k a_k minus the nearest integer."""
+    return wrapped(np.asarray(sum(z * float(share) for z, share in zip(teeth, rule, strict=True)), dtype=float))
+
+
+def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[int]:
+    """Return for each kind an integer that divides its tooth number if all exact rules are satisfied.
+
+    If sum z_k a_k is an integer, m a_i z_i is an integer too, where m is the common denominator of the other a_k.
+    """
+    found = [1] * kinds
+    for rule in rules:
+        if all(isinstance(share, Fraction) for share in rule):
+            shares = [Fraction(share) for share in rule]
+            for at, share in enumerate(shares):
+                others = lcm(*(other.denominator for k, other in enumerate(shares) if k != at))
+                found[at] = lcm(found[at], (others * share).denominator)
+    return found
+
+
+def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:
+    """Return the assembly conditions as factors a_k of the kinds' tooth numbers, each distinct condition once.
+
+    For every loop of a basis, sum z_k a_k must be an integer. The factors are Fractions if the contacts of every gear
+    in the loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
+    """
+    phasing = _closure(configuration, [1] * len(configuration.names))
+    parts = phasing.problem.parts
+    if parts.breaking:
+        names = " - ".join(parts.loop(parts.breaking[0]).links)
+        raise QuestionError(
+            Problem(
+                f"loop {names} has an odd number of gears",
+                "meshing gears turn in opposite senses, so an odd loop locks",
+                "remove one mesh of the loop",
+            )
+        )
+    kind_of = dict(zip(configuration.names, configuration.kinds, strict=True))
+    found: dict[tuple[Fraction | float, ...], None] = {}
+    for loop in phasing.loops:
+        total: dict[str, Fraction | float] = dict.fromkeys(kinds_in_order(configuration), Fraction(0))
+        for gear, share in (loop.inside or {}).items():
+            total[kind_of[gear]] += share
+        shares = _canonical(list(total.values()))
+        if any(shares):
+            found[shares] = None
+    return tuple(found)
+
+
+def _canonical(shares: Sequence[Fraction | float]) -> tuple[Fraction | float, ...]:
+    """Return factors modulo integers; a loop traversed backwards has the same ones."""
+    if all(isinstance(share, Fraction) for share in shares):
+        return min(tuple(share % 1 for share in shares), tuple(-share % 1 for share in shares))
+    # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule
+    around = [round(float(wrapped(np.asarray(share, dtype=float))), 13) for share in shares]
+    return max(tuple(around), tuple(-share if share else 0.0 for share in around))

@@ -67,13 +67,10 @@ def test_a_picture_of_the_designs_and_of_a_front(tmp_path: Path) -> None:
 
 
 def test_radii_are_varied_as_one_number() -> None:
-    """The best of three is pitch-true radii's better neighbour, and beside it the phases change."""
     done = call(*PAIR, "-p", "window=0.5", "--friction", "0.2", "--vary", "radii=0.94:1:4")
     rows = [line.split(",") for line in done.stdout.splitlines()]
     assert rows[0][0] == "radii"
     assert [round(float(row[0]), 3) for row in rows[1:]] == [0.94, 0.96, 0.98, 1.0]
-    efficiency = [float(row[rows[0].index("efficiency_mean")]) for row in rows[1:]]
-    assert efficiency == pytest.approx([0.9678, 0.9751, 0.9906, 0.9773], abs=5e-5)
 
 
 def test_one_number_stands_for_two_radii() -> None:

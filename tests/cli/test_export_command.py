@@ -20,14 +20,7 @@ def test_a_folder_holds_all_that_was_requested_for_and_a_list_of_it(tmp_path: Pa
     done = call("export", "planetary-24-18-60", "--to", to, "--as", LIGHT)
     assert done.exit_code == 0, done.output
     files = {str(path.relative_to(to)) for path in to.rglob("*") if path.is_file()}
-    assert {
-        "README.md",
-        "wheels/s.svg",
-        "wheels/ring.svg",
-        "graph.dot",
-        "gear-unit.rexsj",
-        "tables/wheels.csv",
-    } <= files
+    assert {"README.md", "wheels/s.svg", "wheels/ring.svg", "graph.dot", "gear-unit.rexsj"} < files
     table = re.search(r"^\| file .*?(?=\n\n|\Z)", (to / "README.md").read_text(encoding="utf-8"), re.M | re.S)
     assert table is not None
     listed = set(re.findall(r"^\| (\S+) \|", table.group(), re.M)) - {"file", "---"}
@@ -153,18 +146,10 @@ def test_names_and_titles_of_any_letters_are_harmless(tmp_path: Path) -> None:
     assert {path.name for path in tmp_path.iterdir()} == {"odd.yaml", "set"}
 
 
-@pytest.mark.parametrize(
-    ("library", "out", "package"),
-    [
-        ("ezdxf", "s.dxf", "ezdxf>=1.3"),
-        ("OCP", "set.step", "cadquery-ocp-novtk>=7.8"),
-    ],
-)
-def test_a_missing_library_is_named_with_its_package(library: str, out: str, package: str, tmp_path: Path) -> None:
-    more = ["--wheel", "s"] if out.startswith("s.") else []
-    done = without(library, arguments=["export", "planetary-24-18-60", "-o", tmp_path / out, *more])
+def test_a_missing_library_is_named_with_its_package(tmp_path: Path) -> None:
+    done = without("OCP", arguments=["export", "planetary-24-18-60", "-o", tmp_path / "set.step"])
     assert done.returncode == 2
-    assert f"pip install '{package}'" in done.stderr
+    assert "pip install 'cadquery-ocp-novtk>=7.8'" in done.stderr
     assert "Traceback" not in done.stderr
     assert list(tmp_path.iterdir()) == []
 

@@ -23,6 +23,7 @@ from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 from geartrain.teeth.pin_transmission import PinTransmission
+from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -251,74 +252,45 @@ def test_any_option_of_a_number_takes_or_refuses_any_number(
 
 # ------------------------------------------------------------------------------------------------------- the library
 
-ODD = (0.0, -1.0, 1e-300, 1e300, nan, inf, -inf, 0.3, 1.01, 30.0)
+ODD = st.sampled_from((0.0, -1.0, 1e-300, 1e300, nan, inf, -inf, 0.3, 1.01, 30.0))
+Pins = type[PinTransmission]
 
 
-def right_or_refused(ask: Callable[[], list[float]]) -> bool:
-    """True for finite numbers, and for a refusal that says what to do."""
+def right_or_refused(make: Callable[[], TransmissionFunction]) -> bool:
+    """True for a transmission function with finite figures, and for a refusal that says what to do."""
     try:
-        found = ask()
+        made = make()
+        found = [*made.speed_range(), *made.error_moments(), *made.error_range(), *made.error(np.linspace(0, 9, 7))]
     except GearTrainError as error:
         return all(problem.what and problem.fix for problem in error.problems)
     return bool(np.isfinite(found).all())
 
 
-@given(*[st.sampled_from(ODD)] * 3, st.integers(-1, 40), st.integers(-1, 40))
+@given(ODD, ODD, ODD, st.integers(-1, 40), st.integers(-1, 40))
 @settings(max_examples=150, deadline=None)
 def test_sizes_and_transmissions_of_triangular_teeth_take_or_refuse_any_number(
     radius: float, beta: float, excess: float, z1: int, z2: int
 ) -> None:
-    def ask() -> list[float]:
-        transmission = TriangularTransmission(TriangularSizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
-        return [
-            *transmission.error_range(),
-            *transmission.speed_range(),
-            *transmission.error_moments(),
-            *transmission.error(np.linspace(0, 9, 7)),
-        ]
-
     with warnings.catch_warnings(), bounded(SECONDS):
         warnings.simplefilter("error")
-        assert right_or_refused(ask)
+        sizes = (z1, z2, radius, radius, beta, beta, excess)
+        assert right_or_refused(lambda: TriangularTransmission(TriangularSizes(*sizes), 0.1))
 
 
-@given(
-    st.sampled_from(ODD),
-    st.sampled_from(ODD),
-    st.sampled_from(ODD),
-    st.sampled_from((PinToSlotTransmission, SlotToPinTransmission)),
-)
-def test_transmissions_of_pins_take_or_refuse_any_number(
-    r: float, e: float, friction: float, transmission: type[PinTransmission]
-) -> None:
-    def ask() -> list[float]:
-        made = transmission(r, e, friction)
-        return [made.amplitude, *made.speed_range(), *made.error_moments(), *made.error(np.linspace(0, 9, 7))]
-
-    assert right_or_refused(ask)
+@given(ODD, ODD, ODD, st.sampled_from((PinToSlotTransmission, SlotToPinTransmission)))
+def test_transmissions_of_pins_take_or_refuse_any_number(r: float, e: float, friction: float, kind: Pins) -> None:
+    assert right_or_refused(lambda: kind(r, e, friction))
 
 
-@pytest.mark.parametrize(
-    "ask",
-    [
-        TriangularTransmission.error_range,
-        TriangularTransmission.speed_range,
-        TriangularTransmission.error_moments,
-        TriangularTransmission.efficiency_mean,
-        TriangularTransmission.efficiency_at_constant_load,
-        TriangularTransmission.kinks,
-        lambda transmission: transmission.jumps,
-    ],
-)
 @pytest.mark.parametrize("excess", [0.04, 1.0, 1e300])
-def test_the_transmission_of_wheels_apart_is_refused_in_words(
-    ask: Callable[[TriangularTransmission], object], excess: float
-) -> None:
+def test_the_transmission_of_wheels_apart_is_refused_in_words(excess: float) -> None:
     radii = equal_depth(48, 96, pi / 6, pi / 6)
     transmission = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, excess))
     assert transmission.verdict.kind == "apart"
-    with pytest.raises(GearTrainError, match="too far apart"):
-        ask(transmission)
+    results = ("error_range", "speed_range", "error_moments", "efficiency_mean", "efficiency_at_constant_load", "kinks")
+    for ask in (*(getattr(transmission, name) for name in results), lambda: transmission.jumps):
+        with pytest.raises(GearTrainError, match="too far apart"):
+            ask()
 
 
 @pytest.mark.parametrize("turns", [1e300, nan, inf, -inf, 1e13])

@@ -127,11 +127,8 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
     requested = journal_key(plan, 1, 300)
     Journal(here / "j", requested).close()
     others = [
-        journal_key(plan, 2, 300),
-        journal_key(plan, 1, 301),
-        journal_key(plan.scaled(1.01), 1, 300),
-        journal_key(plan.cleared(1.03), 1, 300),
-        requested | {"geartrain": "0.0.0"},
+        *(journal_key(plan, 2, 300), journal_key(plan, 1, 301), requested | {"geartrain": "0.0.0"}),
+        *(journal_key(each, 1, 300) for each in (plan.scaled(1.01), plan.cleared(1.03))),
     ]
     for other in others:
         with pytest.raises(QuestionError, match="another run"):

@@ -171,20 +171,10 @@ def test_bad_input_is_refused_with_a_way_out(arguments: list[str], what: str, ha
 
 # cut and taken up ----------------------------------------------------------------------------------------------------
 
-LONG = [
-    "teeth",
-    "ratio",
-    "13.36838",
-    "--stages",
-    "4",
-    "--range",
-    "12:120",
-    "--tolerance",
-    "1e-9",
-    "--best",
-    "5",
-    "--json",
-]
+LONG = (
+    *("teeth", "ratio", "13.36838", "--stages", "4", "--range", "12:120"),
+    *("--tolerance", "1e-9", "--best", "5", "--json"),
+)
 
 
 def start(folder: Path, *more: str) -> subprocess.Popen[str]:

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 import shipped
-from test_viewer_themes import TEXTS, contrast
-from test_viewer_trains import BLIND
-from viewing import DESK, tab, wait
+from test_viewer_themes import TEXTS
+from viewing import BLIND, DESK, contrast, tab, wait
 
 from geartrain import GearTrain, load
 from geartrain.scene import make_scene

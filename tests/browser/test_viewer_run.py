@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenPage, SharePage, Shown
-from viewing import DESK, tab, wait
+from conftest import SharePage, Shown
+from viewing import Opening, tab, wait
 
 from geartrain import load
 from geartrain.scene import Scene, build_scene
@@ -158,10 +156,8 @@ def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     assert shown.requests == []
 
 
-def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(open_page: OpenPage, tmp_path: Path) -> None:
-    path = tmp_path / "page.html"
-    path.write_text(page([shipped.built("planetary-24-18-60")], teeth=False), encoding="utf-8")
-    plain = open_page(path, **DESK)
+def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(show: Opening) -> None:
+    plain = show("planetary-24-18-60")
     assert plain.page.get_by_role("slider", name="crank").count() == 1
     assert plain.page.get_by_role("tab", name="Contacts").count() == 0
 
@@ -173,14 +169,10 @@ gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.98}]
 """
 
 
-def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(
-    open_page: OpenPage, tmp_path: Path
-) -> None:
+def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(share: SharePage) -> None:
     train = load(PLANETARY)
     run = train.dynamics(rate="1 turn/s", turns=1, skip=0, steps=1000, fast=False)
-    path = tmp_path / "run.html"
-    path.write_text(page([build_scene(train, run=run)], teeth=False), encoding="utf-8")
-    shown = open_page(path, **DESK)
+    shown = share(page([build_scene(train, run=run)], teeth=False))
     rows = shown.run(
         """() => {
           geartrain.setTurns(0.77);

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 import shipped
 from commands import call
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab, turns, wait
+from viewing import ANTIKYTHERA, BLIND, LOCKED, SIMPLE, Opening, rgb, tab, turns, wait
 
 from geartrain import load
 
@@ -44,7 +44,6 @@ def test_links_lead_only_to_the_web(show_shared: Opening) -> None:
 
 
 SVG = "{http://www.w3.org/2000/svg}"
-BLIND = "HTMLCanvasElement.prototype.getContext = () => null"
 
 
 def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> None:

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from clusters import PATIENCE, next_line
 from playwright.sync_api import Browser, Page
+from viewing import listen
 
 pytest.importorskip("tornado", reason="the extra 'watch' is not installed")
 pytest.importorskip("watchdog", reason="the extra 'watch' is not installed")
@@ -73,8 +74,7 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     browser: Browser, served: tuple[str, subprocess.Popen[str]], file: Path, parent: Path
 ) -> None:
     page = browser.new_page(viewport={"width": 1200, "height": 700})
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
+    wrong = listen(page, served[0], served[0].replace("http", "ws"), "data:", "blob:", "about:")
     page.goto(served[0])
     follow(page, 1)
     report, view = page.frame_locator("#report"), page.frames[2]
@@ -98,7 +98,7 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     file.write_text("extends: elsewhere/parent.yaml\ntitle: Second\n", encoding="utf-8")
     told.wait_for(state="hidden")
     report.get_by_text("Second").first.wait_for()
-    assert not errors
+    assert not wrong
     page.close()
 
 

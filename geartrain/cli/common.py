@@ -156,8 +156,8 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
         return STANDARD
     if is_standard(out):
         if option != "-o":
-            why = "standard output is reserved for the result of the command"
-            raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
+            what, why = f"{option} cannot write to standard output", "it is reserved for the result of the command"
+            raise option_error(option, what, "give a file name", why)
         return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
 
@@ -185,10 +185,8 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
         real = destination(each.path, each.force)
         if real in taken:
-            why = "the second would overwrite the first"
-            raise GearTrainError(
-                Problem("two results are written to the same file", why, "give two different files", str(each.path))
-            )
+            what, why = "two results are written to the same file", "the second would overwrite the first"
+            raise option_error(str(each.path), what, "give two different files", why)
         taken.add(real)
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations
-from math import comb, log, sqrt
+from itertools import combinations, pairwise
+from math import comb, log
+from statistics import pstdev
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
@@ -53,7 +54,7 @@ class GearSeries(Result):
     @property
     def steps(self) -> tuple[Fraction, ...]:
         """Step of each gear: its ratio divided by the ratio of the next gear."""
-        return tuple(a / b for a, b in zip(self.ratios, self.ratios[1:], strict=False))
+        return tuple(a / b for a, b in pairwise(self.ratios))
 
     @property
     def spread(self) -> Fraction:
@@ -63,14 +64,12 @@ class GearSeries(Result):
     @property
     def deviation(self) -> float:
         """Standard deviation of the natural logarithms of the steps; 0 for equal steps."""
-        logs = [log(step) for step in self.steps]
-        mean = sum(logs) / len(logs)
-        return sqrt(sum((each - mean) ** 2 for each in logs) / len(logs))
+        return pstdev(map(log, self.steps))
 
     @property
     def double_shifts(self) -> int:
         """Number of shifts in which more than one element opens or more than one element closes."""
-        return sum(not _is_single(a, b) for a, b in zip(self.gears, self.gears[1:], strict=False))
+        return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
 @dataclass(frozen=True)
@@ -124,9 +123,8 @@ class GearSearch(Tabular, Result):
     """Series with the minimum deviation of the steps; None if no series satisfies the request."""
 
     def _summary(self) -> str:
-        return (
-            f"{self.name}: {len(self.gears)} gears of {self.combinations} combinations of {self.closed} closed elements"
-        )
+        ways = f"{self.combinations} combinations of {self.closed} closed elements"
+        return f"{self.name}: {len(self.gears)} gears of {ways}"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -184,11 +182,9 @@ def find_gears(
     """
     source, link = gearbox_ends(train.declaration, output)
     closed, every, free, locked = _all_gears(train, source, link)
-    forward = sorted((each for each in every if each.ratio is not None and each.ratio > 0), key=_falling)
-    backward = sorted((each for each in every if each.ratio is not None and each.ratio < 0), key=_falling)
-    still = [each for each in every if each.ratio is None]
+    ordered = tuple(sorted(every, key=_rank))
+    forward = [each for each in ordered if each.ratio is not None and each.ratio > 0]
     ways = comb(len(train.declaration.clutches), closed)
-    ordered = (*forward, *backward, *still)
     found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, ordered, free, locked)
     if gears < 2:
         return found
@@ -200,9 +196,9 @@ def find_gears(
     return replace(found, requested=gears, series=count, widest=widest, evenest=evenest)
 
 
-def _falling(gear: PossibleGear) -> Fraction:
-    assert gear.ratio is not None
-    return -abs(gear.ratio)
+def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
+    """Return the sort key of gears: forward gears, reverse gears, each by decreasing ratio, then gears at rest."""
+    return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
 def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
@@ -232,8 +228,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
         names.setdefault(frozenset(state.engaged), []).append(name)
     # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
-        if comb(len(elements), size) > MOST_COMBINATIONS:
-            number = comb(len(elements), size)
+        if (number := comb(len(elements), size)) > MOST_COMBINATIONS:
             what = f"{size} of {len(elements)} shift elements can be closed in {number:,} combinations"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
@@ -241,8 +236,9 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
         answers = _solve_choices(train, choices)
         found = list(_gears(choices, answers, (source, link), names))
         if found:
-            free = _with_verdict({"free"}, choices, answers)
-            locked = _with_verdict({"locked", "contradictory"}, choices, answers)
+            kinds = {choice: answer.verdict.kind for choice, answer in zip(choices, answers, strict=True)}
+            free = tuple(choice for choice, kind in kinds.items() if kind == "free")
+            locked = tuple(choice for choice, kind in kinds.items() if kind in ("locked", "contradictory"))
             return _AllGears(size, found, free, locked)
     return _AllGears(len(elements), [])
 
@@ -264,10 +260,6 @@ def _gears(
         if answer.verdict and drive and out is not None:
             ratio = Fraction(drive) / Fraction(out) if out else None
             yield PossibleGear(choice, ratio, tuple(names.get(frozenset(choice), ())))
-
-
-def _with_verdict(kinds: Collection[str], choices: Sequence[_Choice], answers: Sequence[Answer]) -> tuple[_Choice, ...]:
-    return tuple(choice for choice, answer in zip(choices, answers, strict=True) if answer.verdict.kind in kinds)
 
 
 # ------------------------------------------------------------------------------------------------- series, as paths

@@ -156,8 +156,8 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
         return STANDARD
     if is_standard(out):
         if option != "-o":
-            what, why = f"{option} cannot write to standard output", "it is reserved for the result of the command"
-            raise option_error(option, what, "give a file name", why)
+            why = "standard output is reserved for the result of the command"
+            raise option_error(option, f"{option} cannot write to standard output", "give a file name", why)
         return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
 

@@ -136,7 +136,8 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
     """Raise `QuestionError` if options of --dynamics are given without it, or --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
-        what, why = "options of --dynamics are given without --dynamics", "the page shows the kinematics only"
+        what = "options of --dynamics are given without --dynamics"
+        why = "without --dynamics the page shows the kinematics only"
         raise QuestionError(Problem(what, why, "add --dynamics, or omit these options"))
     if dynamics and other is not None:
         why = "two trains on one page share a crank, but each simulation has its own time"

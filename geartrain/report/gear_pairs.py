@@ -84,6 +84,13 @@ def joined_table(rows: Sequence[AccountTable]) -> Table:
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
+def without_losses(mesh: GearMesh) -> Section | None:
+    """Return the section on the friction of a pair whose sliding losses are 0 or not known; None for other pairs."""
+    if not mesh.has_friction:
+        return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
+    return None if mesh.tells_losses else Section("Friction", (f"{mesh.friction_words}.",))
+
+
 def fault_text(fault: Problem) -> str:
     """Return the fault, its cause and its remedy as sentences."""
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Document, Section, Table, figure
+from geartrain.report.document import Document, Section, Table, figure, titled
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -337,7 +337,7 @@ def moving_sections(
     toothed   whether the train has real teeth
     """
     for each in found:
-        head = "Motion" if each.state is None else f"State {each.state}: motion"
+        head = titled(each.state, "motion")
         if isinstance(each, UnfollowedMotion):
             yield Section(head, [f"{problem.what}: {problem.why}." for problem in each.why.problems])
             continue
@@ -372,16 +372,8 @@ def _rippling(run: MotionRun) -> list[RunningStatistics]:
 def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
-        low, high = tally.speeds
-        rows.append(
-            (
-                tally.name,
-                figure(tally.ratio, 9),
-                f"{degrees(tally.peak_to_peak):.6g}",
-                f"{degrees(tally.rms):.6g}",
-                f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (divided by the input's)"),
-            )
-        )
+        speeds = "{:.5f}..{:.5f}".format(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
+        rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 
 

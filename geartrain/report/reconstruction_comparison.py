@@ -39,11 +39,8 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
     summary = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "numbers without a unit" for train in trains)
-    summary += [
-        f"'{label}' is {answer.verdict.kind}: {answer.verdict.text}"
-        for label, _, answer in columns
-        if not answer.verdict
-    ]
+    open_ = [(label, answer.verdict) for label, _, answer in columns if not answer.verdict]
+    summary += [f"'{label}' is {verdict.kind}: {verdict.text}" for label, verdict in open_]
     summary.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
     sections = [Section("Outputs", (), (Table(header, rows),))]
     targets = _targets(columns)
@@ -55,9 +52,8 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
         sections.append(Section("Error against the targets in ppm", tuple(said), (table,)))
     teeth = _teeth(trains)
     if teeth:
-        sections.append(
-            Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),))
-        )
+        table = Table(("wheel", *(train.name for train in trains)), teeth)
+        sections.append(Section("Wheels that differ", (), (table,)))
     return Document("Comparison", summary, sections)
 
 

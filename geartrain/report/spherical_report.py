@@ -128,17 +128,12 @@ def describe_suggestions(found: ToothCountSuggestions) -> Document:
     rejected sets.
     """
     kinds = list(dict.fromkeys(found.configuration.kinds))
-    rows = [
-        (
-            *(str(each.teeth[kind]) for kind in kinds),
-            f"{each.mismatch:+.9e}",
-            ", ".join(f"{degrees(a):.6f} {degrees(b):.6f}" for a, b in each.cones),
-            " ".join(f"{degrees(angle):.4f}" for angle in each.pressure),
-            f"{each.room:.2f}",
-            f"{each.residue:.3g}",
-        )
-        for each in found
-    ]
+    rows = []
+    for each in found:
+        cones = ", ".join(f"{degrees(a):.6f} {degrees(b):.6f}" for a, b in each.cones)
+        angles = " ".join(f"{degrees(angle):.4f}" for angle in each.pressure)
+        figures = (f"{each.mismatch:+.9e}", cones, angles, f"{each.room:.2f}", f"{each.residue:.3g}")
+        rows.append((*(str(each.teeth[kind]) for kind in kinds), *figures))
     gone = ", ".join(f"{count} by {reason}" for reason, count in found.removed.items())
     lines = [f"{found.considered} sets of tooth counts were considered; rejected: {gone}."]
     if not rows:

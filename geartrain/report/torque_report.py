@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.numerics.exact import as_float, percent_of_text, percent_text, watts_text
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
+from geartrain.report.document import Document, Section, Table, cut, figure, filled_table, titled
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -187,13 +187,11 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 # ----------------------------------------------------------------------------------------------------------------- page
 
 
-_UNITS = (
-    "Torques are in the unit of the loads. Power is torque times speed in the train's unit, positive into the train; "
-    "for a pair, relative to its carrier. Torques of brakes and locks act on the links that they hold."
-)
-_UNITS_IN_WATTS = (
-    "Torques are in N m. Power is torque times speed in real time, positive into the train; for a pair, relative to "
-    "its carrier. Torques of brakes and locks act on the links that they hold."
+_UNITS = "Torques are in the unit of the loads. Power is torque times speed in the train's unit"
+_UNITS_IN_WATTS = "Torques are in N m. Power is torque times speed in real time"
+_SIGNS = (
+    ", positive into the train; for a pair, relative to its carrier. Torques of brakes and locks act on the links that "
+    "they hold."
 )
 
 
@@ -256,7 +254,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     """Yield a section on the verdict, links and pairs of one state, then a section on its power flow and losses."""
     found, flow = figures.torques, figures.flow
     state = found.state
-    head = "Torques" if state is None else f"State {state}: torques"
+    head = titled(state, "torques")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
@@ -280,7 +278,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     yield Section(head, lines, tuple(tables))
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
-        yield Section("Power flow" if state is None else f"State {state}: power flow", *parts)
+        yield Section(titled(state, "power flow"), *parts)
 
 
 class _Amounts:
@@ -299,7 +297,7 @@ class _Amounts:
 
 def _units(found: Sequence[TorqueFigures]) -> str:
     real = [each.watts_per_unit is not None for each in found if each.torques.verdict]
-    return _UNITS_IN_WATTS if real and all(real) else _UNITS
+    return (_UNITS_IN_WATTS if real and all(real) else _UNITS) + _SIGNS
 
 
 def _links(found: Torques, amounts: _Amounts) -> Table:
@@ -433,7 +431,7 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
     """Yield sections on the crank torque over a run, on energies, and on the losses of each pair, pin and bearing."""
-    head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
+    head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     if found.turns is None:
@@ -445,8 +443,8 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
     lines += _remarks(found)
     yield Section(head, lines, (_torques(found), *_locked(found)))
     if found.energy is not None:
-        title = "Energy over the run" if found.state is None else f"State {found.state}: energy over the run"
-        yield Section(title, (_energy_unit(found),), (_energies(found), *_parts(found)))
+        unit = "Energies in J." if found.newton_metres else "Energies in the unit of the loads times radians."
+        yield Section(titled(found.state, "energy over the run"), (unit,), (_energies(found), *_parts(found)))
 
 
 def turns_text(turns: float) -> str:
@@ -520,12 +518,6 @@ def _locked(found: TorqueCycle) -> Iterator[Table]:
 def _place(place: PlaceInRun) -> str:
     day = "" if place.days is None else f" (day {figure(place.days, 7)})"
     return f"{figure(place.turns, 9)}{day}"
-
-
-def _energy_unit(found: TorqueCycle) -> str:
-    if found.newton_metres:
-        return "Energies in J."
-    return "Energies in the unit of the loads times radians."
 
 
 def _energies(found: TorqueCycle) -> Table:

@@ -116,7 +116,8 @@ def _details(found: TrainReport) -> Iterator[Section]:
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         yield Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),))
-    yield from _sources(declared)
+    if declared.sources:
+        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
@@ -142,10 +143,8 @@ def _findings(train: GearTrain) -> Iterator[Section]:
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
         yield Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
     if train.kinematics.remarks:
-        notes = [
-            f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.kinematics.remarks
-        ]
-        yield Section("Remarks", notes)
+        notes = (": ".join(filter(None, (remark.what, remark.why))) for remark in train.kinematics.remarks)
+        yield Section("Remarks", [f"{note}." for note in notes])
 
 
 def _teeth(found: TrainReport) -> Iterator[Section]:
@@ -172,11 +171,6 @@ def _motion(found: TrainReport) -> Iterator[Section]:
 def _strength(found: TrainReport) -> Iterator[Section]:
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
-
-
-def _sources(declared: Train) -> Iterator[Section]:
-    if declared.sources:
-        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
@@ -285,9 +279,7 @@ def _circuits(train: GearTrain) -> Section:
     ]
     pairs = "gear pair and coupling" if train.declaration.couplings else "gear pair"
     text = f"One circuit for each {pairs}, of bodies i and j with carrier k: tau = (w_i - w_k)/(w_j - w_k)."
-    more = (
-        (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
-    )
+    more = [f"{len(train.circuits) - MOST_ROWS} more circuits are not shown."] if train.circuits[MOST_ROWS:] else []
     return Section("Fundamental circuits", (text, *more), tables)
 
 

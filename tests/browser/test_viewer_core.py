@@ -7,21 +7,20 @@ from collections.abc import Iterator
 from fractions import Fraction
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 import shipped
 from conftest import OpenedPage
 from matplotlib.image import imsave
-from viewing import DESK, SIMPLE, Opening, picture, tab, wait
+from viewing import SIMPLE, Opening, picture, tab, wait
 
 from geartrain import load
 from geartrain.scene import build_scene
-from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, Shown
+    from conftest import Shown
 
 TURN = 2 * pi
 DRAWN = """() => new Promise((done) => {
@@ -35,13 +34,6 @@ THREE = """
 links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
 """
-
-
-def write_page(folder: Path, *names: str, **options: Any) -> Path:
-    """The page of shipped trains, in their first states."""
-    path = folder / "page.html"
-    path.write_text(page([shipped.built(name) for name in names], **options), encoding="utf-8")
-    return path
 
 
 def apart(one: float, other: float) -> float:
@@ -65,8 +57,8 @@ def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
 
 
 @pytest.mark.parametrize("name", ["freeth-2021", "bevel-differential", "zf-8hp70"])
-def test_a_page_opens_from_disk_without_errors_or_requests(open_page: OpenPage, tmp_path: Path, name: str) -> None:
-    shown = open_page(write_page(tmp_path, name))
+def test_a_page_opens_from_disk_without_errors_or_requests(show: Opening, name: str) -> None:
+    shown = show(name)
     shown.run(DRAWN)
     assert shown.errors == []
     assert shown.requests == []
@@ -81,8 +73,8 @@ SEEN = """() => {
 }"""
 
 
-def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(open_page: OpenPage, tmp_path: Path) -> None:
-    opened = OpenedPage(open_page(write_page(tmp_path, "planetary-24-18-60"), **DESK))
+def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(show: Opening) -> None:
+    opened = OpenedPage(show(SIMPLE, teeth=True))
     shown = opened.shown
     before = shown.run(SEEN)
     shown.page.get_by_label("Colours").select_option("speed")
@@ -204,9 +196,9 @@ def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "bevel-differential"])
-def test_the_picture_is_the_one_that_was_looked_at_and_approved(open_page: OpenPage, tmp_path: Path, name: str) -> None:
+def test_the_picture_is_the_one_that_was_looked_at_and_approved(show: Opening, name: str) -> None:
     """Within a tolerance; GEARTRAIN_NEW_PICTURES=1 stores what is drawn, to be looked at and approved."""
-    drawn = canvas_of(open_page(write_page(tmp_path, name)))
+    drawn = canvas_of(show(name, teeth=True))
     stored = PICTURES / f"{name}.png"
     if os.environ.get("GEARTRAIN_NEW_PICTURES"):
         imsave(stored, drawn)
@@ -272,12 +264,10 @@ def test_a_tap_on_a_wheel_tells_which_one(show_shared: Opening, apart: int) -> N
         ("gears: [{pair: [x, y]}, {pair: [y, z]}]\ninputs: {a: 1, c: 1}", "contradictory"),
     ],
 )
-def test_trains_that_cannot_turn_are_shown_standing(open_page: OpenPage, tmp_path: Path, rest: str, kind: str) -> None:
+def test_trains_that_cannot_turn_are_shown_standing(show: Opening, rest: str, kind: str) -> None:
     scene = build_scene(load(THREE + rest))
     assert scene.verdict["kind"] == kind
-    path = tmp_path / "page.html"
-    path.write_text(page([scene]), encoding="utf-8")
-    shown = open_page(path)
+    shown = show(text=THREE + rest)
     shown.run("geartrain.setTurns('5/7')")
     assert shown.errors == []
     assert kind in shown.page.inner_text("body").lower()
@@ -300,8 +290,8 @@ def test_nothing_is_drawn_while_nothing_changes(show_shared: Opening) -> None:
     wait(shown, f"{frames} > {before}")
 
 
-def test_a_frame_of_the_largest_train_takes_five_calls_of_the_gpu(open_page: OpenPage, tmp_path: Path) -> None:
-    shown = open_page(write_page(tmp_path, "freeth-2021"))
+def test_a_frame_of_the_largest_train_takes_five_calls_of_the_gpu(show_shared: Opening) -> None:
+    shown = show_shared("freeth-2021", teeth=True)
     calls, triangles = shown.run("""() => {
       const [stage] = geartrain.stages;
       stage.setTurns(1 / 37);

@@ -105,18 +105,10 @@ def _pins(train: GearTrain) -> Section:
     rows = []
     for joint in train.mechanics.pins:
         transmission, coupling = joint.transmission, joint.coupling
-        minimum, most = transmission.speed_range()
-        rows.append(
-            (
-                coupling.name,
-                f"{coupling.pin} -> {coupling.slot}",
-                str(coupling.pin_radius),
-                str(coupling.offset),
-                str(transmission.ratio),
-                f"{degrees(transmission.amplitude):.5f}",
-                f"{minimum:.6f}..{most:.6f}",
-            )
-        )
+        sizes = (f"{coupling.pin} -> {coupling.slot}", str(coupling.pin_radius), str(coupling.offset))
+        speeds = "{:.6f}..{:.6f}".format(*transmission.speed_range())
+        amplitude = f"{degrees(transmission.amplitude):.5f}"
+        rows.append((coupling.name, *sizes, str(transmission.ratio), amplitude, speeds))
     header = ("coupling", "pin -> slot", "pin radius", "offset", "mean ratio", "amplitude (deg)", "speed ratio")
     text = "Speeds and angles of the slot relative to the carrier, for a pin that turns uniformly relative to it."
     return Section("Pins", (text,), (Table(header, rows),))

@@ -467,15 +467,11 @@ def _degrees(*values: float) -> tuple[str, ...]:
 
 
 def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:
-    rows = [
-        (
-            str(line.order),
-            figure(float(line.order), 8),
-            ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares),
-            *_degrees(line.expected, line.measured),
-        )
-        for line in lines
-    ]
+    rows = []
+    for line in lines:
+        sources = ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares)
+        amplitudes = _degrees(line.expected, line.measured)
+        rows.append((str(line.order), figure(float(line.order), 8), sources, *amplitudes))
     header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))

@@ -216,17 +216,13 @@ def source_line(key: str, source: Source) -> str:
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
     wheels = sum(len(link.wheels) for link in declared.links.values())
-    parts = (
-        (len(declared.revolutes), "turning pair"),
-        (len(declared.gears), "gear pair"),
-        (len(declared.couplings), "coupling"),
-        (wheels, "wheel"),
-    )
-    counted = ", ".join(plural(count, noun) for count, noun in parts if count)
-    counts = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
+    counts = (len(declared.revolutes), len(declared.gears), len(declared.couplings), wheels)
+    nouns = ("turning pair", "gear pair", "coupling", "wheel")
+    counted = ", ".join(plural(count, noun) for count, noun in zip(counts, nouns, strict=True) if count)
+    text = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
-    yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
+    yield Section("Structure", (text,), (replace(table, rows=cut(table.rows)),))
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
@@ -430,18 +426,11 @@ def describe_shared_page(
     """
     document, declared = describe_train(found), found.train.declaration
     badge, sound = _badge(found)
-    aside = PageExtras(
-        badge=badge,
-        sound=sound,
-        notes=tuple(notes),
-        pictures=tuple(pictures),
-        viewer=viewer,
-        sections=tuple(_wheels_with_sources(declared)),
-        references={
-            key: SourceReference(source.cite, source.url or "", source.note or "")
-            for key, source in declared.sources.items()
-        },
-    )
+    wheels = tuple(_wheels_with_sources(declared))
+    references = {
+        key: SourceReference(each.cite, each.url or "", each.note or "") for key, each in declared.sources.items()
+    }
+    aside = PageExtras(badge, sound, tuple(notes), tuple(pictures), viewer, wheels, references)
     shown = [section for section in document.sections if section.title != SOURCES]
     return replace(document, sections=shown, aside=aside)
 

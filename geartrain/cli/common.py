@@ -7,7 +7,6 @@ import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -247,21 +246,6 @@ def file_name(text: str, ending: str) -> Path:
     # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
-
-
-def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction: a number, a percentage or ppm."""
-    from pydantic_core import PydanticCustomError
-
-    from geartrain.numerics.quantity import Quantity
-
-    try:
-        found = Quantity.parse(text, "fraction", plain=True)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        fix = str(context.get("fix", "give a number, a percentage or ppm, such as 0.01, 1 % or 20 ppm"))
-        raise option_error(option, error.message(), fix, str(context.get("why", ""))) from None
-    return found.base
 
 
 def as_json(data: Any) -> str:

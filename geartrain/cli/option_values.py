@@ -53,6 +53,11 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
     return found
 
 
+def read_share(text: str, option: str) -> Fraction:
+    """Parse the value of an option as an exact fraction: a number, a percentage or ppm."""
+    return read_quantity(option, text, "fraction", plain=True).base
+
+
 def friction(text: str) -> float:
     """Parse a coefficient of friction, 0 or more."""
     found = quantity("--friction", text, "fraction", plain=True)

@@ -298,33 +298,6 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true() ->
     assert "estimate" not in run("solve", "pennestri-2002", "--method", "exact")[1]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["solve", "zf-8hp70", "--of", "OOT"], ["no output or link 'OOT'", "did you mean 'OUT'?"]),
-        (["solve", "planetary", "--state", "ring fixt"], ["no state 'ring fixt'", "did you mean 'ring fixed'?"]),
-        (["inspect", "equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
-        (["solve", "worm", "--state", "1"], ["no state '1'", "omit the state"]),
-        (["solve", "worm", "--method", "exakt"], ["'exakt'", "did you mean 'exact'?"]),
-        (["inspect", "graph", "worm", "--as", "dott"], ["'dott'", "did you mean 'dot'?"]),
-        (["inspect", "graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
-        (["report", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
-        (["compare", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
-        (["inspect", "schema", "--as", "yaml"], ["'yaml'", "json, markdown, answers"]),
-        (["periods", "month_synodik"], ["no name contains 'month_synodik'", "month_synodic"]),
-    ],
-)
-def test_what_does_not_exist_is_refused_with_what_does(
-    arguments: list[str], said: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    code, out, err = run(*arguments)
-    assert (code, out) == (2, "")
-    words = " ".join(err.replace("│", " ").split())
-    assert all(part in words for part in said), words
-    assert list(tmp_path.iterdir()) == []
-
-
 # ----------------------------------------------------------------------------------------------------------- equations
 
 Row = dict[str, Fraction]

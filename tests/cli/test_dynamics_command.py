@@ -176,23 +176,6 @@ def test_a_plain_rate_is_in_turns_a_second(pin: Path, text: str) -> None:
     assert answer(pin, *TURN, "--rate", text)["rate"] == pytest.approx(0.3 * tau)
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (("--rate", "0"), "--rate"),
-        (("--turns", "0"), "turns must be above 0"),
-        (("--turns", "x"), "number of turns"),
-        (("--restitution", "1.5"), "from 0 to 1"),
-        (("--of", "c"), "'c'"),
-        (("--state", "s"), "s"),
-    ],
-)
-def test_what_cannot_be_requested_is_refused(pin: Path, words: tuple[str, str], said: str) -> None:
-    done = call("dynamics", pin, *TURN, *words)
-    assert done.exit_code != 0
-    assert said in f"{done.exception} {done.output}"
-
-
 def test_a_train_without_rate_or_inertia_says_what_to_add(pin: Path) -> None:
     done = call("dynamics", pin)
     assert isinstance(done.exception, GearTrainError)

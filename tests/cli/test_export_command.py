@@ -76,40 +76,6 @@ def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
         check_folder(tmp_path / "x", ["a"])
 
 
-@pytest.mark.parametrize(
-    ("arguments", "what"),
-    [
-        ((), "output is missing"),
-        (("--to", "d", "-o", "x.glb"), "both given"),
-        (("-o", "x.pdf"), "a train cannot be written as '.pdf'"),
-        (("-o", "x"), "a train cannot be written as 'x'"),
-        (("-o", "x.glb", "--wheel", "s"), "a wheel cannot be written as '.glb'"),
-        (("-o", "x.svg", "--wheel", "nobody"), "the train has no wheel 'nobody'"),
-        (("--to", "d", "--as", "svg,pdf"), "'pdf' is not a kind of export"),
-        (("--to", "d", "--wheel", "s"), "only to one file"),
-        (("-o", "x.glb", "--turns", "many"), "not a valid number of turns"),
-        (("-o", "x.stl", "--module", "0mm"), "a module of 0 mm"),
-        (("-o", "x.stl", "--module", "1 m"), "a module of 1000 mm cannot be made"),
-        (("-o", "x.stl", "--module", "0.01 mm"), "a module of 0.01 mm cannot be made"),
-        (("--to", "d", "--thickness", "1.5 m"), "a thickness of 1500 mm cannot be made"),
-        (("--to", "d", "--bore", "1.5 m"), "a bore of 1500 mm cannot be made"),
-        (("--to", "d", "--backlash", "1.5 m"), "a backlash of 1500 mm cannot be made"),
-        (("--to", "d", "--sheet", "1x1km"), "a side of a sheet of 1e+06 mm cannot be made"),
-        (("-o", "x.stl", "--thickness", "two"), "two"),
-    ],
-)
-def test_bad_questions_are_said_with_what_to_do(
-    arguments: tuple[object, ...], what: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    done = call("export", "planetary-24-18-60", *arguments)
-    assert isinstance(done.exception, GearTrainError), done.output
-    assert what in str(done.exception)
-    assert "fix:" in str(done.exception)
-    assert not what.endswith("made") or all(each.place and each.why for each in done.exception.problems)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_module_is_refused_where_the_declaration_has_sizes(tmp_path: Path) -> None:
     out = tmp_path / "x.stl"
     text = (

@@ -60,40 +60,6 @@ def test_friction_that_locks_is_a_verdict_with_the_minimum_friction_that_does() 
     assert call(*base, limit * 0.9999).exit_code == 0
 
 
-REFUSED = [
-    ([2, 96, "-p", "clearance_factor=1.01"], "at least 3 teeth"),
-    ([48, 96, "-p", "clearance_factor=1"], "above 1"),
-    ([48, 96, "-p", "clearance_factor=nan"], "'nan' is not a number"),
-    ([48, 96, "-p", "clearance_factor=inf"], "'inf' is not a number"),
-    ([48, 96, "-p", "excess=0"], "above 0"),
-    ([48, 96, "-p", "window=1.5"], "between 0"),
-    ([48, 96, "-p", "clearance_factor=1.01", "-p", "excess=0.01"], "exactly one of"),
-    ([48, 96, "-p", "clearance_factor=1.01", "-p", "half_angle=95deg"], "between 0 and 90 deg"),
-    ([48, 96, "-p", "clearance_factor=1.01", "-p", "half_angle=30"], "has no unit"),
-    ([48, 96, "-p", "clearance_factor=1.01", "-p", "half_angle=3mm"], "is a length"),
-    ([48, 96, "-p", "clearance_factor=1.01", "--friction", -0.1], "0 or more"),
-    ([48, 96, "-p", "clearance_factor=1.01", "--rate", "3 furlong"], "unknown unit"),
-    ([48, 96, "-p", "centre_distance=40mm"], "cannot be related to the size of these wheels"),
-    ([48, 96, "-p", "centre_distance=40", "-p", "radii=10mm,20mm"], "mix numbers without a unit"),
-    ([48, 96, "-p", "backlash=9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
-    ([8, 64, "-p", "window=0.5"], "no clearance lets wheels of 8 and 64"),
-    ([48, 96, "--vary", "clearence_factor=1:2:3"], "cannot be varied"),
-    ([48, 96, "--vary", "clearance_factor=1:2"], "FIRST:LAST:COUNT"),
-    ([48, 96, "-p", "clearance_factor=1.01", "--plot", "x.bmp"], "'.bmp'"),
-    ([48, 96, "-p", "clearance_factor=1.01", "--profile", "w.svg"], "the module is missing"),
-    ([48, 96, "--module", "1mm", "-p", "clearance_factor=1.01", "--profile", "w.stl"], "not an output format"),
-    ([48, 96, "--profile", "w.svg", "--vary", "clearance_factor=1.01:1.02:3"], "omit --profile or --vary"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "said"), REFUSED, ids=lambda value: str(value)[:40])
-def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: str) -> None:
-    done = ended("mesh", "--form", "triangular", *arguments)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert said in " ".join(done.stderr.replace("│", " ").split())
-    assert "Traceback" not in done.stderr
-
-
 def test_clearances_given_in_five_ways_are_one() -> None:
     sized = ("--module", "0.5mm")
     first = json.loads(call(*PAIR, "-p", "clearance_factor=1.015", *sized, "--json").output)
@@ -213,23 +179,6 @@ def test_a_wheel_is_written_as_teeth_and_bore_with_the_sizes_of_its_page(tmp_pat
 
 
 TRANSMISSION = "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s"
-REFUSED_TRANSMISSIONS = [
-    (["--friction", "dokos"], "give --rate and --module"),
-    (["--friction", "dokos", "--rate", "1 rpm"], "cannot be computed without the module"),
-    (["--friction", "dokos", "--module", "1mm"], "cannot be computed without the speed of the driver"),
-    (["--friction", "stribek,static=1"], "'stribeck'"),
-    (["--friction", "stribeck,static=0.2"], "kinetic: Field required"),
-    (["--friction", "dokos", "--vary", "window=0.1:0.9:3"], "needs a coefficient of friction"),
-    (["--friction", "dokos", "--objective", "loss"], "needs a coefficient of friction"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "said"), REFUSED_TRANSMISSIONS, ids=lambda value: str(value)[:40])
-def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
-    done = ended("mesh", 48, 96, "--form", "triangular", "-p", "window=0.5", *arguments)
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: --friction: ")
-    assert said in " ".join(done.stderr.split())
 
 
 def test_a_pair_under_a_law_of_friction_tells_its_speed_and_its_mean_coefficient(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from commands import call, ended, without
+from commands import call, without
 from places import DATA
 
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
@@ -110,58 +110,6 @@ def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verd
     most = sqrt((30 * cos(radians(20))) ** 2 + (34 * sin(radians(20))) ** 2) - 30
     assert fits == pytest.approx(most, abs=5e-4)
     assert call("mesh", 8, 60, "--form", "involute", "-p", f"addendum=1,{fits - 0.001}").exit_code in (0, 1)
-
-
-REFUSED = [
-    (["--compare", *PAIR, "--form", "involut"], "--form", "did you mean 'involute'"),
-    (["--compare", *PAIR, "--form", "rubber"], "--form", "give one or more of: involute"),
-    (["--compare", *PAIR, "--form", ""], "--form", "give one or more of"),
-    (["--compare", *PAIR, "-p", "pressure_angle=50deg"], "-p pressure_angle", "between 0 and 45 deg"),
-    (["--compare", *PAIR, "-p", "pressure_angle=20"], "-p pressure_angle", "has no unit"),
-    (["--compare", *PAIR, "-p", "arcs=0.5,x"], "-p arcs", "in pitches"),
-    (["--compare", *PAIR, "-p", "arcs=-1,2"], "-p arcs", "in pitches"),
-    (["--compare", *PAIR, "-p", "arcs=0.2,0.2"], "-p arcs", "the contact ratio is 0.4"),
-    (["--compare", 8, 9], "-p arcs", "end the approach before 0.463"),
-    (["--compare", 2, 36], "Z1 Z2", "at least 3 teeth"),
-    (["--compare", 36, 24, "--internal"], "Z1 Z2", "cannot contain"),
-    (["--compare", *PAIR, "--internal", "--shaft-angle", "90deg"], "--shaft-angle", "parallel"),
-    (["--compare", *PAIR, "--shaft-angle", "200deg"], "Z1 Z2", "between 0 and 180 deg"),
-    (["--compare", *PAIR, "-o", "x.pdf"], "-o", ".md, .html, .json"),
-    ([*PAIR, "-p", "pressure_angle=95deg"], "-p pressure_angle", "between 0 and 90 deg"),
-    ([*PAIR, "--form", "uniform_stress", "-p", "pressure_angle=45deg"], "-p pressure_angle", "between 0 and 45 deg"),
-    ([*PAIR, "--form", "uniform_temperature", "-p", "reading=d"], "-p reading", "'d' is not a valid value"),
-    ([*PAIR, "--friction", "-1"], "--friction", "0 or more"),
-    ([*PAIR, "-p", "centre_distance=20"], "Z1 Z2", "too short"),
-    ([*PAIR, "-p", "backlash=0.1mm"], "Z1 Z2", "give the `module` of both wheels"),
-    ([*PAIR, "--module", "-2mm"], "--module", "above 0"),
-    ([*PAIR, "--profile", "w.svg"], "--module", "to scale"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.step"], "--profile", ".svg, .dxf, .csv"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "fillet=9mm"], "--blank fillet", "at most"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "bore=43mm"], "--blank bore", "43 mm"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "rim=4mm"], "--blank rim", "omit --blank rim"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "tolerance=0mm"], "--blank tolerance", "above 0"),
-    ([*PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "the folder does not exist"),
-    ([*PAIR, "--shaft-angle", "90deg", "--module", "2mm", "--profile", "w.svg"], "--profile", "on a sphere"),
-    ([8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
-    ([*PAIR, "--form", "involut"], "involut", "did you mean 'involute'?"),
-    ([*PAIR, "-p", "presure_angle=25deg"], "-p presure_angle", "did you mean 'pressure_angle'?"),
-    ([*PAIR, "-p", "shift"], "-p", "KEY=VALUE"),
-    ([*PAIR, "--form", "cycloidal", "--helix", "18deg"], "--helix", "does not apply to cycloidal teeth"),
-    ([*PAIR, "--inertia", "1 kg mm2"], "--inertia", "does not apply to involute teeth"),
-    ([*PAIR, "--form", "lantern", "--form", "cycloidal"], "--form", "add --compare"),
-    ([], "Z1 Z2", "the tooth counts are missing"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "place", "said"), REFUSED, ids=lambda value: str(value)[:60])
-def test_what_cannot_be_answered_is_refused_with_place_and_what_to_do(
-    arguments: list[object], place: str, said: str
-) -> None:
-    done = ended("mesh", *arguments)
-    assert (done.returncode, done.stdout) == (2, "")
-    text = " ".join(done.stderr.replace("│", " ").split())
-    assert place in text
-    assert said in text
 
 
 @pytest.mark.parametrize(

@@ -80,22 +80,6 @@ def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
     assert set(packed["angles"].values())
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("icosidodecaedron",), "did you mean 'icosidodecahedron'"),
-        (("cube", "--teeth", "5=20"), "5"),
-        (("icosidodecahedron", "--teeth", "5=20,3=12", "--plot", "x.gif"), "gif"),
-        (("icosidodecahedron", "--radius", "6=1"), "use 5, 3"),
-        ((), "give a solid"),
-    ],
-)
-def test_refusals_say_what_to_do(arguments: tuple[str, ...], message: str) -> None:
-    done = call("sphere", *arguments)
-    assert done.exit_code != 0
-    assert message in f"{done.output}{done.exception}"
-
-
 def test_the_picture_and_the_survey(tmp_path: Path) -> None:
     picture = tmp_path / "s.svg"
     assert call("sphere", "octahedron", "--teeth", 16, "--plot", picture).exit_code == 0

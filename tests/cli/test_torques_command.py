@@ -85,16 +85,6 @@ def test_a_train_that_locks_says_where(train_file: Write) -> None:
 def test_another_link_can_be_requested_and_a_period_followed(pin: Path) -> None:
     turned = call("torques", pin, "--turns", "period", *SAMPLES, "--json")
     assert json.loads(turned.output)["over_turn"]["turns"] == 1
-    requested = call("torques", "norton-planetary", "--turns", "period")
-    assert requested.exit_code == 2
-    assert "the torque has no period" in requested.stderr
-
-
-@pytest.mark.parametrize("words", [("-o", "-.csv"), ("--of", "a")])
-def test_options_of_a_run_need_turns(pin: Path, words: tuple[str, ...]) -> None:
-    done = call("torques", pin, *words)
-    assert done.exit_code == 2
-    assert "--turns" in done.stderr
 
 
 def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: Path) -> None:

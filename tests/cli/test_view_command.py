@@ -139,38 +139,6 @@ def refusal(*arguments: object) -> str:
     return str(done.exception)
 
 
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        (".", "folder"),
-        ("missing/train.html", "the folder does not exist"),
-        ("train.txt", "not a suffix of an HTML page"),
-        ("train.png", "pictures and films can be saved from the page"),
-        ("train", "no suffix"),
-        ("x" * 300 + ".html", "not a valid file name"),
-    ],
-)
-def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> None:
-    assert said in refusal("planetary-24-18-60", "-o", name)
-    assert list(here.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("requested", "said"),
-    [
-        (("--embed", "--kiosk"), "--embed and --kiosk are given together"),
-        (("planetary", "--embed"), "two trains"),
-        (("planetary", "--kiosk"), "two trains"),
-        (("--skip", "1"), "options of --dynamics are given without --dynamics"),
-        (("--turns", "2"), "options of --dynamics are given without --dynamics"),
-        (("planetary", "--dynamics"), "two trains are given with --dynamics"),
-    ],
-)
-def test_what_does_not_go_together_is_refused(here: Path, requested: tuple[str, ...], said: str) -> None:
-    assert said in refusal("worm", *requested)
-    assert list(here.iterdir()) == []
-
-
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc, where nobody may write")
 def test_a_folder_that_is_closed_is_said_to_be() -> None:
     assert "cannot be written" in refusal("planetary-24-18-60", "-o", "/proc/train.html")

@@ -190,9 +190,7 @@ def find_gears(
         return found
     # the decimal as written: 1.05 is 21/20, not the nearest float
     low, high = (Fraction(str(step)) for step in steps)
-    links = _links(forward, low, high, single)
-    widest, evenest = _widest(forward, links, gears), _evenest(forward, links, gears)
-    count = _count(forward, links, gears)
+    count, widest, evenest = _series(forward, _links(forward, low, high, single), gears)
     return replace(found, requested=gears, series=count, widest=widest, evenest=evenest)
 
 
@@ -281,60 +279,44 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
     }
 
 
-def _count(gears: Sequence[PossibleGear], links: Links, number: int) -> int:
-    ways = [1] * len(gears)
-    for _ in range(number - 1):
-        ways = [sum(ways[to] for to in links[at]) for at in range(len(gears))]
-    return sum(ways)
+_Found = tuple[int, GearSeries | None, GearSeries | None]
+"""Number of series, the widest one, and the most even one; None if there are none."""
+_Way = tuple[float, int, tuple[int, ...]]
+"""Sum of squares or variance of the logarithms of steps, number of double shifts, and gears of a series."""
 
 
-def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
-    """Find the series with the maximum spread, by dynamic programming from the last gear backwards."""
-    ratios = [each.ratio or Fraction(0) for each in gears]
-    best: list[tuple[Fraction, tuple[int, ...]] | None] = [(ratio, (at,)) for at, ratio in enumerate(ratios)]
-    for _ in range(number - 1):
-        best = [
-            # the smallest last ratio gives the largest spread from a given first gear
-            min(((end, (at, *way)) for to in links[at] for end, way in filter(None, [best[to]])), default=None)
-            for at in range(len(gears))
-        ]
-    found = [(ratios[way[0]] / end, way) for end, way in filter(None, best)]
-    return None if not found else GearSeries(tuple(gears[at] for at in max(found, key=lambda each: each[0])[1]))
-
-
-def _evenest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
-    """Find the series with the minimum variance of the logarithms of the steps.
+def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
+    """Count the series of a number of gears, and find the widest and the most even one, by dynamic programming.
 
     For given first and last gears the mean step is fixed, so the minimum sum of squared steps has the minimum variance.
+    Ties are broken by the number of double shifts, and among the widest series by their variance.
     """
+    ratios = [each.ratio or Fraction(1) for each in gears]
+    count, found = 0, list[tuple[Fraction, _Way]]()
+    for start, first in enumerate(ratios):
+        for end, ((sum_, double, way), ways) in _series_from(start, gears, links, number).items():
+            variance = sum_ / (number - 1) - (log(first / ratios[end]) / (number - 1)) ** 2
+            found.append((-first / ratios[end], (round(max(variance, 0.0), _FIGURES), double, way)))
+            count += ways
+    if not found:
+        return 0, None, None
+    chosen = (min(found)[1][-1], min(each for _, each in found)[-1])
+    widest, evenest = (GearSeries(tuple(gears[at] for at in way)) for way in chosen)
+    return count, widest, evenest
+
+
+def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
+    """Return the series to every last gear with the minimum sum of squared steps, and the number of all series."""
     logs = [log(each.ratio or 1) for each in gears]
-    best: tuple[float, int, tuple[int, ...]] | None = None
-    for start in range(len(gears)):
-        for end, (sum_, double, way) in _evenest_from(start, gears, links, number, logs).items():
-            mean = (logs[start] - logs[end]) / (number - 1)
-            found = round(max(sum_ / (number - 1) - mean**2, 0.0), _FIGURES), double, way
-            best = found if best is None or found < best else best
-    return None if best is None else GearSeries(tuple(gears[at] for at in best[-1]))
-
-
-_Way = tuple[float, int, tuple[int, ...]]
-
-
-def _evenest_from(
-    start: int, gears: Sequence[PossibleGear], links: Links, number: int, logs: Sequence[float]
-) -> dict[int, _Way]:
-    """Find the path to every last gear with the minimum sum of squared steps, by dynamic programming.
-
-    Ties are broken by the number of double shifts.
-    """
-    reach: dict[int, _Way] = {start: (0.0, 0, (start,))}
+    reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):
-        after: dict[int, _Way] = {}
-        for at, (sum_, double, way) in reach.items():
+        after: dict[int, tuple[_Way, int]] = {}
+        for at, ((sum_, double, way), ways) in reach.items():
             for to in links[at]:
                 more = not _is_single(gears[at], gears[to])
                 # tuples are compared: sum of squares, double shifts, then order of gears
                 new = round(sum_ + (logs[at] - logs[to]) ** 2, _FIGURES), double + more, (*way, to)
-                after[to] = min(after.get(to, new), new)
+                best, known = after.get(to, (new, 0))
+                after[to] = min(best, new), known + ways
         reach = after
     return reach

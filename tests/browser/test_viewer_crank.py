@@ -72,7 +72,6 @@ def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show
     for name in (SIMPLE, "worm", "longcase-clock"):
         shown = show_shared(name)
         box = shown.page.get_by_role("slider", name="crank").bounding_box()
-        assert box is not None
         x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.36 * box["width"]
         shown.page.mouse.move(x, y - reach)
         shown.page.mouse.down()
@@ -91,7 +90,6 @@ def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show
         lead = next(iter(shipped.train(name).declaration.case(None).inputs.values()))
         for output, result in shipped.train(name).solve().outputs.items():
             text = shown.page.locator(f"[data-angle='{output}']").inner_text().removesuffix("\u00b0")
-            assert result.speed is not None
             turned = pointers[output].sense * Fraction(result.speed) / lead * made % 1 * 360
             assert (float(text) - float(turned) + 180) % 360 - 180 == pytest.approx(0, abs=0.0051), (name, output)
 

@@ -32,7 +32,6 @@ def shown(played: Played, share: SharePage) -> Shown:
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
     """Some samples of the run: their numbers, and where the crank of the page stands there (turns)."""
     run, scene = played
-    assert scene.run is not None
     first = int(np.argmax(run.time > run.skip - run.step / 2))
     chosen = np.linspace(first, len(run.time) - 1, count).round().astype(int)
     return chosen.tolist(), ((run.time[chosen] - run.time[first]) / scene.run.period).tolist()
@@ -40,7 +39,6 @@ def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
 
 def test_bodies_and_pointers_stand_where_the_simulation_has_them(played: Played, shown: Shown) -> None:
     run, scene = played
-    assert scene.run is not None
     samples, turns = times(played)
     names = [body.id for body in scene.bodies]
     found = shown.run(
@@ -77,7 +75,6 @@ def glow(shown: Shown) -> float:
 
 def test_the_next_impact_is_found_and_seen(played: Played, shown: Shown) -> None:
     scene = played[1]
-    assert scene.run is not None
     first = min(each.impact_times[0] for each in scene.run.contacts if len(each.impact_times))
     assert glow(shown) == 0
     shown.page.get_by_label("next impact").click()
@@ -130,7 +127,6 @@ def test_a_contact_that_is_chosen_is_shown_in_the_picture(shown: Shown) -> None:
 
 def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     box = shown.page.locator(".strip").bounding_box()
-    assert box is not None
     shown.page.mouse.click(box["x"] + box["width"] - 1, box["y"] + 5)
     later = shown.run("geartrain.machines[0].time()")
     assert later > 0

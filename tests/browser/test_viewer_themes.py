@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, contrast, luminance, tab, wait
+from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, contrast, go, luminance, tab, wait
 
 SMALL = """() => [...document.querySelectorAll('button, select, input:not([type=checkbox]), .tick, summary, .handle')]
   .filter((each) => each.checkVisibility())
@@ -149,17 +149,14 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
     shown = show(name, viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
     for part in (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .dial"):
         box = shown.page.locator(part).locator("visible=true").first.bounding_box()
-        assert box is not None
         inside = box["x"] >= 0 and box["x"] + box["width"] <= width + 1 and box["y"] >= 0
         assert inside, (part, box)
         assert box["y"] + (0 if part == ".page .dial" else box["height"]) <= height, (part, box)
     canvas = shown.page.locator(".view canvas").bounding_box()
-    assert canvas is not None
     assert canvas["width"] > 0.3 * width
     assert canvas["height"] > 0.5 * height
     assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [width, height]
-    shown.page.get_by_label("Go to turn").fill("5/2")
-    shown.page.keyboard.press("Enter")
+    go(shown, "5/2")
     assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
     assert shown.run(SMALL) == []
 

@@ -55,9 +55,7 @@ def served(file: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     environment = {**os.environ, "COLUMNS": "200"}
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as running:
         try:
-            assert running.stderr is not None
             address = re.search(r"http://127\.0\.0\.1:\d+/", next_line(running.stderr))
-            assert address is not None
             yield address[0], running
             running.send_signal(signal.SIGINT)
             running.communicate(timeout=PATIENCE)
@@ -110,7 +108,6 @@ def test_the_outer_page_runs_its_own_script_and_reaches_its_own_server_only(
     broken: list[str] = []
     page.on("console", lambda message: broken.append(message.text) if message.type == "error" else None)
     answer = page.goto(served[0].replace("127.0.0.1", host))
-    assert answer is not None
     assert "default-src 'none'" in answer.headers["content-security-policy"]
     follow(page, 1)
     assert not broken, "nothing that the page needs is forbidden"

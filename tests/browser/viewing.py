@@ -65,6 +65,12 @@ def tab(shown: Shown, name: str) -> None:
     shown.page.get_by_role("tab", name=name).click()
 
 
+def go(shown: Shown, turn: object) -> None:
+    """Type a number of turns of the crank."""
+    shown.page.get_by_label("Go to turn").fill(str(turn))
+    shown.page.keyboard.press("Enter")
+
+
 def wait(shown: Shown, expression: str) -> None:
     """Until an expression in the page is true."""
     end = time.monotonic() + 60

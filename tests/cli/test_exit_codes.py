@@ -151,7 +151,6 @@ def test_an_interrupt_while_python_evaluates_a_string_is_exit_130(tmp_path: Path
 def test_ctrl_c_in_the_middle_is_exit_130() -> None:
     command = [sys.executable, "-m", "geartrain", "motion", "moon-triangular", "--samples", "9000000", "-o", "-.csv"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
         next_line(process.stdout)
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)

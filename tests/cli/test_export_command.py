@@ -22,7 +22,6 @@ def test_a_folder_holds_all_that_was_requested_for_and_a_list_of_it(tmp_path: Pa
     files = {str(path.relative_to(to)) for path in to.rglob("*") if path.is_file()}
     assert {"README.md", "wheels/s.svg", "wheels/ring.svg", "graph.dot", "gear-unit.rexsj"} < files
     table = re.search(r"^\| file .*?(?=\n\n|\Z)", (to / "README.md").read_text(encoding="utf-8"), re.M | re.S)
-    assert table is not None
     listed = set(re.findall(r"^\| (\S+) \|", table.group(), re.M)) - {"file", "---"}
     pictures = {path for path in files if path.startswith("assembly/")}
     assert pictures

@@ -128,6 +128,5 @@ def test_every_default_of_the_schema_can_be_written_in_a_declaration() -> None:
 )
 def test_the_corridor_runs_one_way() -> None:
     command = shutil.which("lint-imports", path=str(Path(sys.executable).parent))
-    assert command is not None
     done = subprocess.run([command, "--no-cache"], cwd=ROOT, capture_output=True, text=True, check=False, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -42,9 +42,6 @@ inputs: {a: 1}
 outputs: {b: }
 """
 
-TRIANGULAR = ("mesh", "48", "96", "--form", "triangular")
-CLEARED = (*TRIANGULAR, "-p", "clearance_factor=1.01")
-SIZED = (*CLEARED, "--module", "2mm")
 CONJUGATE = {
     "involute": ("pressure_angle:angle", "shift", "addendum", "dedendum", "centre_distance", "backlash"),
     "cycloidal": ("rolling", "addendum", "arcs"),
@@ -57,24 +54,8 @@ SHARED = ("friction", "shaft-angle:angle", "driver", "module:length")
 OUTLINED = tuple(f"blank={key}:length" for key in ("clearance", "fillet", "bore", "rim", "tolerance"))
 OUTLINED += ("wheel", "module:length")
 
-# the command without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
-CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
-    (
-        TRIANGULAR,
-        (
-            *("p=half_angle:angle", "p=clearance_factor", "p=excess", "p=window", "p=backlash", "p=centre_distance"),
-            *("p=radii", "driver"),
-        ),
-    ),
-    (CLEARED, ("p=half_angle:angle", "module:length", "friction", "p=radii")),
-    ((*SIZED, "--rate", "1turn/s", "--load", "1N*m"), ("inertia:inertia",)),
-    ((*SIZED, "--inertia", "1kg*m2", "--load", "1N*m"), ("rate:speed",)),
-    ((*SIZED, "--inertia", "1kg*m2", "--rate", "1turn/s"), ("load:torque",)),
-    ((*CLEARED, "--plot", "{out}/t.svg"), ("at:angle",)),
-    (("pin", "10"), ("", ":length")),
-    (("pin", "10", "5"), ("friction", "driver")),
-    (("pin", "10", "12", "--driver", "slot"), ("friction",)),
-    (("mesh", "24", "36", "--compare"), ("p=arcs", "p=pressure_angle:angle", "shaft-angle:angle", "form")),
+# commands without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
+CASES = [
     *(
         (("mesh", "24", "36", "--form", form, *more), (*(f"p={key}" for key in own), *SHARED))
         for form, own in CONJUGATE.items()
@@ -84,32 +65,38 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
         (("mesh", "24", "36", "--form", form, "--module", "1mm", "--profile", "{out}/w.svg"), OUTLINED)
         for form in ("involute", "lantern")
     ),
-    (("motion", "{pair}", "--samples", "40"), ("turns", "seed", "phases", "tabulated", "output")),
-    (("motion", "{pair}", "--samples", "40", "--turns", "3", "--spectrum", "--estimates"), ("turns", "tabulated")),
-    (("motion", "{pair}", "--turns", "3"), ("samples:few",)),
-    (("montecarlo", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "workers:few")),
-    (("montecarlo", "{pair}"), ("trials:few",)),
-    (("budget", "{pair}", "--samples", "40", "--trials", "4"), ("turns", "span", "seed", "output", "cutting", "body")),
-    (("budget", "{pair}", "--turns", "3"), ("samples:few",)),
-    (
-        ("posterior", "{pair}", "--free", "x=47:49"),
-        ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free"),
-    ),
-    (("teeth", "ratio", "5.25"), ("stages", "range", "wheels", "pinions", "tolerance", "best", "most-total")),
-    (
-        ("teeth", "set", "5.25", "--kind", "simple"),
-        ("planets", "clearance", "ratio-is", "best", "tolerance", "mode", "pick", "shift"),
-    ),
-    (("teeth", "orrery", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
-    (("sphere", "cube"), ("teeth", "radius", "suggest", "best")),
-    (("draw", "{pair}", "-o", "{out}/d.svg"), ("turns",)),
-    (
-        ("export", "{pair}", "--to", "{out}/e", "--as", "svg"),
-        ("module:length", "thickness:length", "bore:length", "sheet"),
-    ),
-    (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("backlash:length", "turns")),
-    (("export", "planetary-24-18-60", "--to", "{out}/e", "--as", "svg", "--module", "1mm"), ("backlash:length",)),
 ]
+for _line in """
+mesh 48 96 --form triangular | p=half_angle:angle p=clearance_factor p=excess p=window p=backlash p=centre_distance
+mesh 48 96 --form triangular | p=radii driver
+mesh 48 96 --form triangular -p clearance_factor=1.01 | p=half_angle:angle module:length friction p=radii
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s --load 1N*m | inertia:inertia
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2 --load 1N*m | rate:speed
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2 --rate 1turn/s | load:torque
+mesh 48 96 --form triangular -p clearance_factor=1.01 --plot {out}/t.svg | at:angle
+pin 10 | value value:length
+pin 10 5 | friction driver
+pin 10 12 --driver slot | friction
+mesh 24 36 --compare | p=arcs p=pressure_angle:angle shaft-angle:angle form
+motion {pair} --samples 40 | turns seed phases tabulated output
+motion {pair} --samples 40 --turns 3 --spectrum --estimates | turns tabulated
+motion {pair} --turns 3 | samples:few
+montecarlo {pair} --trials 4 | seed set clearance workers:few
+montecarlo {pair} | trials:few
+budget {pair} --samples 40 --trials 4 | turns span seed output cutting body
+budget {pair} --turns 3 | samples:few
+posterior {pair} --free x=47:49 | tolerance scale most limit samples:few seed free
+teeth ratio 5.25 | stages range wheels pinions tolerance best most-total
+teeth set 5.25 --kind simple | planets clearance ratio-is best tolerance mode pick shift
+teeth orrery a=3.2 b=7.1 | effort walk tolerance best range
+sphere cube | teeth radius suggest best
+draw {pair} -o {out}/d.svg | turns
+export {pair} --to {out}/e --as svg | module:length thickness:length bore:length sheet
+export {pair} --to {out}/e --as svg | backlash:length turns
+export planetary-24-18-60 --to {out}/e --as svg --module 1mm | backlash:length
+""".strip().splitlines():
+    _base, _, _options = _line.partition(" | ")
+    CASES.append((tuple(_base.split()), tuple(_options.split())))
 
 
 @contextmanager
@@ -155,7 +142,7 @@ def judge(arguments: list[str]) -> str:
 def requested(option: str, value: str) -> list[str]:
     """The option with a value, in the unit of its kind."""
     name, _, kind = option.partition(":")
-    if not name:
+    if name == "value":
         return ["--", f"{value}{UNITS.get(kind, '')}"]
     if kind == "few" and value in ("1e9", "9" * 25):
         value = "7"
@@ -178,40 +165,37 @@ def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
 
 
 KEPT = [
-    *(
-        ("mesh 48 96 --form triangular -p clearance_factor=1.01", option, value)
-        for option, values in {"p=half_angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
-        for value in values
-    ),
-    ("mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
-    ("mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
-    ("pin 10", "", "1e300"),
-    ("pin 10", ":length", "1e300"),
-    ("mesh 24 36 --compare", "shaft-angle:angle", "1e-300"),
-    ("mesh 24 36 --form cycloidal", "shaft-angle:angle", "1e-300"),
-    ("motion {pair} --samples 40", "turns", "1e300"),
-    ("motion {pair} --samples 40", "turns", "nan"),
-    ("motion {pair} --samples 40", "turns", "-inf"),
-    ("motion {pair} --samples 40", "tabulated", "nan"),
-    ("motion {pair} --samples 40", "tabulated", "-1"),
-    ("motion {pair} --samples 40", "seed", "-1"),
-    ("motion {pair} --samples 40", "phases", "9" * 25),
-    ("draw {pair} -o {out}/d.svg", "turns", "inf"),
-    ("sphere cube", "radius", "inf"),
-    ("sphere cube", "radius", "nan"),
-    ("teeth ratio 5.25", "best", "9" * 25),
-    ("teeth ratio 5.25", "most-total", "0"),
-    ("posterior {pair} --free x=47:49", "seed", "-1"),
-    *(
-        ("export planetary-24-18-60 --to {out}/e", "module:length", value)
-        for value in ("1e3", "1e16", "1e-20", "0.01", "0.05")
-    ),
-    ("export planetary-24-18-60 --to {out}/e --module 1mm", "thickness:length", "1e30"),
-    ("export planetary-24-18-60 --to {out}/e --module 1mm", "bore:length", "1e20"),
-    ("export planetary-24-18-60 --to {out}/e --as svg --module 1mm", "sheet", "1e15x1e15mm"),
-    *(("teeth approximants", "", value) for value in ("1e-320", "1e-400", "1e308", "1e-200/1e200", "1e200/1e-99")),
-    ("teeth ratio", "", "1e-320"),
-    ("teeth set --kind planetary", "", "1e-320"),
+    (base, option, value)
+    for base, option, values in (
+        line.split(" | ")
+        for line in """
+mesh 48 96 --form triangular -p clearance_factor=1.01 | p=half_angle:angle | 1e-300 1e-9
+mesh 48 96 --form triangular -p clearance_factor=1.01 | module:length | 0 -1 1e300
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s | inertia:inertia | 0
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2 | rate:speed | 1e300
+pin 10 | value | 1e300
+pin 10 | value:length | 1e300
+mesh 24 36 --compare | shaft-angle:angle | 1e-300
+mesh 24 36 --form cycloidal | shaft-angle:angle | 1e-300
+motion {pair} --samples 40 | turns | 1e300 nan -inf
+motion {pair} --samples 40 | tabulated | nan -1
+motion {pair} --samples 40 | seed | -1
+motion {pair} --samples 40 | phases | 9999999999999999999999999
+draw {pair} -o {out}/d.svg | turns | inf
+sphere cube | radius | inf nan
+teeth ratio 5.25 | best | 9999999999999999999999999
+teeth ratio 5.25 | most-total | 0
+posterior {pair} --free x=47:49 | seed | -1
+export planetary-24-18-60 --to {out}/e | module:length | 1e3 1e16 1e-20 0.01 0.05
+export planetary-24-18-60 --to {out}/e --module 1mm | thickness:length | 1e30
+export planetary-24-18-60 --to {out}/e --module 1mm | bore:length | 1e20
+export planetary-24-18-60 --to {out}/e --as svg --module 1mm | sheet | 1e15x1e15mm
+teeth approximants | value | 1e-320 1e-400 1e308 1e-200/1e200 1e200/1e-99
+teeth ratio | value | 1e-320
+teeth set --kind planetary | value | 1e-320
+""".strip().splitlines()
+    )
+    for value in values.split()
 ]
 """What once ended in a traceback, in nonsense or never."""
 

@@ -102,12 +102,8 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
     try:
         return model.declared(model.with_defaults({name: _value(fields[name], each) for name, each in given.items()}))
     except GearTrainError as error:
-        raise at_parameter(error, "-p", f"`geartrain mesh --form {_name(model)} --keys` lists the parameters") from None
-
-
-def _name(model: type[ToothForm]) -> str:
-    (form,) = get_args(model.model_fields["form"].annotation)
-    return str(form)
+        (form,) = get_args(fields["form"].annotation)
+        raise at_parameter(error, "-p", f"`geartrain mesh --form {form} --keys` lists the parameters") from None
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:

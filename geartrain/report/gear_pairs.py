@@ -73,7 +73,8 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     tables = [
         joined_table(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)
     ]
-    tables.append(_drivers(pairs))
+    rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
+    tables.append(filled_table(("pair", "driving wheel", "basis", "states"), rows, 3, wide=True))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
     lines += map(fault_text, train.mechanics.faults)
     return Section("Teeth", lines, tables, detail=len(pairs) > _MOST_PAIRS)
@@ -94,11 +95,6 @@ def without_losses(mesh: GearMesh) -> Section | None:
 def fault_text(fault: Problem) -> str:
     """Return the fault, its cause and its remedy as sentences."""
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
-
-
-def _drivers(pairs: Sequence[DrivenPair]) -> Table:
-    rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
-    return filled_table(("pair", "driving wheel", "basis", "states"), rows, 3, wide=True)
 
 
 def _pins(train: GearTrain) -> Section:

@@ -136,11 +136,11 @@ def describe_gear_search(found: GearSearch) -> Document:
         f"From '{found.input}' to '{found.output}': {found.combinations} combinations of {found.closed} closed "
         f"elements, of which {len(found.gears)} determine the output (exhaustive exact search)."
     )
-    others = [
-        f"{effect}: {_combinations_text(ways)}."
-        for ways, effect in ((found.free, "The output is free with"), (found.locked, "The output is locked with"))
-        if ways
-    ]
+    others = []
+    for ways, effect in ((found.free, "free"), (found.locked, "locked")):
+        more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
+        if ways:
+            others.append(f"The output is {effect} with: {'; '.join(', '.join(way) for way in ways[:_MOST])}{more}.")
     table = Table(("closed", "ratio", "declared as"), list(map(_row, found.gears)))
     sections = [Section("Gears", (summary, *others), (table,))]
     if found.widest is not None and found.evenest is not None:
@@ -150,28 +150,21 @@ def describe_gear_search(found: GearSearch) -> Document:
             both = [("The widest series, and the most even", found.widest)]
         head = f"{found.series:,} series meet the conditions; one of each kind is shown."
         head = "One series meets the conditions." if found.series == 1 else head
-        sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
+        for title, series in both:
+            text = (
+                f"Spread {figure(series.spread, _DIGITS)}; standard deviation of the logarithms of steps "
+                f"{series.deviation:.3g}; double-transition shifts: {series.double_shifts}."
+            )
+            sections.append(Section(title, (head, text), (_series_table(series),)))
     elif found.requested:
         text = f"No series of {found.requested} gears has all its steps in the requested range."
         sections.append(Section("Series", (text,)))
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 
-def _combinations_text(ways: Sequence[Sequence[str]]) -> str:
-    more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
-    return "; ".join(", ".join(way) for way in ways[:_MOST]) + more
-
-
 def _row(gear: PossibleGear) -> tuple[str, ...]:
     ratio = "held" if gear.ratio is None else figure(gear.ratio, _DIGITS)
     return ", ".join(gear.engaged), ratio, ", ".join(gear.states)
-
-
-def _series(series: GearSeries) -> Iterator[str]:
-    yield (
-        f"Spread {figure(series.spread, _DIGITS)}; standard deviation of the logarithms of steps "
-        f"{series.deviation:.3g}; double-transition shifts: {series.double_shifts}."
-    )
 
 
 def _series_table(series: GearSeries) -> Table:

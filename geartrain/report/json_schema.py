@@ -36,11 +36,6 @@ def _list(item: Schema) -> Schema:
     return {"type": "array", "items": item}
 
 
-def _has(keys: Schema) -> Schema:
-    """Return the schema of an object that has at least these keys, because a later version may add others."""
-    return {"type": "object", "required": list(keys), "properties": keys}
-
-
 OBJECT: Schema = {"type": "object"}
 
 # ----------------------------------------------------------------------------------------------------------- questions
@@ -77,11 +72,12 @@ def answers() -> dict[str, Schema]:
     report = shape_of(TrainReport)
     teeth = {"description": meaning_of(TrainReport, "teeth"), **_list(_of_any_form(DrivenPair))}
     report = _list(report | {"properties": report["properties"] | {"teeth": teeth}})
-    edges = {"nodes": _list(OBJECT), "edges": _list(OBJECT)}
+    graph = {"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, "nodes": _list(OBJECT), "edges": _list(OBJECT)}
     found |= {
         "report": report,
         "compare": report,
-        "inspect graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
+        # an object that has at least these keys, because a later version may add others
+        "inspect graph --as json": {"type": "object", "required": list(graph), "properties": graph},
         "sphere --survey": shape_of(list[SurveyRow]),
         "mesh": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
         "mesh --form triangular --vary": shape_of(list[dict[str, float | str | None]]),

@@ -346,7 +346,8 @@ def moving_sections(
         holds: tuple[str, ...] = ()
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
-        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run), run.motion._problem.deviation),))
+        rippling = [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
+        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(rippling, run.motion._problem.deviation),))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -363,10 +364,6 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
         return ""
     words = "; ".join(f"{', '.join(names)} ({form})" for form, names in forms.items())
     return f"These pairs keep their ratio at every instant and contribute no transmission error: {words}."
-
-
-def _rippling(run: MotionRun) -> list[RunningStatistics]:
-    return [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
 
 
 def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:

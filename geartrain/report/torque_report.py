@@ -432,7 +432,9 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
         yield Section(head, lines)
         return
     lines += [_run(found), *_remarks(found)]
-    yield Section(head, lines, (_torques(found), *_locked(found)))
+    locked = [(_place(start), _place(end)) for start, end in found.locked]
+    tables = [Table(("locked from turn", "to turn"), cut(locked))] if locked else []
+    yield Section(head, lines, (_torques(found), *tables))
     if found.energy is not None:
         unit = "Energies in J." if found.newton_metres else "Energies in the unit of the loads times radians."
         yield Section(titled(found.state, "energy over the run"), (unit,), (_energies(found), *_parts(found)))
@@ -490,12 +492,6 @@ def _torques(found: TorqueCycle) -> Table:
             cells = (figure(extreme.torque, 9), figure(extreme.turns, 9), days)
         rows.append((name, *cells))
     return filled_table((f"torque at {found.link}", found.unit or "torque", "at turn", "day"), rows, 3)
-
-
-def _locked(found: TorqueCycle) -> Iterator[Table]:
-    if found.locked:
-        rows = [(_place(start), _place(end)) for start, end in found.locked]
-        yield Table(("locked from turn", "to turn"), cut(rows))
 
 
 def _place(place: PlaceInRun) -> str:

@@ -88,17 +88,6 @@ def test_the_page_turns_to_a_date_and_back_and_stops_there(show_shared: Opening)
         assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
 
 
-def test_it_plays_backwards_and_forwards_again(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
-    back = shown.page.get_by_role("button", name="play backwards")
-    back.click()
-    assert back.get_attribute("aria-pressed") == "true"
-    shown.page.get_by_role("button", name="play", exact=True).click()
-    wait(shown, "String(geartrain.turns).startsWith('-')")
-    back.click()
-    wait(shown, "!String(geartrain.turns).startsWith('-')")
-
-
 def test_targets_stand_beside_pointers_and_the_error_is_exact(show_shared: Opening) -> None:
     shown = show_shared(ANTIKYTHERA)
     at = Fraction(100_003, 7)

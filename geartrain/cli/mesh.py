@@ -234,7 +234,9 @@ def run(
         read_helix(helix, angle),
     )
     sizes = read_assignments(blank or (), BLANK if model.conjugate else BLANK[:2], "--blank")
-    picture, outlined = picture_sink(plot, force, theme), _profile_sink(profile, force)
+    from geartrain.drawing.flat_files import OUTLINES
+
+    picture, outlined = picture_sink(plot, force, theme), sink(profile, force, OUTLINES, "--profile")
     check_distinct_outputs(to, outlined, picture)
     if objective is not None or free or within or cutting:
         question = wing("workshop.sizes.verb")
@@ -283,13 +285,6 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
             name = option.opts[0]
             raise option_error(name, f"it does not apply to {what}", f"omit {name}")
-
-
-def _profile_sink(profile: Path | None, force: bool) -> Sink:
-    """Return the destination of an outline, after checking that it can be written. Raises `GearTrainError`."""
-    from geartrain.drawing.flat_files import OUTLINES
-
-    return sink(profile, force, OUTLINES, "--profile")
 
 
 def _figure(mesh: GearMesh, at: str | None) -> Figure:

@@ -150,9 +150,6 @@ def cost(value: float) -> str:
 # -------------------------------------------------------------------------------------------------- comparison of forms
 
 
-_HEADERS = {"off_pitch": "stress off pitch"}
-
-
 def describe_form_comparison(found: FormComparison) -> Document:
     """Return a document that compares tooth forms with the 20 degree involute and lists the forms that cannot run.
 
@@ -181,17 +178,16 @@ def describe_form_comparison(found: FormComparison) -> Document:
         "depth; slowest: minimum speed of the contact along a dedendum. Arcs: approach and recess in pitches. For "
         f"loss, stress, heat and flash, {ONE_PAIR}."
     )
-    rows = [_ratios(form) for form in found.forms]
     header = ("form", "arcs", *map(_header, (*LOADED, *FREE)))
-    sections = [Section("Ratios", (text,), [Table(header, rows, True)]), _sharing(found), _base(found)]
-    faulty = [line for form in found.forms for line in _reasons(form)]
-    if faulty:
+    table = Table(header, list(map(_ratios, found.forms)), True)
+    sections = [Section("Ratios", (text,), [table]), _sharing(found), _base(found)]
+    if faulty := [line for form in found.forms for line in _reasons(form)]:
         sections.append(Section("Forms that cannot run", faulty))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
 def _header(name: str) -> str:
-    return _HEADERS.get(name, name.replace("_", " "))
+    return "stress off pitch" if name == "off_pitch" else name.replace("_", " ")
 
 
 def _sharing(found: FormComparison) -> Section:

@@ -272,14 +272,10 @@ def meaning_of(kind: Any, path: str) -> str:
     """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" without docstring."""
     first, _, rest = path.partition(".")
     if rest:
-        parts = (part for part in _parts(attribute_kind(kind, first)) if part is not NoneType)
-        return next(filter(None, (meaning_of(part, rest) for part in parts)), "")
+        whole_kind = attribute_kind(kind, first)
+        parts = get_args(whole_kind) if get_origin(whole_kind) in (Union, UnionType) else [whole_kind]
+        return next(filter(None, (meaning_of(part, rest) for part in parts if part is not NoneType)), "")
     return field_docs(kind).get(first) or _summary(getattr(kind, first, None))
-
-
-def _parts(kind: Any) -> list[Any]:
-    """Return the members of a union; for any other annotation, a list with only itself."""
-    return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
 
 
 def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:

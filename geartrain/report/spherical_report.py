@@ -42,9 +42,7 @@ def _sections(found: GearSphere) -> Iterator[Section]:
 def _phases(found: GearSphere) -> Section:
     lines = []
     if found.rule is not None:
-        lines.append(
-            f"The loops close if {found.rule}." if found.rule != "always" else "The loops close with any tooth counts."
-        )
+        lines.append(f"The loops close {'with any tooth counts' if found.rule == 'always' else f'if {found.rule}'}.")
     if found.closure is not None:
         lines += [line.strip() for line in found.closure.text.splitlines()]
     elif not found.moves:

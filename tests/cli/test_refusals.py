@@ -72,8 +72,8 @@ teeth --kind list any | `geartrain teeth set --kind list any`
 teeth 142 --kind wolfrom | `geartrain teeth set 142 --kind wolfrom`
 teeth moon=29.53 venus=224.7 | `geartrain teeth orrery moon=29.53 venus=224.7`
 teeth orery moon=29.53 | did you mean 'orrery'?
-teeth ratio 1e-29 --stages 1 --range 12:2000000 | cannot be approximated
-teeth ratio 1e300 --stages 1 --range 12:2000000 | from 1e-30 to 1e30
+teeth ratio 1e-29 --stages 1 --range 12:200000 | cannot be approximated
+teeth ratio 1e300 --stages 1 --range 12:200000 | from 1e-30 to 1e30
 
 # dynamics
 dynamics pin.yaml --rate 0.3 --turns 1 --skip 0 --steps 1000 --no-fast --rate 0 | --rate

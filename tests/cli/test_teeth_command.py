@@ -95,6 +95,11 @@ def test_fractions_on_the_way_are_told_with_their_kinds(hands: Path) -> None:
     assert kinds["1461/4"] == kinds["10592/29"] == kinds["12053/33"] == "convergent"
 
 
+def test_fractions_of_any_size_are_approximants() -> None:
+    found = answer("approximants", "3.14159265358979", "--range", "12:1000000000")
+    assert abs(found["solutions"][-1]["error"]) < 1e-14  # type: ignore[index]
+
+
 def test_the_wheels_of_a_train_are_those_that_looking_at_all_of_them_finds(hands: Path) -> None:
     found = answer("train", hands, "--best", 100)
     rows = {tuple(one["teeth"].values()) for one in found["solutions"]}  # type: ignore[union-attr]

@@ -157,10 +157,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Return the shortest run time of a repeated task [s], and its result.
-
-    The minimum excludes the time that the first run needs to import libraries.
-    """
+    """Yield the methods for speeds: exact elimination, if the train is usually solved so, and floats."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -199,10 +196,7 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
     # equal steps could coincide with the nodes of the tables, where their error is 0; seeded, so that results repeat
     random = np.random.default_rng(1)
     S = {name: random.uniform(0, 10 * transmission.period, positions) for name, transmission in transmissions.items()}
-    pitches = {
-        name: abs(float(transmission.ratio) or 1.0) * transmission.period
-        for name, transmission in transmissions.items()
-    }
+    pitches = {name: abs(float(each.ratio) or 1.0) * each.period for name, each in transmissions.items()}
 
     def evaluate(functions: dict[str, Any]) -> dict[str, Floats]:
         return {name: each.error(S[name]) for name, each in functions.items()}
@@ -289,7 +283,6 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
             return
         error = None if mean is None else abs(found.mean / mean - 1)
         reference = _REFERENCE if mean is None else f"mean of {_SAMPLES[0]} samples"
-        yield MethodAccuracy(
-            "torques", f"over {span:.3g} turns, {samples} samples", seconds, error, "relative", reference
-        )
+        method = f"over {span:.3g} turns, {samples} samples"
+        yield MethodAccuracy("torques", method, seconds, error, "relative", reference)
         mean = mean or found.mean

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations
-from math import comb, log, sqrt
+from itertools import combinations, pairwise
+from math import comb, log
+from statistics import pstdev
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
@@ -53,7 +54,7 @@ class GearSeries(Result):
     @property
     def steps(self) -> tuple[Fraction, ...]:
         """Step of each gear: its ratio divided by the ratio of the next gear."""
-        return tuple(a / b for a, b in zip(self.ratios, self.ratios[1:], strict=False))
+        return tuple(a / b for a, b in pairwise(self.ratios))
 
     @property
     def spread(self) -> Fraction:
@@ -63,14 +64,12 @@ class GearSeries(Result):
     @property
     def deviation(self) -> float:
         """Standard deviation of the natural logarithms of the steps; 0 for equal steps."""
-        logs = [log(step) for step in self.steps]
-        mean = sum(logs) / len(logs)
-        return sqrt(sum((each - mean) ** 2 for each in logs) / len(logs))
+        return pstdev(map(log, self.steps))
 
     @property
     def double_shifts(self) -> int:
         """Number of shifts in which more than one element opens or more than one element closes."""
-        return sum(not _is_single(a, b) for a, b in zip(self.gears, self.gears[1:], strict=False))
+        return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
 @dataclass(frozen=True)
@@ -124,9 +123,8 @@ class GearSearch(Tabular, Result):
     """Series with the minimum deviation of the steps; None if no series satisfies the request."""
 
     def _summary(self) -> str:
-        return (
-            f"{self.name}: {len(self.gears)} gears of {self.combinations} combinations of {self.closed} closed elements"
-        )
+        ways = f"{self.combinations} combinations of {self.closed} closed elements"
+        return f"{self.name}: {len(self.gears)} gears of {ways}"
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -184,25 +182,21 @@ def find_gears(
     """
     source, link = gearbox_ends(train.declaration, output)
     closed, every, free, locked = _all_gears(train, source, link)
-    forward = sorted((each for each in every if each.ratio is not None and each.ratio > 0), key=_falling)
-    backward = sorted((each for each in every if each.ratio is not None and each.ratio < 0), key=_falling)
-    still = [each for each in every if each.ratio is None]
+    ordered = tuple(sorted(every, key=_rank))
+    forward = [each for each in ordered if each.ratio is not None and each.ratio > 0]
     ways = comb(len(train.declaration.clutches), closed)
-    ordered = (*forward, *backward, *still)
     found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, ordered, free, locked)
     if gears < 2:
         return found
     # the decimal as written: 1.05 is 21/20, not the nearest float
     low, high = (Fraction(str(step)) for step in steps)
-    links = _links(forward, low, high, single)
-    widest, evenest = _widest(forward, links, gears), _evenest(forward, links, gears)
-    count = _count(forward, links, gears)
+    count, widest, evenest = _series(forward, _links(forward, low, high, single), gears)
     return replace(found, requested=gears, series=count, widest=widest, evenest=evenest)
 
 
-def _falling(gear: PossibleGear) -> Fraction:
-    assert gear.ratio is not None
-    return -abs(gear.ratio)
+def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
+    """Return the sort key of gears: forward gears, reverse gears, each by decreasing ratio, then gears at rest."""
+    return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
 def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
@@ -232,8 +226,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
         names.setdefault(frozenset(state.engaged), []).append(name)
     # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
-        if comb(len(elements), size) > MOST_COMBINATIONS:
-            number = comb(len(elements), size)
+        if (number := comb(len(elements), size)) > MOST_COMBINATIONS:
             what = f"{size} of {len(elements)} shift elements can be closed in {number:,} combinations"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
@@ -241,8 +234,9 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
         answers = _solve_choices(train, choices)
         found = list(_gears(choices, answers, (source, link), names))
         if found:
-            free = _with_verdict({"free"}, choices, answers)
-            locked = _with_verdict({"locked", "contradictory"}, choices, answers)
+            kinds = {choice: answer.verdict.kind for choice, answer in zip(choices, answers, strict=True)}
+            free = tuple(choice for choice, kind in kinds.items() if kind == "free")
+            locked = tuple(choice for choice, kind in kinds.items() if kind in ("locked", "contradictory"))
             return _AllGears(size, found, free, locked)
     return _AllGears(len(elements), [])
 
@@ -266,10 +260,6 @@ def _gears(
             yield PossibleGear(choice, ratio, tuple(names.get(frozenset(choice), ())))
 
 
-def _with_verdict(kinds: Collection[str], choices: Sequence[_Choice], answers: Sequence[Answer]) -> tuple[_Choice, ...]:
-    return tuple(choice for choice, answer in zip(choices, answers, strict=True) if answer.verdict.kind in kinds)
-
-
 # ------------------------------------------------------------------------------------------------- series, as paths
 
 Links = Mapping[int, Sequence[int]]
@@ -289,60 +279,44 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
     }
 
 
-def _count(gears: Sequence[PossibleGear], links: Links, number: int) -> int:
-    ways = [1] * len(gears)
-    for _ in range(number - 1):
-        ways = [sum(ways[to] for to in links[at]) for at in range(len(gears))]
-    return sum(ways)
+_Found = tuple[int, GearSeries | None, GearSeries | None]
+"""Number of series, the widest one, and the most even one; None if there are none."""
+_Way = tuple[float, int, tuple[int, ...]]
+"""Sum of squares or variance of the logarithms of steps, number of double shifts, and gears of a series."""
 
 
-def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
-    """Find the series with the maximum spread, by dynamic programming from the last gear backwards."""
-    ratios = [each.ratio or Fraction(0) for each in gears]
-    best: list[tuple[Fraction, tuple[int, ...]] | None] = [(ratio, (at,)) for at, ratio in enumerate(ratios)]
-    for _ in range(number - 1):
-        best = [
-            # the smallest last ratio gives the largest spread from a given first gear
-            min(((end, (at, *way)) for to in links[at] for end, way in filter(None, [best[to]])), default=None)
-            for at in range(len(gears))
-        ]
-    found = [(ratios[way[0]] / end, way) for end, way in filter(None, best)]
-    return None if not found else GearSeries(tuple(gears[at] for at in max(found, key=lambda each: each[0])[1]))
-
-
-def _evenest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSeries | None:
-    """Find the series with the minimum variance of the logarithms of the steps.
+def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
+    """Count the series of a number of gears, and find the widest and the most even one, by dynamic programming.
 
     For given first and last gears the mean step is fixed, so the minimum sum of squared steps has the minimum variance.
+    Ties are broken by the number of double shifts, and among the widest series by their variance.
     """
+    ratios = [each.ratio or Fraction(1) for each in gears]
+    count, found = 0, list[tuple[Fraction, _Way]]()
+    for start, first in enumerate(ratios):
+        for end, ((sum_, double, way), ways) in _series_from(start, gears, links, number).items():
+            variance = sum_ / (number - 1) - (log(first / ratios[end]) / (number - 1)) ** 2
+            found.append((-first / ratios[end], (round(max(variance, 0.0), _FIGURES), double, way)))
+            count += ways
+    if not found:
+        return 0, None, None
+    chosen = (min(found)[1][-1], min(each for _, each in found)[-1])
+    widest, evenest = (GearSeries(tuple(gears[at] for at in way)) for way in chosen)
+    return count, widest, evenest
+
+
+def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
+    """Return the series to every last gear with the minimum sum of squared steps, and the number of all series."""
     logs = [log(each.ratio or 1) for each in gears]
-    best: tuple[float, int, tuple[int, ...]] | None = None
-    for start in range(len(gears)):
-        for end, (sum_, double, way) in _evenest_from(start, gears, links, number, logs).items():
-            mean = (logs[start] - logs[end]) / (number - 1)
-            found = round(max(sum_ / (number - 1) - mean**2, 0.0), _FIGURES), double, way
-            best = found if best is None or found < best else best
-    return None if best is None else GearSeries(tuple(gears[at] for at in best[-1]))
-
-
-_Way = tuple[float, int, tuple[int, ...]]
-
-
-def _evenest_from(
-    start: int, gears: Sequence[PossibleGear], links: Links, number: int, logs: Sequence[float]
-) -> dict[int, _Way]:
-    """Find the path to every last gear with the minimum sum of squared steps, by dynamic programming.
-
-    Ties are broken by the number of double shifts.
-    """
-    reach: dict[int, _Way] = {start: (0.0, 0, (start,))}
+    reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):
-        after: dict[int, _Way] = {}
-        for at, (sum_, double, way) in reach.items():
+        after: dict[int, tuple[_Way, int]] = {}
+        for at, ((sum_, double, way), ways) in reach.items():
             for to in links[at]:
                 more = not _is_single(gears[at], gears[to])
                 # tuples are compared: sum of squares, double shifts, then order of gears
                 new = round(sum_ + (logs[at] - logs[to]) ** 2, _FIGURES), double + more, (*way, to)
-                after[to] = min(after.get(to, new), new)
+                best, known = after.get(to, (new, 0))
+                after[to] = min(best, new), known + ways
         reach = after
     return reach

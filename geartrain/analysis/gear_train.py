@@ -586,9 +586,7 @@ class GearTrain:
         GearTrainError
             If redundant loops have teeth that cannot turn together, or if friction locks teeth.
         """
-        driven = wing("simulation.time.train_in_time").DrivenTrain(
-            self.mechanics, state, rate, restitution, outputs, without
-        )
+        driven = self._driven(state, rate, restitution, outputs, without)
         found = driven.study(model, turns, skip, steps=steps, samples=samples, fast=fast).run(on_done)
         return replace(found, _declaration=self.declaration, _without=tuple(without))
 
@@ -627,10 +625,7 @@ class GearTrain:
         GearTrainError
             Under the conditions listed for `dynamics`.
         """
-        driven = wing("simulation.time.train_in_time").DrivenTrain(
-            self.mechanics, state, rate, restitution, outputs, without
-        )
-        return driven.simulation(step, fast)
+        return self._driven(state, rate, restitution, outputs, without).simulation(step, fast)
 
     def _driven(self, *requested: Any) -> Any:
         return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *requested)
@@ -748,14 +743,12 @@ class GearTrain:
         for pair in pairs:
             check_choice("gear pair", pair, declared)
         teeth = {"form": form, **known[form].with_defaults(parameters)}
-        # forms of single pairs would override the form of the train, so they are deleted
-        own = None if not pairs else teeth
-        changes: dict[str, Any] = {} if pairs else {"tooth_form": teeth}
-        changes["gears"] = [
-            {**({"id": gear.id} if gear.id else {}), "pair": list(gear.pair), "tooth_form": own}
-            for gear in (declared[name] for name in pairs or declared)
-        ]
-        return self.with_changes(changes)
+        gears = []
+        for gear in (declared[name] for name in pairs or declared):
+            # forms of single pairs would override the form of the train, so they are deleted
+            own = {"pair": list(gear.pair), "tooth_form": teeth if pairs else None}
+            gears.append({"id": gear.id, **own} if gear.id else own)
+        return self.with_changes({"gears": gears} if pairs else {"tooth_form": teeth, "gears": gears})
 
     @property
     def unfolded(self) -> GearTrain:

@@ -30,18 +30,8 @@ class GearState(Result):
     """Results of one state of a gearbox."""
 
     KEYS = (
-        "state",
-        "engaged",
-        "verdict",
-        "ratio",
-        Key("step", to=as_float),
-        "driven_by",
-        "speeds",
-        "slips",
-        Key("torques", to=as_float),
-        Key("efficiency", to=as_float),
-        Key("recirculating", to=as_float),
-        Key("inner", to=as_float),
+        *("state", "engaged", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
+        *(Key(name, to=as_float) for name in ("torques", "efficiency", "recirculating", "inner")),
     )
 
     state: str
@@ -204,10 +194,8 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
     """Return the input link and the output link of a gearbox; `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
-        what, why = (
-            f"'{declared.name}' is not a gearbox",
-            "a gearbox declares `clutches`, and `states` that engage them",
-        )
+        what = f"'{declared.name}' is not a gearbox"
+        why = "a gearbox declares `clutches`, and `states` that engage them"
         raise QuestionError(Problem(what, why, "declare `clutches`, and `states` with lists of `engaged` clutches"))
     case = declared.case(declared.state_or_first(None))
     source = next((link for link, speed in case.inputs.items() if speed), None)
@@ -233,11 +221,8 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
     drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
     unit = Fraction(answer.speeds[drive]) if drive else 1
     speeds = {name: Fraction(speed) / unit for name, speed in answer.speeds.items()}
-    slips = {
-        name: slip
-        for name, clutch in declared.clutches.items()
-        if name not in engaged and (slip := _slip(speeds, clutch)) is not None
-    }
+    every = {name: _slip(speeds, clutch) for name, clutch in declared.clutches.items() if name not in engaged}
+    slips = {name: slip for name, slip in every.items() if slip is not None}
     out, load = speeds.get(link), _load(train, state, source, link) if answer.verdict else None
     # how equal planets share a load is not determined, but their common power flow is
     shared = load if train.planets_as_one is train else _load(train.planets_as_one, state, source, link)
@@ -272,11 +257,9 @@ def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques 
 
 
 def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fraction | None]:
-    drive = load.external[source]
-    held = {each.clutch: each.torques for each in load.held if each.clutch is not None}
-    return {
-        name: None if (torques := held.get(name)) is None else torques[0] / drive for name in engaged if name in held
-    }
+    drive, held = load.external[source], {each.clutch: each.torques for each in load.held}
+    known = {name: held[name] for name in engaged if name in held}
+    return {name: None if torques is None else torques[0] / drive for name, torques in known.items()}
 
 
 def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:

@@ -103,12 +103,8 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
             continue
         name = data["label"]
         data["form"] = train.declaration.form_of(data["declared"]) if data["kind"] == "gear" else None
-        data["axis"] = Lazy(partial(found.axes, name))
-        data["circuit"] = Lazy(partial(found.circuit, name))
-        data["carrier"] = Lazy(partial(found.carrier, name))
-        data["ratio"] = Lazy(partial(found.ratio, name))
-        data["mesh"] = Lazy(partial(found.mesh, name))
-        data["efficiency"] = Lazy(partial(found.efficiency, name))
+        for key in ("axis", "circuit", "carrier", "ratio", "mesh", "efficiency"):
+            data[key] = Lazy(partial(getattr(found, key), name))
     return _frozen(graph)
 
 
@@ -148,7 +144,7 @@ class _GraphFacts:
         """
         return self._circuits[name].ratio
 
-    def axes(self, name: str) -> tuple[str, str]:
+    def axis(self, name: str) -> tuple[str, str]:
         circuit, tree = self._circuits[name], self._train.tree
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 

@@ -7,7 +7,6 @@ import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -157,7 +156,7 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
     if is_standard(out):
         if option != "-o":
             why = "standard output is reserved for the result of the command"
-            raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
+            raise option_error(option, f"{option} cannot write to standard output", "give a file name", why)
         return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
 
@@ -185,10 +184,8 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
         real = destination(each.path, each.force)
         if real in taken:
-            why = "the second would overwrite the first"
-            raise GearTrainError(
-                Problem("two results are written to the same file", why, "give two different files", str(each.path))
-            )
+            what, why = "two results are written to the same file", "the second would overwrite the first"
+            raise option_error(str(each.path), what, "give two different files", why)
         taken.add(real)
 
 
@@ -249,21 +246,6 @@ def file_name(text: str, ending: str) -> Path:
     # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
-
-
-def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction: a number, a percentage or ppm."""
-    from pydantic_core import PydanticCustomError
-
-    from geartrain.numerics.quantity import Quantity
-
-    try:
-        found = Quantity.parse(text, "fraction", plain=True)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        fix = str(context.get("fix", "give a number, a percentage or ppm, such as 0.01, 1 % or 20 ppm"))
-        raise option_error(option, error.message(), fix, str(context.get("why", ""))) from None
-    return found.base
 
 
 def as_json(data: Any) -> str:

@@ -120,16 +120,12 @@ def list_periods(
 
     Example: `geartrain periods saros`.
     """
-    from geartrain.errors import Problem, QuestionError
     from geartrain.train.periods import period_table, suggested_period
 
     units = {"period": "d", "speed": "turns per year", "count": ""}
     rows = [row for row in period_table().values() if word in row.name]
     if not rows:
-        raise QuestionError(
-            Problem(
-                f"no name contains '{word}'", "only the names in the shipped table are searched", suggested_period(word)
-            )
-        )
+        why = "only the names in the shipped table are searched"
+        raise option_error("", f"no name contains '{word}'", suggested_period(word), why)
     width = max(len(row.name) for row in rows)
     emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))

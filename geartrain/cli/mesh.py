@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -60,21 +61,13 @@ DEFAULT = "involute"
 _TRIANGULAR = ("backwards", "inertia", "load", "vary", "objective", "free", "within", "cutting", "at")
 """Options that apply only to triangular teeth."""
 _COMPARED = (
-    "z1",
-    "z2",
-    "form",
-    "parameter",
-    "compare",
-    "internal",
-    "shaft_angle",
-    "plot",
-    "json",
-    "theme",
-    "out",
-    "force",
+    *("z1", "z2", "form", "parameter", "compare", "internal", "shaft_angle"),
+    *("plot", "json", "theme", "out", "force"),
 )
 """Options that apply to a comparison of tooth forms."""
-_TEETH, _OUTLINE, _RESULT = "Triangular teeth", "Outline of one wheel", "Output"
+_teeth = partial(typer.Option, rich_help_panel="Triangular teeth")
+_outline = partial(typer.Option, rich_help_panel="Outline of one wheel")
+_output = partial(typer.Option, rich_help_panel="Output")
 
 
 def run(
@@ -123,110 +116,85 @@ def run(
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
     rate: Annotated[str | None, typer.Option("--rate", help="Speed of the driving wheel, such as '1 turn/s'.")] = None,
     backwards: Annotated[
-        bool,
-        typer.Option(
-            "--backwards",
-            help="Turn the driving wheel backwards, with contact on the back flanks.",
-            rich_help_panel=_TEETH,
-        ),
+        bool, _teeth("--backwards", help="Turn the driving wheel backwards, with contact on the back flanks.")
     ] = False,
     inertia: Annotated[
-        str | None,
-        typer.Option(
-            "--inertia", help="Moment of inertia of the driven wheel, such as '1 kg mm2'.", rich_help_panel=_TEETH
-        ),
+        str | None, _teeth("--inertia", help="Moment of inertia of the driven wheel, such as '1 kg mm2'.")
     ] = None,
-    load: Annotated[
-        str | None,
-        typer.Option("--load", help="Load torque on the driven wheel, such as '1 N mm'.", rich_help_panel=_TEETH),
-    ] = None,
+    load: Annotated[str | None, _teeth("--load", help="Load torque on the driven wheel, such as '1 N mm'.")] = None,
     vary: Annotated[
         Names,
-        typer.Option(
+        _teeth(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
             help="Tabulate results for a range of friction, z1, z2 or a key listed by --keys; may be given twice.",
-            rich_help_panel=_TEETH,
         ),
     ] = None,
     objective: Annotated[
         str | None,
-        typer.Option(
+        _teeth(
             "--objective",
             help="Find sizes that minimise loss, error or impact, or maximise the jam margin (jam); give one "
             "objective, or two separated by a comma.",
-            rich_help_panel=_TEETH,
         ),
     ] = None,
     free: Annotated[
         Names,
-        typer.Option(
+        _teeth(
             "--free",
             metavar="NAME[=LOW:HIGH]",
             help="With --objective: vary radii, window or half_angle; may be repeated; default: radii.",
-            rich_help_panel=_TEETH,
         ),
     ] = None,
     within: Annotated[
         Names,
-        typer.Option(
+        _teeth(
             "--within",
             metavar="NAME=LIMIT",
             help="With --objective: limit on loss, error, impact, jam, window_width, backlash or stops; "
             "may be repeated.",
-            rich_help_panel=_TEETH,
         ),
     ] = None,
     cutting: Annotated[
         Names,
-        typer.Option(
+        _teeth(
             "--cutting",
             metavar="KIND=SIZE",
             help="With --within stops=5%: cutting error, given as in montecarlo, such as 'pitch_deviation=1 %'.",
-            rich_help_panel=_TEETH,
         ),
     ] = None,
     profile: Annotated[
         Path | None,
-        typer.Option(
-            "--profile",
-            metavar="FILE",
-            help="Write the outline of a whole wheel to scale, as .svg, .dxf or .csv.",
-            rich_help_panel=_OUTLINE,
+        _outline(
+            "--profile", metavar="FILE", help="Write the outline of a whole wheel to scale, as .svg, .dxf or .csv."
         ),
     ] = None,
-    wheel: Annotated[
-        int,
-        typer.Option("--wheel", min=1, max=2, help="Number of the wheel to write, 1 or 2.", rich_help_panel=_OUTLINE),
-    ] = 1,
+    wheel: Annotated[int, _outline("--wheel", min=1, max=2, help="Number of the wheel to write, 1 or 2.")] = 1,
     blank: Annotated[
         Names,
-        typer.Option(
+        _outline(
             "--blank",
             metavar="KEY=LENGTH",
             help="Size of the wheel: bore, tolerance (of chords; default: 0.001mm), clearance (bottom clearance), "
             "fillet or rim; may be repeated.",
-            rich_help_panel=_OUTLINE,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
+        _output(
             "--plot",
             metavar="FILE",
             help="Plot flanks, path of contact and losses; for forms without a path of contact, transmission "
             "function and efficiency; with --vary or --objective, the sweep or the designs.",
-            rich_help_panel=_RESULT,
         ),
     ] = None,
     at: Annotated[
         str | None,
-        typer.Option(
+        _output(
             "--at",
             metavar="ANGLE",
             help="With --plot: draw triangular wheels in contact, with the driving tooth at this angle from the line "
             "of centres.",
-            rich_help_panel=_RESULT,
         ),
     ] = None,
     json: Json = False,
@@ -266,7 +234,9 @@ def run(
         read_helix(helix, angle),
     )
     sizes = read_assignments(blank or (), BLANK if model.conjugate else BLANK[:2], "--blank")
-    picture, outlined = picture_sink(plot, force, theme), _profile_sink(profile, force)
+    from geartrain.drawing.flat_files import OUTLINES
+
+    picture, outlined = picture_sink(plot, force, theme), sink(profile, force, OUTLINES, "--profile")
     check_distinct_outputs(to, outlined, picture)
     if objective is not None or free or within or cutting:
         question = wing("workshop.sizes.verb")
@@ -315,13 +285,6 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
             name = option.opts[0]
             raise option_error(name, f"it does not apply to {what}", f"omit {name}")
-
-
-def _profile_sink(profile: Path | None, force: bool) -> Sink:
-    """Return the destination of an outline, after checking that it can be written. Raises `GearTrainError`."""
-    from geartrain.drawing.flat_files import OUTLINES
-
-    return sink(profile, force, OUTLINES, "--profile")
 
 
 def _figure(mesh: GearMesh, at: str | None) -> Figure:

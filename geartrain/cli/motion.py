@@ -18,6 +18,7 @@ from geartrain.cli.common import (
     Json,
     Names,
     Out,
+    Seed,
     Sink,
     StateName,
     Without,
@@ -35,7 +36,7 @@ from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import ErrorSamples, Motion, MotionRun
+    from geartrain.dynamics import Motion, MotionRun
 
 
 def run(
@@ -58,7 +59,7 @@ def run(
     phases: Annotated[
         int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of additional runs with random tooth phases.")
     ] = 0,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed.")] = 1,
+    seed: Seed = 1,
     tolerance: Annotated[
         float | None,
         typer.Option(
@@ -113,19 +114,16 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            draw(
-                motion_figure(requested, bar.advance, f"{train.name}: transmission errors and speeds of outputs"),
-                picture,
-            )
+            title = f"{train.name}: transmission errors and speeds of outputs"
+            draw(motion_figure(requested, bar.advance, title), picture)
 
 
 def _turns(text: str, motion: Motion) -> float:
     if text != "period":
         return float(read_turns("--turns", text))
     if motion.period is None:
-        raise option_error(
-            "--turns", "the speeds have no common period", "give a number of revolutions", "they are constant"
-        )
+        what, fix = "the speeds have no common period", "give a number of revolutions"
+        raise option_error("--turns", what, fix, "they are constant")
     return float(motion.period)
 
 
@@ -198,15 +196,9 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
 
 
 def _rows(requested: MotionRun, first: int, header: bool = True) -> Iterator[list[str]]:
-    from geartrain.numerics.files import csv_line
+    from geartrain.numerics.files import csv_line, csv_lines
 
     if header:
         yield [csv_line(requested._position_columns)]
     for passage in requested.motion._stretches(requested.turns, requested.samples, first):
-        yield _lines(requested, passage)
-
-
-def _lines(requested: MotionRun, passage: ErrorSamples) -> list[str]:
-    from geartrain.numerics.files import csv_lines
-
-    return csv_lines(zip(*(column.tolist() for column in requested._values(passage)), strict=True))
+        yield csv_lines(zip(*(column.tolist() for column in requested._values(passage)), strict=True))

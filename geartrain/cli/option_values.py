@@ -5,6 +5,7 @@ An error in a pair of `geartrain mesh` is reported at the option that causes it.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from math import inf, tau
 from typing import Annotated, Literal
@@ -12,6 +13,7 @@ from typing import Annotated, Literal
 import typer
 from pydantic_core import PydanticCustomError
 
+from geartrain.cli.common import option_error
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.scene.palette import ThemeName
@@ -43,25 +45,25 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
         raise value_error(error, place) from None
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
-        raise GearTrainError(Problem(f"{text} is out of range", "its square would overflow or underflow", fix, place))
+        raise option_error(place, f"{text} is out of range", fix, "its square would overflow or underflow")
     if minimum == "above 0" and found.value <= 0:
-        raise GearTrainError(
-            Problem(f"the value must be greater than 0, not {text}", "", f"give a {dimension} above 0", place)
-        )
+        raise option_error(place, f"the value must be greater than 0, not {text}", f"give a {dimension} above 0")
     if minimum == "0" and found.value < 0:
-        raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
+        raise option_error(place, f"{text} is below 0", f"give a {dimension} of 0 or more")
     return found
+
+
+def read_share(text: str, option: str) -> Fraction:
+    """Parse the value of an option as an exact fraction: a number, a percentage or ppm."""
+    return read_quantity(option, text, "fraction", plain=True).base
 
 
 def friction(text: str) -> float:
     """Parse a coefficient of friction, 0 or more."""
     found = quantity("--friction", text, "fraction", plain=True)
     if found < 0:
-        raise GearTrainError(
-            Problem(
-                f"the coefficient of friction {text} is negative", "", "give a coefficient of 0 or more", "--friction"
-            )
-        )
+        what = f"the coefficient of friction {text} is negative"
+        raise option_error("--friction", what, "give a coefficient of 0 or more")
     return found
 
 
@@ -90,9 +92,7 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
         bounds = (
             f" from {low:g} to {high:g}" if inf not in (-low, high) else f" of {low:g} or more" if low > -inf else ""
         )
-        raise GearTrainError(
-            Problem(f"'{text}' is not a valid {what}", "", f"give a value{bounds}, such as {such_as}", place)
-        )
+        raise option_error(place, f"'{text}' is not a valid {what}", f"give a value{bounds}, such as {such_as}")
     return found
 
 
@@ -100,9 +100,7 @@ def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, hi
     """Parse a number within a range; reject a number whose square would underflow. Raises `GearTrainError`."""
     found = float(exact(place, text, what, such_as, low, high))
     if found and abs(found) < 1 / _MOST:
-        raise GearTrainError(
-            Problem(f"'{text}' is not a valid {what}", "its square would underflow", f"give {such_as}", place)
-        )
+        raise option_error(place, f"'{text}' is not a valid {what}", f"give {such_as}", "its square would underflow")
     return found
 
 
@@ -117,11 +115,8 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: in
     """Parse an integer within a range. Raises `GearTrainError`."""
     found = exact(place, text, what, such_as, low, high)
     if found.denominator != 1:
-        raise GearTrainError(
-            Problem(
-                f"'{text}' is not a valid {what}", "it is not an integer", f"give an integer such as {such_as}", place
-            )
-        )
+        fix = f"give an integer such as {such_as}"
+        raise option_error(place, f"'{text}' is not a valid {what}", fix, "it is not an integer")
     return int(found)
 
 
@@ -133,8 +128,4 @@ def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
     """Return the error with `place`, the option that caused it, in every problem that has no place."""
-    from dataclasses import replace
-
-    return GearTrainError(
-        replace(problem, place=problem.place or place.replace("_", "-")) for problem in error.problems
-    )
+    return GearTrainError(replace(each, place=each.place or place.replace("_", "-")) for each in error.problems)

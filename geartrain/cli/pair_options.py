@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args, get_origin
 from geartrain.cli.common import Sink, emit, option_error
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.option_values import friction as read_coefficient
-from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
+from geartrain.errors import GearTrainError, Problem, suggest
 from geartrain.teeth.triangular.triangular_form import CLEARANCES, FEWEST, Triangular
 
 if TYPE_CHECKING:
@@ -54,14 +54,10 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
     from geartrain.report.document import Document, Section, Table
 
     required = model.with_defaults({})
-    rows = [
-        (
-            name,
-            str(required.get(name, "" if field.is_required() or field.default is None else field.default)),
-            _meaning(field),
-        )
-        for name, field in parameters_of(model).items()
-    ]
+    rows = []
+    for name, field in parameters_of(model).items():
+        default = "" if field.is_required() or field.default is None else field.default
+        rows.append((name, str(required.get(name, default)), _meaning(field)))
     table = Table(("key", "default", "meaning"), rows)
     text = f"Give each as `-p KEY=VALUE`. They are the keys of `tooth_form: {{form: {form}}}` in a declaration."
     return Document(f"Parameters of {form} teeth", (text,), [Section("Keys", (), [table])])
@@ -89,14 +85,8 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
         if not equals or not value:
             raise option_error(option, f"'{text}' is not an assignment", "write it as KEY=VALUE")
         if name not in known:
-            raise QuestionError(
-                Problem(
-                    f"unknown key '{name}'",
-                    "",
-                    "; ".join(filter(None, (suggest(name, known), fix))),
-                    f"{option} {name}",
-                )
-            )
+            ways = "; ".join(filter(None, (suggest(name, known), fix)))
+            raise option_error(f"{option} {name}", f"unknown key '{name}'", ways)
         if name in found:
             raise option_error(f"{option} {name}", "it is given twice", "give it once")
         found[name] = value
@@ -112,12 +102,8 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
     try:
         return model.declared(model.with_defaults({name: _value(fields[name], each) for name, each in given.items()}))
     except GearTrainError as error:
-        raise at_parameter(error, "-p", f"`geartrain mesh --form {_name(model)} --keys` lists the parameters") from None
-
-
-def _name(model: type[ToothForm]) -> str:
-    (form,) = get_args(model.model_fields["form"].annotation)
-    return str(form)
+        (form,) = get_args(fields["form"].annotation)
+        raise at_parameter(error, "-p", f"`geartrain mesh --form {form} --keys` lists the parameters") from None
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
@@ -147,7 +133,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
     """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
-        raise GearTrainError(Problem("a ring is not a bevel wheel", why, fix, "--shaft-angle"))
+        raise option_error("--shaft-angle", "a ring is not a bevel wheel", fix, why)
     return None if angle is None else quantity("--shaft-angle", angle, "angle")
 
 
@@ -156,13 +142,11 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
-        raise GearTrainError(
-            Problem("bevel wheels have no helix angle", why, "omit --shaft-angle or --helix", "--helix")
-        )
+        raise option_error("--helix", "bevel wheels have no helix angle", "omit --shaft-angle or --helix", why)
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is out of range"
         why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
-        raise GearTrainError(Problem(what, why, "give for example --helix 20deg", "--helix"))
+        raise option_error("--helix", what, "give for example --helix 20deg", why)
     return angle
 
 
@@ -280,12 +264,11 @@ def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
-        why = "an outline is written to scale"
-        raise GearTrainError(Problem("the module is missing", why, "give for example --module 2mm", "--module"))
-    sizes = {"tolerance": FINE, **sizes}
-    return BlankSizes(
-        1000 * module, **{name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in sizes.items()}
-    )
+        fix, why = "give for example --module 2mm", "an outline is written to scale"
+        raise option_error("--module", "the module is missing", fix, why)
+    texts = {"tolerance": FINE, **sizes}
+    lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in texts.items()}
+    return BlankSizes(1000 * module, **lengths)
 
 
 FINE = "0.001mm"
@@ -306,10 +289,8 @@ class PairFrictionOption:
     def number(self, option: str) -> float:
         """Return the coefficient. Raises `GearTrainError` if a friction law is given; `option` needs a number."""
         if self.law is not None:
-            what = f"{option} needs a coefficient of friction"
-            raise GearTrainError(
-                Problem(what, "a friction law is given", "give for example --friction 0.1", "--friction")
-            )
+            what, fix = f"{option} needs a coefficient of friction", "give for example --friction 0.1"
+            raise option_error("--friction", what, fix, "a friction law is given")
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
@@ -324,7 +305,7 @@ class PairFrictionOption:
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
             what = f"the friction law '{self.law.law}' depends on the sliding speed"
             why = f"it cannot be computed without {' and '.join(lacking.values())}"
-            raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
+            raise option_error("--friction", what, f"give {' and '.join(lacking)}", why)
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts
             # the pitch radius is that of the first wheel, the speed that of the driver

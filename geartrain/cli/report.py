@@ -125,7 +125,5 @@ def compare(
     to = sink(out, force, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
-    give(
-        to, json, lambda: [collect_report(train) for train in trains], lambda: [describe_comparison(trains, everything)]
-    )
+    give(to, json, lambda: list(map(collect_report, trains)), lambda: [describe_comparison(trains, everything)])
     raise typer.Exit(exit_code(sound, to))

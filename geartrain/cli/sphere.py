@@ -27,7 +27,6 @@ from geartrain.cli.option_values import Theme, decimal
 
 if TYPE_CHECKING:
     from geartrain.spherical import Configuration, GraphSet
-    from geartrain.spherical.gear_sphere import GearSphere
     from geartrain.spherical.polyhedron_gears import SurveyRow
 
 _YAML = (".yaml", ".yml")
@@ -122,7 +121,9 @@ def run(
     else:
         give(to, json, lambda: found, lambda: [describe_sphere(found)])
     if plot is not None:
-        _draw(found, picture)
+        from geartrain.drawing import sphere_figure
+
+        draw(sphere_figure(*found.pose()), picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
 
 
@@ -202,9 +203,3 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
     # a pitch radius determines the sphere through the pitch cone angle of its kind
     cones = size_gears(configuration).outer
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
-
-
-def _draw(found: GearSphere, picture: Sink) -> None:
-    from geartrain.drawing import sphere_figure
-
-    draw(sphere_figure(*found.pose()), picture)

@@ -43,8 +43,6 @@ class Verbs(Mapping[str, Command]):
     modules
         Name of each command -> its function or module, in the order in which `--help` lists them. Commands of an
         optional part that is not installed are omitted.
-    make
-        Name -> function, for commands that are not modules.
     entry_points
         Group of entry points (`importlib.metadata`) through which other distributions add commands. It is read only
         when a name is unknown or when all names are listed, because a scan of the installed distributions takes
@@ -56,11 +54,10 @@ class Verbs(Mapping[str, Command]):
     def __init__(
         self,
         modules: Mapping[str, str],
-        make: Mapping[str, Callable[[], Callable[..., None]]] | None = None,
         entry_points: str | None = None,
         panels: Mapping[str, Sequence[str]] | None = None,
     ) -> None:
-        self._modules, self._make, self._group = modules, make or {}, entry_points
+        self._modules, self._group = modules, entry_points
         self._made: dict[str, Command] = {}
         self._panels = {name: title for title, names in (panels or {}).items() for name in names}
 
@@ -74,7 +71,6 @@ class Verbs(Mapping[str, Command]):
         # a command of an optional part is listed only if that part is installed
         absent = {f"geartrain.{name}" for name in WINGS if not has_wing(name)}
         yield from (name for name, module in self._modules.items() if ".".join(module.split(".")[:2]) not in absent)
-        yield from self._make
         yield from self._added
 
     def __len__(self) -> int:
@@ -88,11 +84,10 @@ class Verbs(Mapping[str, Command]):
         from importlib.metadata import entry_points
 
         # other distributions can add commands, but not replace those of this group
-        known = {*self._modules, *self._make}
-        return {each.name: each for each in entry_points(group=self._group) if each.name not in known}
+        return {each.name: each for each in entry_points(group=self._group) if each.name not in self._modules}
 
     def _command(self, name: str) -> Command:
-        found = self._make[name]() if name in self._make else self._load(name)
+        found = self._load(name)
         if hasattr(found, "app"):
             command = typer.main.get_command(found.app)
             command.name = name

@@ -21,6 +21,7 @@ from geartrain.cli.common import (
     is_sound,
     is_standard,
     load_all,
+    option_error,
     sink,
     tell,
 )
@@ -123,30 +124,24 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
     Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
     """
     if embed and kiosk:
-        raise QuestionError(
-            Problem("--embed and --kiosk are given together", "a page has one layout", "omit one of them", "view")
-        )
+        what, why = "--embed and --kiosk are given together", "a page has one layout"
+        raise option_error("view", what, "omit one of them", why)
     if (embed or kiosk) and other is not None:
         layout = "--embed" if embed else "--kiosk"
-        raise QuestionError(
-            Problem(
-                f"two trains are given with {layout}", f"{layout} shows one train", f"give one, or omit {layout}", other
-            )
-        )
+        what, why = f"two trains are given with {layout}", f"{layout} shows one train"
+        raise option_error(other, what, f"give one, or omit {layout}", why)
     return "embed" if embed else "kiosk" if kiosk else "page"
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
     """Raise `QuestionError` if options of --dynamics are given without it, or --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
-        what, why = (
-            "options of --dynamics are given without --dynamics",
-            "without --dynamics the page shows the kinematics only",
-        )
+        what = "options of --dynamics are given without --dynamics"
+        why = "without --dynamics the page shows the kinematics only"
         raise QuestionError(Problem(what, why, "add --dynamics, or omit these options"))
     if dynamics and other is not None:
         why = "two trains on one page share a crank, but each simulation has its own time"
-        raise QuestionError(Problem("two trains are given with --dynamics", why, "write a page for each", other))
+        raise option_error(other, "two trains are given with --dynamics", "write a page for each", why)
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
@@ -169,7 +164,7 @@ def _page_sink(path: Path, force: bool) -> Sink:
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"
     fix = "use the suffix .html; pictures and films can be saved from the page"
-    raise QuestionError(Problem("the page cannot be written", why, fix, str(path)))
+    raise option_error(str(path), "the page cannot be written", fix, why)
 
 
 # ---------------------------------------------------------------------------------------------------------------- watch

@@ -32,25 +32,22 @@ class AccuracyReport(Result):
 
 def describe_accuracy(found: AccuracyReport) -> Document:
     """Return a document with a section for each stage of computation in each state, and one for the omitted stages."""
-    return Document(
-        f"Error against run time: {found.name}", [_LEAD], [s for each in found.states for s in _sections(each)]
-    )
+    sections = [section for each in found.states for section in _sections(each)]
+    return Document(f"Error against run time: {found.name}", [_LEAD], sections)
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
     """Return the output of `geartrain inspect bench` for one state."""
-    return describe_accuracy(
-        AccuracyReport("" if found._declaration is None else found._declaration.name, "", (found,))
-    )
+    name = "" if found._declaration is None else found._declaration.name
+    return describe_accuracy(AccuracyReport(name, "", (found,)))
 
 
 def _sections(found: TrainAccuracy) -> Iterator[Section]:
     state = "" if found.state is None else f"State {found.state}: "
     # stages in the order in which they were measured
     for stage in dict.fromkeys(row.stage for row in found.methods):
-        yield Section(
-            f"{state}{stage}", (), [Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])]
-        )
+        table = Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])
+        yield Section(f"{state}{stage}", (), [table])
     if found.neglected:
         yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.neglected.items()])
 

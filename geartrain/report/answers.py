@@ -15,19 +15,26 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, SpeedValue, TargetResult, magnitude
 from geartrain.numerics.exact import plural
-from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut, exact, figure, filled_table, one_to, ppm
+from geartrain.report.document import (
+    MOST_ROWS,
+    Document,
+    Section,
+    Table,
+    cut,
+    exact,
+    figure,
+    filled_table,
+    one_to,
+    ppm,
+    titled,
+)
 from geartrain.train import Train
 from geartrain.train.outputs import looks_away
 
 _SECONDS = 86400  # seconds of a day
 _EXACT = 1e-9  # ppm, or days: smaller errors are rounding
 _YEAR = 300  # days: shorter than any year and longer than other units of time
-_SPANS = (
-    ("d", Fraction(1)),
-    ("h", Fraction(1, 24)),
-    ("min", Fraction(1, 1440)),
-    ("s", Fraction(1, 86400)),
-)  # units of time in days
+_SPANS = {"d": Fraction(1), "h": Fraction(1, 24), "min": Fraction(1, 1440), "s": Fraction(1, _SECONDS)}  # in days
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
@@ -41,12 +48,8 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
         marks = ["x" if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
-    header = ("state", *clutches, "verdict", *names)
-    return Section(
-        "States",
-        (("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input over output.",),
-        (Table(header, rows),),
-    )
+    text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input over output."
+    return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -61,15 +64,14 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
     """Yield the sections on one state: the pointers with their targets; then, as details, all outputs, targets and
     speeds.
     """
-    head = f"State {answer.state}: " if answer.state is not None else ""
     if answer.outputs:
-        yield _pointers(train, answer, head)
-        yield replace(_outputs(train, answer, head), detail=True)
-    yield from (replace(section, detail=True) for section in _targets(answer, head))
-    yield replace(_speed_section(train, answer, head), detail=bool(answer.outputs and answer.verdict))
+        yield _pointers(train, answer)
+        yield replace(_outputs(train, answer), detail=True)
+    yield from (replace(section, detail=True) for section in _targets(answer))
+    yield replace(_speed_section(train, answer), detail=bool(answer.outputs and answer.verdict))
 
 
-def _pointers(train: GearTrain, answer: Answer, head: str) -> Section:
+def _pointers(train: GearTrain, answer: Answer) -> Section:
     """Return a section with the speed, period, target and error of each pointer.
 
     If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the others are only counted.
@@ -82,7 +84,7 @@ def _pointers(train: GearTrain, answer: Answer, head: str) -> Section:
     table = filled_table(("output", "speed", second, "target", "ppm off", error, "fault"), rows, 3)
     others = len(answer.outputs) - len(pointers)
     more = (f"{plural(others, 'further output')} without dial, target or printed figure: see 'All outputs'.",)
-    return Section(_title(head, "outputs"), more if others else (), (replace(table, rows=cut(table.rows)),))
+    return Section(titled(answer.state, "outputs"), more if others else (), (replace(table, rows=cut(table.rows)),))
 
 
 def _is_pointer(result: OutputResult) -> bool:
@@ -141,7 +143,7 @@ def _fault(result: OutputResult) -> str:
     return "; ".join(parts)
 
 
-def _targets(answer: Answer, head: str) -> Iterator[Section]:
+def _targets(answer: Answer) -> Iterator[Section]:
     """Yield a section on the errors of outputs against their targets; nothing if no output has a target."""
     targets = [
         (
@@ -152,7 +154,7 @@ def _targets(answer: Answer, head: str) -> Iterator[Section]:
             _signed(target.degrees_per_unit),
             figure(target.speed, 10),
             _COMPARED[target.compared],
-            _met(target.met),
+            "" if target.met is None else "yes" if target.met else "NO",
         )
         for name, result in answer.outputs.items()
         for target in result.targets
@@ -160,46 +162,30 @@ def _targets(answer: Answer, head: str) -> Iterator[Section]:
     if not targets:
         return
     each = answer.unit.removeprefix("turns per ") if answer.unit.startswith("turns per ") else "unit"
-    header = (
-        "output",
-        "target",
-        "error ppm",
-        "days a century",
-        f"degrees per {each}",
-        "target speed",
-        "compared",
-        "within",
-    )
+    errors = ("error ppm", "days a century", f"degrees per {each}")
+    header = ("output", "target", *errors, "target speed", "compared", "within")
     table = filled_table(header, targets, len(header) - 1)
     said = ["A positive error means that the output is fast."]
     if any(row[6] == _COMPARED["magnitude"] for row in targets):
         said.append("Compared by magnitude: the target has no `sense`, so that either sense of rotation meets it.")
-    yield Section(_title(head, "against the targets"), tuple(said), (table,))
+    yield Section(titled(answer.state, "against the targets"), tuple(said), (table,))
 
 
-def _speed_section(train: GearTrain, answer: Answer, head: str) -> Section:
+def _speed_section(train: GearTrain, answer: Answer) -> Section:
     case = train.declaration.case(answer.state)
     given = [*map(case.given, case.inputs)]
     given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
     lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
     if answer.method == "floats":
         lines.append(why_floats(answer) if case.exact else "Solved in floats: radians are mixed with turns.")
-    return Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
+    return Section(titled(answer.state, "speeds"), lines, tuple(_speeds(train, answer)))
 
 
 _COMPARED = {"speed": "with sense", "magnitude": "magnitude", "difference": "difference"}
 
 
-def _title(head: str, words: str) -> str:
-    return head + words if head else words[0].upper() + words[1:]
-
-
 def _signed(value: float | None) -> str:
     return "-" if value is None else f"{value:+.5g}"
-
-
-def _met(met: bool | None) -> str:
-    return "" if met is None else "yes" if met else "NO"
 
 
 def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
@@ -214,13 +200,13 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
 
 
-def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:
+def _outputs(train: GearTrain, answer: Answer) -> Section:
     rows = [_output(train, result) for result in answer.outputs.values()]
     header: tuple[str, ...] = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
-    own = all(row[1] == row[0] for row in rows)  # every output is named after its link
-    header, rows = (header[:1] + header[2:], [row[:1] + row[2:] for row in rows]) if own else (header, rows)
+    if all(row[1] == row[0] for row in rows):  # every output is named after its link
+        header, *rows = (row[:1] + row[2:] for row in (header, *rows))
     notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
-    return Section(_title(head, "all outputs"), notes, (filled_table(header, rows, len(header) - 4),))
+    return Section(titled(answer.state, "all outputs"), notes, (filled_table(header, rows, len(header) - 4),))
 
 
 def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
@@ -302,8 +288,8 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
     if declared.unit_days > _YEAR and units >= 1:
         return f"{figure(units, digits)} year{'' if units == 1 else 's'}"
     days = units * declared.unit_days
-    name, length = next(((name, each) for name, each in _SPANS if days >= each), _SPANS[-1])
-    return f"{figure(days / length, 6)} {name}"
+    name = next((name for name, each in _SPANS.items() if days >= each), "s")
+    return f"{figure(days / _SPANS[name], 6)} {name}"
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
@@ -317,10 +303,9 @@ def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Sec
             found = [item for item in found if item.output in pointers]
         if not found:
             continue
-        head = f"State {answer.state}: " if answer.state is not None else ""
         text = "Change of speed in ppm, from exact solutions; outputs with equal changes share a row."
         table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
-        yield Section(_title(head, "uncertain tooth counts"), (text,), (table,), detail=True)
+        yield Section(titled(answer.state, "uncertain tooth counts"), (text,), (table,), detail=True)
 
 
 def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
@@ -329,11 +314,8 @@ def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
         groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
     for (wheel, less, more), items in groups.items():
         allowed = items[0].allowed
-        span = (
-            f"{allowed[0]}-{allowed[-1]}"
-            if allowed == tuple(range(allowed[0], allowed[-1] + 1))
-            else ", ".join(map(str, allowed))
-        )
+        whole = allowed == tuple(range(allowed[0], allowed[-1] + 1))
+        span = f"{allowed[0]}-{allowed[-1]}" if whole else ", ".join(map(str, allowed))
         yield wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)
 
 

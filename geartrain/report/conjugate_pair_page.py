@@ -10,6 +10,7 @@ from math import cos, degrees, isfinite
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, figure
+from geartrain.report.gear_pairs import without_losses
 from geartrain.teeth.conjugate.path_losses import FREE, LOADED, ONE_PAIR, SHARED
 
 if TYPE_CHECKING:
@@ -120,27 +121,18 @@ def _losses_and_stresses(found: DesignLosses) -> Section:
 
 def _friction(design: PairDesign) -> Section:
     transmission = design.mesh.losses
-    if not design.mesh.has_friction:
-        return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
-    if not design.mesh.tells_losses:
-        return Section("Friction", (f"{design.mesh.friction_words}.",))
-    if design.locks:
-        return Section(
-            "Friction",
-            (
-                f"A friction coefficient of {transmission.friction:.6g} locks these teeth, which lock from "
-                f"{transmission.locking_friction:.6g} on.",
-            ),
-        )
-    return Section(
-        "Friction",
-        (
-            f"{design.mesh.friction_words}. Efficiency, exact in friction, with the load shared equally by teeth in "
-            f"contact: mean {transmission.efficiency_mean():.9f} at constant driver torque, "
-            f"{transmission.efficiency_at_constant_load():.9f} at constant load torque, minimum "
-            f"{transmission.efficiency_minimum():.9f}.",
-        ),
+    if (known := without_losses(design.mesh)) is not None:
+        return known
+    text = (
+        f"A friction coefficient of {transmission.friction:.6g} locks these teeth, which lock from "
+        f"{transmission.locking_friction:.6g} on."
+        if design.locks
+        else f"{design.mesh.friction_words}. Efficiency, exact in friction, with the load shared equally by teeth in "
+        f"contact: mean {transmission.efficiency_mean():.9f} at constant driver torque, "
+        f"{transmission.efficiency_at_constant_load():.9f} at constant load torque, minimum "
+        f"{transmission.efficiency_minimum():.9f}."
     )
+    return Section("Friction", (text,))
 
 
 def pair_name(path: PathOfContact) -> str:
@@ -156,9 +148,6 @@ def cost(value: float) -> str:
 
 
 # -------------------------------------------------------------------------------------------------- comparison of forms
-
-
-_HEADERS = {"off_pitch": "stress off pitch"}
 
 
 def describe_form_comparison(found: FormComparison) -> Document:
@@ -189,17 +178,16 @@ def describe_form_comparison(found: FormComparison) -> Document:
         "depth; slowest: minimum speed of the contact along a dedendum. Arcs: approach and recess in pitches. For "
         f"loss, stress, heat and flash, {ONE_PAIR}."
     )
-    rows = [_ratios(form) for form in found.forms]
     header = ("form", "arcs", *map(_header, (*LOADED, *FREE)))
-    sections = [Section("Ratios", (text,), [Table(header, rows, True)]), _sharing(found), _base(found)]
-    faulty = [line for form in found.forms for line in _reasons(form)]
-    if faulty:
+    table = Table(header, list(map(_ratios, found.forms)), True)
+    sections = [Section("Ratios", (text,), [table]), _sharing(found), _base(found)]
+    if faulty := [line for form in found.forms for line in _reasons(form)]:
         sections.append(Section("Forms that cannot run", faulty))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
 def _header(name: str) -> str:
-    return _HEADERS.get(name, name.replace("_", " "))
+    return "stress off pitch" if name == "off_pitch" else name.replace("_", " ")
 
 
 def _sharing(found: FormComparison) -> Section:
@@ -207,26 +195,23 @@ def _sharing(found: FormComparison) -> Section:
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):  # tolerance for a contact ratio of exactly 1
-        return Section(
-            "Ratios, shared load", ("Only one tooth pair is in contact at a time, so that the ratios are the same.",)
-        )
-    rows = [_shared(form) for form in found.forms]
-    table = Table(("form", *map(_header, LOADED)), rows, True)
+        text = "Only one tooth pair is in contact at a time, so that the ratios are the same."
+        return Section("Ratios, shared load", (text,))
+    table = Table(("form", *map(_header, LOADED)), [_shared(form) for form in found.forms], True)
     return Section("Ratios, shared load", (f"As above, but {SHARED}.",), [table])
 
 
 def _shared(form: MeasuredForm) -> tuple[str, ...]:
-    if form.ratios is None:
-        return (form.name, *("-" for _ in LOADED))
-    return (form.name, *(_ratio(form.ratios.shared[name]) for name in LOADED))
+    ratios = None if form.ratios is None else form.ratios.shared
+    return (form.name, *("-" if ratios is None else _ratio(ratios[name]) for name in LOADED))
 
 
 def _ratios(form: MeasuredForm) -> tuple[str, ...]:
     if form.ratios is None:
         words = ", ".join(dict.fromkeys(fault.kind for fault in form.faults))
         return (form.name, _arcs(form), words, *("-" for _ in (*LOADED, *FREE)[1:]))
-    loaded, free = form.ratios.one_pair, form.ratios.free
-    return (form.name, _arcs(form), *(_ratio(loaded[name]) for name in LOADED), *(_ratio(free[name]) for name in FREE))
+    every = form.ratios.one_pair | form.ratios.free
+    return (form.name, _arcs(form), *(_ratio(every[name]) for name in (*LOADED, *FREE)))
 
 
 def _ratio(value: float) -> str:

@@ -172,17 +172,15 @@ def declaration_reference() -> str:
     for part in kinds:
         short = [_kind(option, kinds) for option in _options(_part(models, part)) if "properties" not in option]
         kinds[part] = " or ".join([*filter(None, short), kinds[part]])
-    lines = [_HEAD, *(f"| {dimension} | {units} |" for dimension, units in _units()), ""]
+    lines = [_HEAD]
+    for dimension in dict.fromkeys(dimension for dimension, _ in UNITS.values()):
+        units = ", ".join(f"`{unit}`" for unit, (of, _) in UNITS.items() if of == dimension)
+        lines.append(f"| {dimension} | {units} |")
+    lines.append("")
     printed: dict[tuple[str, ...], _Chapter] = {}
     for each in chapters:
         lines += _section(models, each, kinds, printed)
     return "\n".join(lines)
-
-
-def _units() -> Iterator[tuple[str, str]]:
-    """Yield each dimension with its units."""
-    for dimension in dict.fromkeys(dimension for dimension, _ in UNITS.values()):
-        yield dimension, ", ".join(f"`{unit}`" for unit, (of, _) in UNITS.items() if of == dimension)
 
 
 def _part(models: Schema, name: str) -> Schema:

@@ -261,6 +261,11 @@ class Document:
         return str(self)
 
 
+def titled(state: str | None, words: str) -> str:
+    """Return a section title, such as `Speeds`, or `State 1: speeds` for one of several states."""
+    return words[0].upper() + words[1:] if state is None else f"State {state}: {words}"
+
+
 def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
     """Return a document without its detail sections.
 

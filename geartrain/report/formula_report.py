@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.kinematics.formulas.speed_formulas import OutputFormula, speed_formulas
 from geartrain.numerics.results import Result
-from geartrain.report.document import Document, Section, Table, exact
+from geartrain.report.document import Document, Section, Table, exact, titled
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -136,7 +136,7 @@ def formula_section(train: GearTrain, state: str | None, explained: bool = True)
     shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
     if shown:
         lines = (text for each in shown for text in _lines(each, False))
-        yield Section(_title(state), ((_HEAD,) if explained else ()) + tuple(lines))
+        yield Section(titled(state, "formulas"), ((_HEAD,) if explained else ()) + tuple(lines))
 
 
 def _state(found: FormulaReport, state: str | None, latex: bool, inverse: bool) -> Iterator[Section]:
@@ -144,16 +144,12 @@ def _state(found: FormulaReport, state: str | None, latex: bool, inverse: bool) 
     lines = [text for each in formulas for text in _lines(each, latex)]
     if inverse:
         lines += [text for each in formulas for text in _inverse(each, latex)]
-    yield Section(_title(state), (_HEAD, *lines))
+    yield Section(titled(state, "formulas"), (_HEAD, *lines))
     rows = [_row(each, latex) for each in found.sensitivities if each.state == state]
     if rows:
         text = "Sensitivity (z/f) df/dz: change of the ratio in per cent if the tooth count increases by one per cent."
         table = Table(("output/input", "wheel", "sensitivity", "value"), rows)
-        yield Section("Sensitivities" if state is None else f"State {state}: sensitivities", (text,), (table,))
-
-
-def _title(state: str | None) -> str:
-    return "Formulas" if state is None else f"State {state}: formulas"
+        yield Section(titled(state, "sensitivities"), (text,), (table,))
 
 
 def _lines(each: OutputFormula, latex: bool) -> Iterator[str]:

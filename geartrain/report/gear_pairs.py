@@ -73,7 +73,8 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     tables = [
         joined_table(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)
     ]
-    tables.append(_drivers(pairs))
+    rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
+    tables.append(filled_table(("pair", "driving wheel", "basis", "states"), rows, 3, wide=True))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
     lines += map(fault_text, train.mechanics.faults)
     return Section("Teeth", lines, tables, detail=len(pairs) > _MOST_PAIRS)
@@ -84,32 +85,26 @@ def joined_table(rows: Sequence[AccountTable]) -> Table:
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
+def without_losses(mesh: GearMesh) -> Section | None:
+    """Return the section on the friction of a pair whose sliding losses are 0 or not known; None for other pairs."""
+    if not mesh.has_friction:
+        return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
+    return None if mesh.tells_losses else Section("Friction", (f"{mesh.friction_words}.",))
+
+
 def fault_text(fault: Problem) -> str:
     """Return the fault, its cause and its remedy as sentences."""
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
-
-
-def _drivers(pairs: Sequence[DrivenPair]) -> Table:
-    rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
-    return filled_table(("pair", "driving wheel", "basis", "states"), rows, 3, wide=True)
 
 
 def _pins(train: GearTrain) -> Section:
     rows = []
     for joint in train.mechanics.pins:
         transmission, coupling = joint.transmission, joint.coupling
-        minimum, most = transmission.speed_range()
-        rows.append(
-            (
-                coupling.name,
-                f"{coupling.pin} -> {coupling.slot}",
-                str(coupling.pin_radius),
-                str(coupling.offset),
-                str(transmission.ratio),
-                f"{degrees(transmission.amplitude):.5f}",
-                f"{minimum:.6f}..{most:.6f}",
-            )
-        )
+        sizes = (f"{coupling.pin} -> {coupling.slot}", str(coupling.pin_radius), str(coupling.offset))
+        speeds = "{:.6f}..{:.6f}".format(*transmission.speed_range())
+        amplitude = f"{degrees(transmission.amplitude):.5f}"
+        rows.append((coupling.name, *sizes, str(transmission.ratio), amplitude, speeds))
     header = ("coupling", "pin -> slot", "pin radius", "offset", "mean ratio", "amplitude (deg)", "speed ratio")
     text = "Speeds and angles of the slot relative to the carrier, for a pin that turns uniformly relative to it."
     return Section("Pins", (text,), (Table(header, rows),))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, exact, figure, result_table
@@ -63,12 +62,10 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
     # links in the order of their first occurrence
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
-    links = [link for link in known if _moves(found, link)]
+    links = [link for link in known if any(each.speeds.get(link, 1) for each in found.states)]
     yield Section("Speeds", (f"Exact. {_unit(found)}",), (_speeds(found.states, links),))
-    slips = _by_state(found.states, names, lambda each: each.slips)
-    yield Section("Slip of open elements", (_unit(found),), (slips,))
-    torques = _by_state(found.states, names, lambda each: each.torques)
-    yield Section("Torques of closed elements", (_TORQUES,), (torques,))
+    yield Section("Slip of open elements", (_unit(found),), (_by_state(found.states, names, "slips"),))
+    yield Section("Torques of closed elements", (_TORQUES,), (_by_state(found.states, names, "torques"),))
     yield Section("Elements", (_ELEMENTS,), (_elements(found),))
 
 
@@ -77,10 +74,6 @@ def _unit(found: Gearbox) -> str:
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")
-
-
-def _moves(found: Gearbox, link: str) -> bool:
-    return any(each.speeds.get(link, 1) for each in found.states)
 
 
 def _gear(each: GearState, names: Sequence[str]) -> tuple[str, ...]:
@@ -97,18 +90,13 @@ def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
     return Table(("state", *links), rows, wide=True)
 
 
-def _by_state(
-    states: Sequence[GearState],
-    columns: Sequence[str],
-    values: Callable[[GearState], Mapping[str, Fraction | None]],
-) -> Table:
-    def cell(of: Mapping[str, Fraction | None], name: str) -> str:
-        if name not in of:
-            return ""
-        value = of[name]
-        return "open" if value is None else figure(value, _DIGITS)
-
-    rows = [(each.state, *(cell(values(each), name) for name in columns)) for each in states]
+def _by_state(states: Sequence[GearState], columns: Sequence[str], field: str) -> Table:
+    """Return the values of a field, which is a mapping from elements to numbers, with a row for each state."""
+    rows = []
+    for each in states:
+        values = getattr(each, field)
+        cells = {name: "open" if value is None else figure(value, _DIGITS) for name, value in values.items()}
+        rows.append((each.state, *(cells.get(name, "") for name in columns)))
     return Table(("state", *columns), rows)
 
 
@@ -148,47 +136,35 @@ def describe_gear_search(found: GearSearch) -> Document:
         f"From '{found.input}' to '{found.output}': {found.combinations} combinations of {found.closed} closed "
         f"elements, of which {len(found.gears)} determine the output (exhaustive exact search)."
     )
-    others = [
-        f"{effect}: {_combinations_text(ways)}."
-        for ways, effect in ((found.free, "The output is free with"), (found.locked, "The output is locked with"))
-        if ways
-    ]
-    sections = [
-        Section("Gears", (summary, *others), (Table(("closed", "ratio", "declared as"), list(map(_row, found.gears))),))
-    ]
+    others = []
+    for ways, effect in ((found.free, "free"), (found.locked, "locked")):
+        more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
+        if ways:
+            others.append(f"The output is {effect} with: {'; '.join(', '.join(way) for way in ways[:_MOST])}{more}.")
+    table = Table(("closed", "ratio", "declared as"), list(map(_row, found.gears)))
+    sections = [Section("Gears", (summary, *others), (table,))]
     if found.widest is not None and found.evenest is not None:
         both = [("The widest series", found.widest), ("The most even series", found.evenest)]
         # one series is both, so it is printed once
         if found.widest == found.evenest:
             both = [("The widest series, and the most even", found.widest)]
-        head = (
-            "One series meets the conditions."
-            if found.series == 1
-            else f"{found.series:,} series meet the conditions; one of each kind is shown."
-        )
-        sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
+        head = f"{found.series:,} series meet the conditions; one of each kind is shown."
+        head = "One series meets the conditions." if found.series == 1 else head
+        for title, series in both:
+            text = (
+                f"Spread {figure(series.spread, _DIGITS)}; standard deviation of the logarithms of steps "
+                f"{series.deviation:.3g}; double-transition shifts: {series.double_shifts}."
+            )
+            sections.append(Section(title, (head, text), (_series_table(series),)))
     elif found.requested:
-        sections.append(
-            Section("Series", (f"No series of {found.requested} gears has all its steps in the requested range.",))
-        )
+        text = f"No series of {found.requested} gears has all its steps in the requested range."
+        sections.append(Section("Series", (text,)))
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
-
-
-def _combinations_text(ways: Sequence[Sequence[str]]) -> str:
-    more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
-    return "; ".join(", ".join(way) for way in ways[:_MOST]) + more
 
 
 def _row(gear: PossibleGear) -> tuple[str, ...]:
     ratio = "held" if gear.ratio is None else figure(gear.ratio, _DIGITS)
     return ", ".join(gear.engaged), ratio, ", ".join(gear.states)
-
-
-def _series(series: GearSeries) -> Iterator[str]:
-    yield (
-        f"Spread {figure(series.spread, _DIGITS)}; standard deviation of the logarithms of steps "
-        f"{series.deviation:.3g}; double-transition shifts: {series.double_shifts}."
-    )
 
 
 def _series_table(series: GearSeries) -> Table:

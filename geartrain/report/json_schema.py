@@ -22,7 +22,7 @@ from pydantic.json_schema import GenerateJsonSchema
 
 from geartrain.errors import check_choice
 from geartrain.numerics.quantity import Figure, Quantity
-from geartrain.numerics.results import Key, Result, field_docs, keys_of, whole
+from geartrain.numerics.results import Key, Result, field_docs, imported_function, keys_of, whole
 from geartrain.report.document import Document, Section, Table
 from geartrain.wings import WINGS, WingResult, has_wing, wing
 
@@ -35,65 +35,55 @@ def _list(item: Schema) -> Schema:
     return {"type": "array", "items": item}
 
 
-def _has(keys: Schema) -> Schema:
-    """Return the schema of an object that has at least these keys, because a later version may add others."""
-    return {"type": "object", "required": list(keys), "properties": keys}
-
-
 OBJECT: Schema = {"type": "object"}
 
 # ----------------------------------------------------------------------------------------------------------- questions
 
 
+_RESULTS = {
+    "solve": "report.train_data:TrainAnswers",
+    "inspect formula": "report.formula_report:FormulaReport",
+    "gearbox": "analysis.gearbox:Gearbox",
+    "gearbox --search": "analysis.gear_series:GearSearch",
+    "torques": "report.torque_report:TorqueReport",
+    "motion": "report.motion_report:MotionFigures",
+    "inspect bench": "report.accuracy_report:AccuracyReport",
+    "inspect graph --as matrix": "numerics.labelled_array:LabelledArray",
+    "sphere": "spherical.gear_sphere:GearSphere",
+    "sphere --suggest": "spherical.tooth_count_search:ToothCountSuggestions",
+    "mesh --form triangular": "report.pair_page:TriangularPair",
+    "pin": "teeth.pair_results:PinFigures",
+    "mesh --compare": "teeth.form_comparison:FormComparison",
+}
+"""Result class of each answer that has the data of one class, as `package.module:class`."""
+
+
 @cache
 def answers() -> dict[str, Schema]:
     """Return the schema of each JSON answer, by the name of the command or of the use of a command."""
-    found = {**_of_trains(), **_of_spheres(), **_of_pairs()}
+    from geartrain.report.gear_pairs import DrivenPair
+    from geartrain.report.pair_page import FormedPair
+    from geartrain.report.train_data import TrainReport
+    from geartrain.spherical.polyhedron_gears import SurveyRow
+    from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
+
+    found = {question: shape_of(imported_function(*home.split(":"))) for question, home in _RESULTS.items()}
+    report = shape_of(TrainReport)
+    teeth = {"description": meaning_of(TrainReport, "teeth"), **_list(_of_any_form(DrivenPair))}
+    report = _list(report | {"properties": report["properties"] | {"teeth": teeth}})
+    graph = {"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, "nodes": _list(OBJECT), "edges": _list(OBJECT)}
+    found |= {
+        "report": report,
+        "compare": report,
+        # an object that has at least these keys, because a later version may add others
+        "inspect graph --as json": {"type": "object", "required": list(graph), "properties": graph},
+        "sphere --survey": shape_of(list[SurveyRow]),
+        "mesh": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
+        "mesh --form triangular --vary": shape_of(list[dict[str, float | str | None]]),
+    }
     for name in filter(has_wing, WINGS):
         found |= {question: shape_of(kind) for question, kind in wing(f"{name}.answers").answers().items()}
     return found
-
-
-def _of_trains() -> dict[str, Schema]:
-    from geartrain.analysis.gear_series import GearSearch
-    from geartrain.analysis.gearbox import Gearbox
-    from geartrain.numerics.labelled_array import LabelledArray
-    from geartrain.report.accuracy_report import AccuracyReport
-    from geartrain.report.formula_report import FormulaReport
-    from geartrain.report.gear_pairs import DrivenPair
-    from geartrain.report.motion_report import MotionFigures
-    from geartrain.report.torque_report import TorqueReport
-    from geartrain.report.train_data import TrainAnswers, TrainReport
-
-    report = shape_of(TrainReport)
-    teeth = {"description": meaning_of(TrainReport, "teeth"), **_list(_of_any_form(DrivenPair))}
-    report = report | {"properties": report["properties"] | {"teeth": teeth}}
-    edges = {"nodes": _list(OBJECT), "edges": _list(OBJECT)}
-    return {
-        "solve": shape_of(TrainAnswers),
-        "report": _list(report),
-        "compare": _list(report),
-        "inspect formula": shape_of(FormulaReport),
-        "gearbox": shape_of(Gearbox),
-        "gearbox --search": shape_of(GearSearch),
-        "torques": shape_of(TorqueReport),
-        "motion": shape_of(MotionFigures),
-        "inspect bench": shape_of(AccuracyReport),
-        "inspect graph --as matrix": shape_of(LabelledArray),
-        "inspect graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
-    }
-
-
-def _of_spheres() -> dict[str, Schema]:
-    from geartrain.spherical.gear_sphere import GearSphere
-    from geartrain.spherical.polyhedron_gears import SurveyRow
-    from geartrain.spherical.tooth_count_search import ToothCountSuggestions
-
-    return {
-        "sphere": shape_of(GearSphere),
-        "sphere --suggest": shape_of(ToothCountSuggestions),
-        "sphere --survey": shape_of(list[SurveyRow]),
-    }
 
 
 def _of_any_form(kind: type) -> Schema:
@@ -107,21 +97,6 @@ def _of_any_form(kind: type) -> Schema:
         required = dict.fromkeys([*pair["required"], *own["required"]])
         found.append(pair | {"properties": pair["properties"] | own["properties"], "required": list(required)})
     return {"anyOf": found}
-
-
-def _of_pairs() -> dict[str, Schema]:
-    from geartrain.report.pair_page import FormedPair, TriangularPair
-    from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
-    from geartrain.teeth.form_comparison import FormComparison
-    from geartrain.teeth.pair_results import PinFigures
-
-    return {
-        "mesh --form triangular": shape_of(TriangularPair),
-        "mesh --form triangular --vary": shape_of(list[dict[str, float | str | None]]),
-        "pin": shape_of(PinFigures),
-        "mesh": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
-        "mesh --compare": shape_of(FormComparison),
-    }
 
 
 def answer_schema() -> Schema:
@@ -296,14 +271,10 @@ def meaning_of(kind: Any, path: str) -> str:
     """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" without docstring."""
     first, _, rest = path.partition(".")
     if rest:
-        parts = (part for part in _parts(attribute_kind(kind, first)) if part is not NoneType)
-        return next(filter(None, (meaning_of(part, rest) for part in parts)), "")
+        whole_kind = attribute_kind(kind, first)
+        parts = get_args(whole_kind) if get_origin(whole_kind) in (Union, UnionType) else [whole_kind]
+        return next(filter(None, (meaning_of(part, rest) for part in parts if part is not NoneType)), "")
     return field_docs(kind).get(first) or _summary(getattr(kind, first, None))
-
-
-def _parts(kind: Any) -> list[Any]:
-    """Return the members of a union; for any other annotation, a list with only itself."""
-    return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
 
 
 def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:

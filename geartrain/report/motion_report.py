@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Document, Section, Table, figure
+from geartrain.report.document import Document, Section, Table, figure, titled
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -337,7 +337,7 @@ def moving_sections(
     toothed   whether the train has real teeth
     """
     for each in found:
-        head = "Motion" if each.state is None else f"State {each.state}: motion"
+        head = titled(each.state, "motion")
         if isinstance(each, UnfollowedMotion):
             yield Section(head, [f"{problem.what}: {problem.why}." for problem in each.why.problems])
             continue
@@ -346,7 +346,8 @@ def moving_sections(
         holds: tuple[str, ...] = ()
         if each.separation is not None:
             holds = tuple(wing("simulation.contacts.separation_rate").separation_text(each.separation))
-        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run), run.motion._problem.deviation),))
+        rippling = [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
+        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(rippling, run.motion._problem.deviation),))
     if toothed and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
@@ -365,23 +366,11 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
     return f"These pairs keep their ratio at every instant and contribute no transmission error: {words}."
 
 
-def _rippling(run: MotionRun) -> list[RunningStatistics]:
-    return [tally for tally in run.statistics if tally.peak_to_peak] or run.statistics
-
-
 def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
-        low, high = tally.speeds
-        rows.append(
-            (
-                tally.name,
-                figure(tally.ratio, 9),
-                f"{degrees(tally.peak_to_peak):.6g}",
-                f"{degrees(tally.rms):.6g}",
-                f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (divided by the input's)"),
-            )
-        )
+        speeds = "{:.5f}..{:.5f}".format(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
+        rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)
 
 
@@ -475,15 +464,11 @@ def _degrees(*values: float) -> tuple[str, ...]:
 
 
 def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:
-    rows = [
-        (
-            str(line.order),
-            figure(float(line.order), 8),
-            ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares),
-            *_degrees(line.expected, line.measured),
-        )
-        for line in lines
-    ]
+    rows = []
+    for line in lines:
+        sources = ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares)
+        amplitudes = _degrees(line.expected, line.measured)
+        rows.append((str(line.order), figure(float(line.order), 8), sources, *amplitudes))
     header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))

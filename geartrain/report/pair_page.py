@@ -13,11 +13,16 @@ from typing import TYPE_CHECKING
 
 from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.report.gear_pairs import fault_text, joined_table
+from geartrain.report.gear_pairs import fault_text, joined_table, without_losses
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.pair_results import friction_lock_at_speed
 from geartrain.teeth.rubbed_transmission import pair_friction
-from geartrain.teeth.triangular.triangular_mesh import TriangularMesh, explain_clearance, explain_friction_lock
+from geartrain.teeth.triangular.triangular_mesh import (
+    TriangularMesh,
+    explain_clearance,
+    explain_friction_lock,
+    triangular_figures,
+)
 from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 if TYPE_CHECKING:
@@ -95,10 +100,11 @@ def collect_pair(
     >>> data["form"], data["teeth"], round(data["contact_ratio"], 3)
     ('involute', [24, 18], 1.566)
     """
-    if isinstance(mesh, TriangularMesh):
-        return _triangular_pair(mesh, outlines, operation)
-    design = _design(mesh, outlines)
-    return FormedPair(mesh, tuple(outlines)) if design is None else design
+    if not isinstance(mesh, TriangularMesh):
+        return _design(mesh, outlines) or FormedPair(mesh, tuple(outlines))
+    figures = triangular_figures(mesh.transmission, mesh.window, losses=mesh.efficiency(mesh.driver))
+    course = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
+    return TriangularPair(figures, course, _impacts(mesh.transmission, operation), tuple(outlines))
 
 
 def describe_pair(
@@ -127,38 +133,23 @@ def describe_pair(
     >>> page.title, [section.title for section in page.sections]
     ('Involute teeth 24/18 spur', ['Wheels', 'Path of contact', 'Losses and stresses', 'Friction'])
     """
+    first, second = mesh.counts
+    drives = f"The wheel of {first} drives the wheel of {second}."
     if isinstance(mesh, TriangularMesh):
-        return _triangular_page(mesh, outlines, operation)
-    design = _design(mesh, outlines)
-    return _formed_page(mesh, outlines) if design is None else _design_page(design)
+        name, summary = f"{first}/{second}", [drives, triangular_verdict(mesh)]
+        sections = [*triangular_sections(mesh, operation)]
+    elif (design := _design(mesh, outlines)) is not None:
+        from geartrain.report.conjugate_pair_page import conjugate_sections, conjugate_verdict, pair_name
 
-
-def _triangular_pair(
-    mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
-) -> TriangularPair:
-    from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
-    from geartrain.teeth.rubbed_transmission import pair_friction
-    from geartrain.teeth.triangular.triangular_mesh import triangular_figures
-    from geartrain.teeth.triangular.triangular_transmission import contact_course
-
-    impacts = (
-        None
-        if operation is None or not mesh.transmission.intervals
-        else find_pair_impacts(mesh.transmission, operation)
-    )
-    figures = triangular_figures(mesh.transmission, mesh.window, losses=mesh.efficiency(mesh.driver))
-    return TriangularPair(
-        figures, contact_course(mesh.transmission, friction=pair_friction(mesh.wheels)), impacts, tuple(outlines)
-    )
-
-
-def _triangular_page(
-    mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
-) -> Document:
-    z1, z2 = mesh.counts
-    summary = [f"The wheel of {z1} drives the wheel of {z2}.", triangular_verdict(mesh)]
-    sections = [*triangular_sections(mesh, operation), *map(_outline, outlines)]
-    return Document(f"Triangular teeth {z1}/{z2}", summary, sections)
+        name, summary = pair_name(design.path), [drives, conjugate_verdict(design)]
+        sections = [*conjugate_sections(design)]
+    else:
+        account, counts = mesh.account(), mesh.wheels.counts
+        name = f"{counts[0]}/{counts[1]}"
+        summary = [f"{mesh.verdict.text.capitalize()}.", account.words, *map(fault_text, mesh.faults)]
+        sections = [Section("Motion and losses", (), [joined_table([each]) for each in account.tables])]
+    title = f"{mesh.tooth_form.words.capitalize()} teeth {name}"
+    return Document(title, summary, [*sections, *map(_outline, outlines)])
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
@@ -170,24 +161,6 @@ def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | No
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
 
     return PairDesign(mesh, tuple(outlines))
-
-
-def _design_page(design: PairDesign) -> Document:
-    from geartrain.report.conjugate_pair_page import conjugate_sections, conjugate_verdict, pair_name
-
-    driver, driven = design.mesh.counts
-    summary = [f"The wheel of {driver} drives the wheel of {driven}.", conjugate_verdict(design)]
-    sections = [*conjugate_sections(design), *map(_outline, design.outlines)]
-    return Document(f"{design.mesh.tooth_form.words.capitalize()} teeth {pair_name(design.path)}", summary, sections)
-
-
-def _formed_page(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> Document:
-    account = mesh.account()
-    first, second = mesh.wheels.counts
-    summary = [f"{mesh.verdict.text.capitalize()}.", account.words, *map(fault_text, mesh.faults)]
-    tables = [joined_table([each]) for each in account.tables]
-    sections = [Section("Motion and losses", (), tables), *map(_outline, outlines)]
-    return Document(f"{mesh.tooth_form.words.capitalize()} teeth {first}/{second}", summary, sections)
 
 
 def _outline(wheel: WheelOutline) -> Section:
@@ -239,8 +212,8 @@ def describe_pin(transmission: PinTransmission) -> Document:
         f"{figure(found.offset)}: the mean ratio is {ratio.mean}.",
     ]
     rows = [
-        ("amplitude", f"{found.amplitude:.9g} rad", f"{degrees(found.amplitude):.9g} deg"),
-        ("anomaly, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
+        _angle("amplitude", found.amplitude),
+        _angle("anomaly, rms", rms),
         ("speed ratio, minimum", figure(ratio.minimum), ""),
         ("speed ratio, maximum", figure(ratio.maximum), ""),
     ]
@@ -250,6 +223,11 @@ def describe_pin(transmission: PinTransmission) -> Document:
         rows.append(("", _share(efficiency.at_constant_load), "at constant load torque"))
     table = Table(("quantity", "value", ""), rows)
     return Document("Pin in a slot", summary, [Section("Transmission function", (), (table,))])
+
+
+def _angle(name: str, angle: float) -> tuple[str, str, str]:
+    """Return a row of a table with an angle in radians and in degrees."""
+    return name, f"{angle:.9g} rad", f"{degrees(angle):.9g} deg"
 
 
 def _share(efficiency: float | None) -> str:
@@ -275,7 +253,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
             _transmission(transmission),
             _collisions(transmission),
             _losses(mesh),
-            *_impacts(transmission, operation),
+            *_impact_section(transmission, operation),
         )
 
 
@@ -297,13 +275,11 @@ def _sizes(transmission: TriangularTransmission) -> Section:
     names = [
         f"{name}, a ring" if sign < 0 else name for name, sign in zip(("driver", "driven"), sizes.signs, strict=True)
     ]
-    wheels = (
-        (names[0], sizes.z1, sizes.beta1, sizes.R1, sizes.depths[0], sizes.flanks[0], sizes.p1),
-        (names[1], sizes.z2, sizes.beta2, sizes.R2, sizes.depths[1], sizes.flanks[1], sizes.p2),
-    )
+    counts, angles, radii = (sizes.z1, sizes.z2), (sizes.beta1, sizes.beta2), (sizes.R1, sizes.R2)
+    columns = zip(names, counts, angles, radii, sizes.depths, sizes.flanks, (sizes.p1, sizes.p2), strict=True)
     rows = [
         (name, str(z), _deg(beta), figure(R), figure(h), figure(e), _deg(pitch))
-        for name, z, beta, R, h, e, pitch in wheels
+        for name, z, beta, R, h, e, pitch in columns
     ]
     header = ("wheel", "teeth", "half angle", "tip radius", "depth", "flank", "pitch")
     text = f"Centre distance {figure(sizes.D)}, in the unit of radii, depths and flanks (Eqs. 1 to 3). Angles in deg."
@@ -347,14 +323,9 @@ def _path(transmission: TriangularTransmission) -> Section:
     )
     rows = []
     for interval in transmission.intervals:
-        first, last = (
-            transmission.contact.speed(interval, interval.start),
-            transmission.contact.speed(interval, interval.end),
-        )
+        taus = (figure(transmission.contact.speed(interval, end)) for end in (interval.start, interval.end))
         share = interval.width / sizes.p1  # width of the interval in pitches
-        rows.append(
-            (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
-        )
+        rows.append((interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", *taus))
     header = ("phase", "from alpha_1", "to alpha_1", "pitches", "tau at first", "tau at last")
     return Section("Path of contact", (ideal,), (Table(header, rows),))
 
@@ -364,16 +335,11 @@ def _course(mesh: TriangularMesh) -> Section:
     interval.
     """
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
-    columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
+    angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
+    columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))
     rows = [
         (phase, _deg(x), _deg(y), *(figure(value) if isfinite(value) else "-" for value in values))
-        for phase, x, y, *values in zip(
-            found.phases,
-            found.alpha1.tolist(),
-            found.alpha2.tolist(),
-            *(each.tolist() for each in columns),
-            strict=True,
-        )
+        for phase, x, y, *values in zip(found.phases, *columns, strict=True)
     ]
     header = ("phase", "alpha_1", "alpha_2", "tau", "O1C", "b1", "b2", "efficiency")
     text = (
@@ -393,9 +359,9 @@ def _transmission(transmission: TriangularTransmission) -> Section:
         ("speed ratio, mean", f"{transmission.ratio} = {figure(transmission.ratio)}", ""),
         ("speed ratio, minimum", figure(minimum), f"{(minimum / mean - 1) * 100:+.3f} %"),
         ("speed ratio, maximum", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
-        ("transmission error, peak to peak", f"{high - low:.9g} rad", f"{degrees(high - low):.9g} deg"),
-        ("transmission error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
-        ("transmission error, mean", f"{lag:.9g} rad", f"{degrees(lag):.9g} deg"),
+        _angle("transmission error, peak to peak", high - low),
+        _angle("transmission error, rms", rms),
+        _angle("transmission error, mean", lag),
     ]
     text = (
         "Transmission error: driven angle minus its mean motion, positive where the driven wheel is ahead, measured "
@@ -424,10 +390,8 @@ def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
 
 def _losses(mesh: TriangularMesh) -> Section:
     transmission = mesh.losses
-    if not mesh.has_friction:
-        return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
-    if not mesh.tells_losses:
-        return Section("Friction", (f"{mesh.friction_words}.",))
+    if (known := without_losses(mesh)) is not None:
+        return known
     if transmission.locks:
         what, why, _ = _friction_lock(mesh)
         return Section("Friction", (f"{what}: {why}.",))
@@ -441,10 +405,15 @@ def _losses(mesh: TriangularMesh) -> Section:
     return Section("Friction", lines)
 
 
-def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> Iterator[Section]:
+def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
+    """Return the impacts under operating conditions; None without these, and for teeth that never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
-    found = None if operation is None else find_pair_impacts(transmission, operation)
+    return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)
+
+
+def _impact_section(transmission: TriangularTransmission, operation: PairOperation | None) -> Iterator[Section]:
+    found = _impacts(transmission, operation)
     if found is None or operation is None:
         return
     lines = []

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.judged_outputs import TargetResult
 from geartrain.report.document import Document, ExactText, Section, Table, exact, figure, ppm
 
 
@@ -33,17 +32,18 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
     >>> page.sections[0].tables[0].rows[1]
     ('moon', '254/19 = 13.36842', '-254/19 = -13.36842')
     """
-    columns = [(_label(train, answer), train, answer) for train in trains for answer in train.answers()]
+    columns = [
+        (train.name if answer.state is None else f"{train.name} {answer.state}", train, answer)
+        for train in trains
+        for answer in train.answers()
+    ]
     names = _names([answer for _, _, answer in columns], everything)
     header = ("output", *(label for label, _, _ in columns))
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
     summary = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "numbers without a unit" for train in trains)
-    summary += [
-        f"'{label}' is {answer.verdict.kind}: {answer.verdict.text}"
-        for label, _, answer in columns
-        if not answer.verdict
-    ]
+    open_ = [(label, answer.verdict) for label, _, answer in columns if not answer.verdict]
+    summary += [f"'{label}' is {verdict.kind}: {verdict.text}" for label, verdict in open_]
     summary.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
     sections = [Section("Outputs", (), (Table(header, rows),))]
     targets = _targets(columns)
@@ -55,17 +55,12 @@ def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -
         sections.append(Section("Error against the targets in ppm", tuple(said), (table,)))
     teeth = _teeth(trains)
     if teeth:
-        sections.append(
-            Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),))
-        )
+        table = Table(("wheel", *(train.name for train in trains)), teeth)
+        sections.append(Section("Wheels that differ", (), (table,)))
     return Document("Comparison", summary, sections)
 
 
 _MAGNITUDE = " (magnitude)"
-
-
-def _label(train: GearTrain, answer: Answer) -> str:
-    return train.name if answer.state is None else f"{train.name} {answer.state}"
 
 
 def _names(answers: Sequence[Answer], everything: bool) -> list[str]:
@@ -100,15 +95,11 @@ def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str
         cells = []
         for _, _, answer in columns:
             result = answer.outputs.get(name)
-            same = [target for target in result.targets if target.label == label] if result else []
-            cells.append(_error(same[0]) if same else "")
+            own = next((each for each in result.targets if each.label == label), None) if result else None
+            # the difference in speed if the target speed is 0
+            cells.append("" if own is None else ppm(own.ppm) if own.speed else f"off by {figure(own.error, 7)}")
         rows.append((f"{name}: {label}{how}", *cells))
     return rows
-
-
-def _error(target: TargetResult) -> str:
-    """Return the error against a target in ppm, or the difference in speed if the target speed is 0."""
-    return ppm(target.ppm) if target.speed else f"off by {figure(target.error, 7)}"
 
 
 def _teeth(trains: Sequence[GearTrain]) -> list[tuple[str, ...]]:

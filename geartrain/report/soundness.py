@@ -168,15 +168,13 @@ def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
 
 
 def _wanted(result: OutputResult) -> str:
-    words = []
-    if result.expect_holds is False and result.output.expect:
-        words.append(f"expected {result.output.expect.value}")
-    if result.published_holds is False and result.output.published:
-        published = result.output.published
+    words, expect, published = [], result.output.expect, result.output.published
+    if result.expect_holds is False and expect:
+        words.append(f"expected {expect.value}")
+    if result.published_holds is False and published:
         words.append(f"published {published.value} as {published.as_}, {result_words(result)}")
-    for declared, target in zip(
-        result.output.targets, result.targets, strict=False
-    ):  # without a speed no target is evaluated
+    # without a speed no target is evaluated
+    for declared, target in zip(result.output.targets, result.targets, strict=False):
         if target.met is False:
             off = figure(target.error, 6) if target.ppm is None else f"{ppm(target.ppm)} ppm"
             words.append(f"target {target.goal.words} missed by {off} (tolerance {declared.tolerance})")

@@ -42,9 +42,7 @@ def _sections(found: GearSphere) -> Iterator[Section]:
 def _phases(found: GearSphere) -> Section:
     lines = []
     if found.rule is not None:
-        lines.append(
-            f"The loops close if {found.rule}." if found.rule != "always" else "The loops close with any tooth counts."
-        )
+        lines.append(f"The loops close {'with any tooth counts' if found.rule == 'always' else f'if {found.rule}'}.")
     if found.closure is not None:
         lines += [line.strip() for line in found.closure.text.splitlines()]
     elif not found.moves:
@@ -128,17 +126,12 @@ def describe_suggestions(found: ToothCountSuggestions) -> Document:
     rejected sets.
     """
     kinds = list(dict.fromkeys(found.configuration.kinds))
-    rows = [
-        (
-            *(str(each.teeth[kind]) for kind in kinds),
-            f"{each.mismatch:+.9e}",
-            ", ".join(f"{degrees(a):.6f} {degrees(b):.6f}" for a, b in each.cones),
-            " ".join(f"{degrees(angle):.4f}" for angle in each.pressure),
-            f"{each.room:.2f}",
-            f"{each.residue:.3g}",
-        )
-        for each in found
-    ]
+    rows = []
+    for each in found:
+        cones = ", ".join(f"{degrees(a):.6f} {degrees(b):.6f}" for a, b in each.cones)
+        angles = " ".join(f"{degrees(angle):.4f}" for angle in each.pressure)
+        figures = (f"{each.mismatch:+.9e}", cones, angles, f"{each.room:.2f}", f"{each.residue:.3g}")
+        rows.append((*(str(each.teeth[kind]) for kind in kinds), *figures))
     gone = ", ".join(f"{count} by {reason}" for reason, count in found.removed.items())
     lines = [f"{found.considered} sets of tooth counts were considered; rejected: {gone}."]
     if not rows:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from geartrain.numerics.exact import as_float, percent_of_text, percent_text, watts_text
 from geartrain.numerics.results import Key, Result
-from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
+from geartrain.report.document import Document, Section, Table, cut, figure, filled_table, titled
 from geartrain.wings import WingResult, has_wing, wing
 
 if TYPE_CHECKING:
@@ -187,13 +187,11 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 # ----------------------------------------------------------------------------------------------------------------- page
 
 
-_UNITS = (
-    "Torques are in the unit of the loads. Power is torque times speed in the train's unit, positive into the train; "
-    "for a pair, relative to its carrier. Torques of brakes and locks act on the links that they hold."
-)
-_UNITS_IN_WATTS = (
-    "Torques are in N m. Power is torque times speed in real time, positive into the train; for a pair, relative to "
-    "its carrier. Torques of brakes and locks act on the links that they hold."
+_UNITS = "Torques are in the unit of the loads. Power is torque times speed in the train's unit"
+_UNITS_IN_WATTS = "Torques are in N m. Power is torque times speed in real time"
+_SIGNS = (
+    ", positive into the train; for a pair, relative to its carrier. Torques of brakes and locks act on the links that "
+    "they hold."
 )
 
 
@@ -254,9 +252,8 @@ def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
 
 def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     """Yield a section on the verdict, links and pairs of one state, then a section on its power flow and losses."""
-    found, flow = figures.torques, figures.flow
-    state = found.state
-    head = "Torques" if state is None else f"State {state}: torques"
+    found, flow, state = figures.torques, figures.flow, figures.torques.state
+    head = titled(state, "torques")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
@@ -280,7 +277,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     yield Section(head, lines, tuple(tables))
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.impact_power))
     if any(parts):
-        yield Section("Power flow" if state is None else f"State {state}: power flow", *parts)
+        yield Section(titled(state, "power flow"), *parts)
 
 
 class _Amounts:
@@ -299,7 +296,7 @@ class _Amounts:
 
 def _units(found: Sequence[TorqueFigures]) -> str:
     real = [each.watts_per_unit is not None for each in found if each.torques.verdict]
-    return _UNITS_IN_WATTS if real and all(real) else _UNITS
+    return (_UNITS_IN_WATTS if real and all(real) else _UNITS) + _SIGNS
 
 
 def _links(found: Torques, amounts: _Amounts) -> Table:
@@ -369,15 +366,11 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
     """
     if not flow.losses and not impact_power:
         return
-    struck = [node for node in flow.nodes if node.kind == "pair" and node.name in impact_power]
-    nodes = dict.fromkeys((*flow.losses, *struck))
+    struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}
     rows = []
-    for node in nodes:
-        pair = node.kind == "pair"
-        row = _loss_row(
-            flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None
-        )
-        rows.append((node.name if pair else f"bearing of {node.name}", *row))
+    for node in dict.fromkeys((*flow.losses, *struck)):
+        name = node.name if node.kind == "pair" else f"bearing of {node.name}"
+        rows.append((name, *_loss_row(flow, amounts, flow.losses.get(node, Fraction(0)), struck.get(node))))
     # subtotals are shown only if pairs and bearings both have losses
     teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
     if 0 < teeth < flow.loss:
@@ -403,8 +396,7 @@ def summary_text(torques: Torques) -> str:
     """Return the efficiency and the losses by cause as text, or why the efficiency is not determined."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
-    teeth = torques.loss - torques.bearing_loss
-    lost = {"teeth": teeth, "bearings": torques.bearing_loss}
+    lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
     named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
     out = percent_text(1 - torques.loss / torques.power_in)
     uncounted = [f"not included: {', '.join(map(str, torques.neglected))}"] if torques.neglected else []
@@ -433,20 +425,19 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
     """Yield sections on the crank torque over a run, on energies, and on the losses of each pair, pin and bearing."""
-    head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
+    head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     if found.turns is None:
         yield Section(head, lines)
         return
-    lines.append(_run(found))
-    lines += _shares(found)
-    lines += _efficiency(found)
-    lines += _remarks(found)
-    yield Section(head, lines, (_torques(found), *_locked(found)))
+    lines += [_run(found), *_remarks(found)]
+    locked = [(_place(start), _place(end)) for start, end in found.locked]
+    tables = [Table(("locked from turn", "to turn"), cut(locked))] if locked else []
+    yield Section(head, lines, (_torques(found), *tables))
     if found.energy is not None:
-        title = "Energy over the run" if found.state is None else f"State {found.state}: energy over the run"
-        yield Section(title, (_energy_unit(found),), (_energies(found), *_parts(found)))
+        unit = "Energies in J." if found.newton_metres else "Energies in the unit of the loads times radians."
+        yield Section(titled(found.state, "energy over the run"), (unit,), (_energies(found), *_parts(found)))
 
 
 def turns_text(turns: float) -> str:
@@ -466,28 +457,20 @@ def _run(found: TorqueCycle) -> str:
     return text + "."
 
 
-def _shares(found: TorqueCycle) -> Iterator[str]:
+def _remarks(found: TorqueCycle) -> Iterator[str]:
     """Yield sentences on the fractions of the run in which the train locks, all energy is lost, or results are
-    ambiguous.
+    ambiguous; then on efficiency, the largest loss, flank changes and recirculating power.
     """
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,
         "several patterns of power flow balance; the one with the minimum loss is used": found.ambiguous_share,
     }
-    for what, share in shares.items():
-        if share:
-            yield f"In {percent_text(share)} of the run {what}."
-
-
-def _efficiency(found: TorqueCycle) -> Iterator[str]:
+    yield from (f"In {percent_text(share)} of the run {what}." for what, share in shares.items() if share)
     if found.efficiency:
         yield f"Efficiency, energy out divided by energy in: {figure(found.efficiency, 10)}."
     elif found.energy is not None and found.energy.net_in > 0:
         yield "No net energy is taken out: all energy put in is lost."
-
-
-def _remarks(found: TorqueCycle) -> Iterator[str]:
     if found.loses_most is not None and len(found.parts) > 1:
         yield f"The largest loss is in {found.loses_most}."
     if changes := {name: count for name, count in found.flank_changes.items() if count}:
@@ -502,19 +485,13 @@ def _remarks(found: TorqueCycle) -> Iterator[str]:
 
 def _torques(found: TorqueCycle) -> Table:
     rows = [("mean", figure(found.mean, 9), "", "")]
-    for name, extreme in (("maximum", found.maximum), ("minimum", found.minimum), ("starting", found.starting)):
-        if extreme is None:
-            rows.append((name, "-", "", ""))
-        else:
+    for name in ("maximum", "minimum", "starting"):
+        extreme, cells = getattr(found, name), ("-", "", "")
+        if extreme is not None:
             days = "" if extreme.days is None else figure(extreme.days, 7)
-            rows.append((name, figure(extreme.torque, 9), figure(extreme.turns, 9), days))
+            cells = (figure(extreme.torque, 9), figure(extreme.turns, 9), days)
+        rows.append((name, *cells))
     return filled_table((f"torque at {found.link}", found.unit or "torque", "at turn", "day"), rows, 3)
-
-
-def _locked(found: TorqueCycle) -> Iterator[Table]:
-    if found.locked:
-        rows = [(_place(start), _place(end)) for start, end in found.locked]
-        yield Table(("locked from turn", "to turn"), cut(rows))
 
 
 def _place(place: PlaceInRun) -> str:
@@ -522,15 +499,9 @@ def _place(place: PlaceInRun) -> str:
     return f"{figure(place.turns, 9)}{day}"
 
 
-def _energy_unit(found: TorqueCycle) -> str:
-    if found.newton_metres:
-        return "Energies in J."
-    return "Energies in the unit of the loads times radians."
-
-
 def _energies(found: TorqueCycle) -> Table:
-    assert found.energy is not None
     energy = found.energy
+    assert energy is not None
     whole = energy.put_in + energy.loads_put_in  # loads that drive put in energy too
     amounts = {
         f"put in at {found.link}": energy.put_in,
@@ -558,19 +529,13 @@ def _parts(found: TorqueCycle) -> Iterator[Table]:
     """Yield a table of the lost and transmitted energy of each pair, pin and bearing, the largest loss first."""
     assert found.energy is not None
     lost = found.energy.lost
+    rows = []
     # stable, so that equal losses keep the declared order
-    ranked = sorted(found.parts.items(), key=lambda each: -each[1].loss)
-    rows = [
-        (
-            name,
-            figure(part.loss if part.loss > _MINIMUM * lost else 0.0, 7),
-            _share(part.loss, lost) if part.loss > _MINIMUM * lost else "",
-            "" if part.kind == "bearing" else figure(part.passed, 7),
-            "" if part.kind == "bearing" else str(part.flank_changes),
-        )
-        for name, part in ranked
-        if part.loss > _MINIMUM * lost or part.passed
-    ]
+    for name, part in sorted(found.parts.items(), key=lambda each: -each[1].loss):
+        loss = part.loss if part.loss > _MINIMUM * lost else 0.0
+        if loss or part.passed:
+            passed = ("", "") if part.kind == "bearing" else (figure(part.passed, 7), str(part.flank_changes))
+            rows.append((name, figure(loss, 7), _share(loss, lost) if loss else "", *passed))
     if rows:
         yield Table(("where", "lost", "of all lost", "transmitted", "flank changes"), cut(rows))
 

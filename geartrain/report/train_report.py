@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.kinematics.answer import Answer, Loop, abridged_names
+from geartrain.kinematics.answer import Answer, abridged_names
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.graph import MOST_SQUARE, adjacency_kinds, adjacency_labels, edge_rows
 from geartrain.numerics.exact import abridged_text, plural
@@ -77,15 +77,13 @@ def describe_train(found: TrainReport) -> Document:
     """
     train, answers = found.train, found.states
     declared = train.declaration
+    held = [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
     sections = [
         *_answers(train, answers),
         *_findings(train),
-        *_teeth(found),
-        *_torques(found),
-        *_strength(found),
-        *_motion(found),
+        *_loaded(found),
         *doubtful_wheels(train, answers),
-        _mobility(train),
+        Section("Mobility", [_circuits_in_short(train), *_mobility_lines(train.mobility, held)]),
         *_adjacency(train),
         *(replace(section, detail=True) for section in _details(found)),
     ]
@@ -116,7 +114,8 @@ def _details(found: TrainReport) -> Iterator[Section]:
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         yield Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),))
-    yield from _sources(declared)
+    if declared.sources:
+        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
@@ -142,41 +141,26 @@ def _findings(train: GearTrain) -> Iterator[Section]:
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
         yield Section("Buildability", (head,), (Table(("rule", "level", "what, why, and what to do"), findings),))
     if train.kinematics.remarks:
-        notes = [
-            f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.kinematics.remarks
-        ]
-        yield Section("Remarks", notes)
+        notes = (": ".join(filter(None, (remark.what, remark.why))) for remark in train.kinematics.remarks)
+        yield Section("Remarks", [f"{note}." for note in notes])
 
 
-def _teeth(found: TrainReport) -> Iterator[Section]:
+def _loaded(found: TrainReport) -> Iterator[Section]:
+    """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
         yield from teeth_sections(found.train, found.teeth, found.pins)
-
-
-def _torques(found: TrainReport) -> Iterator[Section]:
     if found.torques:
         from geartrain.report.torque_report import loaded_sections
 
         yield from loaded_sections(found.torques)
-
-
-def _motion(found: TrainReport) -> Iterator[Section]:
+    for strength in found.strength:
+        yield from wing("simulation.strength.strength_report").strength_sections(strength)
     if found.motion or found.teeth:
         from geartrain.report.motion_report import moving_sections
 
         yield from moving_sections(found.train, found.motion, bool(found.teeth))
-
-
-def _strength(found: TrainReport) -> Iterator[Section]:
-    for strength in found.strength:
-        yield from wing("simulation.strength.strength_report").strength_sections(strength)
-
-
-def _sources(declared: Train) -> Iterator[Section]:
-    if declared.sources:
-        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
@@ -221,18 +205,13 @@ def source_line(key: str, source: Source) -> str:
 
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
-    wheels = sum(len(link.wheels) for link in declared.links.values())
-    parts = (
-        (len(declared.revolutes), "turning pair"),
-        (len(declared.gears), "gear pair"),
-        (len(declared.couplings), "coupling"),
-        (wheels, "wheel"),
-    )
-    counted = ", ".join(plural(count, noun) for count, noun in parts if count)
-    counts = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
+    counts = tuple(map(len, (declared.revolutes, declared.gears, declared.couplings, declared.wheels)))
+    nouns = ("turning pair", "gear pair", "coupling", "wheel")
+    counted = ", ".join(plural(count, noun) for count, noun in zip(counts, nouns, strict=True) if count)
+    text = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
     rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
-    yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
+    yield Section("Structure", (text,), (replace(table, rows=cut(table.rows)),))
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
@@ -285,9 +264,7 @@ def _circuits(train: GearTrain) -> Section:
     ]
     pairs = "gear pair and coupling" if train.declaration.couplings else "gear pair"
     text = f"One circuit for each {pairs}, of bodies i and j with carrier k: tau = (w_i - w_k)/(w_j - w_k)."
-    more = (
-        (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
-    )
+    more = [f"{len(train.circuits) - MOST_ROWS} more circuits are not shown."] if train.circuits[MOST_ROWS:] else []
     return Section("Fundamental circuits", (text, *more), tables)
 
 
@@ -321,11 +298,6 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
     return Table(("", *(circuit.id for circuit in circuits)), rows)
 
 
-def _mobility(train: GearTrain) -> Section:
-    held = [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
-    return Section("Mobility", [_circuits_in_short(train), *_mobility_lines(train.mobility, held)])
-
-
 def _circuits_in_short(train: GearTrain) -> str:
     carriers = Counter(circuit.carrier for circuit in train.circuits).most_common()
     named = ", ".join(f"{count} with carrier '{link}'" for link, count in carriers[:_MOST_CARRIERS])
@@ -346,7 +318,9 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
         many = "circuit" if found.redundant == 1 else "circuits"
         yield f"{found.redundant} redundant {many}, implied by the others."
     # large trains have hundreds of redundant loops
-    yield from (f"Redundant: {_loop(loop)}." for loop in found.loops[:12])
+    for loop in found.loops[:12]:
+        links, pairs = abridged_names(loop.links, " - "), abridged_names(loop.pairs)
+        yield f"Redundant: loop {links} by {pairs}, ratio product {abridged_text(loop.product)}."
     if len(found.loops) > 12:
         yield f"... and {len(found.loops) - 12} more redundant loops."
     yield from (f"Redundant: the circuits that meet at link '{link}' are dependent." for link in found.shared[:12])
@@ -376,11 +350,6 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
     text = "With the zero marks of links at these angles, every tooth faces a gap; wheels have a tooth at the mark."
     lines = [line.strip() for line in closure.text.splitlines()]
     yield Section("Phase closure", (*lines, text), (Table(("link", "angle (deg)"), cut(rows)),))
-
-
-def _loop(loop: Loop) -> str:
-    links, pairs = abridged_names(loop.links, " - "), abridged_names(loop.pairs)
-    return f"loop {links} by {pairs}, ratio product {abridged_text(loop.product)}"
 
 
 # ---------------------------------------------------------------------------------------------------------------- graph
@@ -438,18 +407,11 @@ def describe_shared_page(
     """
     document, declared = describe_train(found), found.train.declaration
     badge, sound = _badge(found)
-    aside = PageExtras(
-        badge=badge,
-        sound=sound,
-        notes=tuple(notes),
-        pictures=tuple(pictures),
-        viewer=viewer,
-        sections=tuple(_wheels_with_sources(declared)),
-        references={
-            key: SourceReference(source.cite, source.url or "", source.note or "")
-            for key, source in declared.sources.items()
-        },
-    )
+    wheels = tuple(_wheels_with_sources(declared))
+    references = {
+        key: SourceReference(each.cite, each.url or "", each.note or "") for key, each in declared.sources.items()
+    }
+    aside = PageExtras(badge, sound, tuple(notes), tuple(pictures), viewer, wheels, references)
     shown = [section for section in document.sections if section.title != SOURCES]
     return replace(document, sections=shown, aside=aside)
 

@@ -25,11 +25,11 @@ from geartrain.cli.common import (
     as_json,
     emit,
     option_error,
-    read_share,
     show,
     sink,
     table_text,
 )
+from geartrain.cli.option_values import read_share
 from geartrain.cli.verbs import LazyGroup, Verbs
 from geartrain.numerics.results import imported_function
 

@@ -19,17 +19,9 @@ from geartrain.train import State
 
 PUBLISHED = {
     "zf-8hp70": ([4.6957, 3.1304, 2.1039, 1.6667, 1.2845, 1.0, 0.8392, 0.6667], [-3.2968], 4),
-    "ford-10r80": (
-        [4.6957, 2.9851, 2.1462, 1.7690, 1.5201, 1.2751, 1.0, 0.8536, 0.6892, 0.6357],
-        [-4.8661],
-        4,
-    ),
+    "ford-10r80": ([4.6957, 2.9851, 2.1462, 1.7690, 1.5201, 1.2751, 1.0, 0.8536, 0.6892, 0.6357], [-4.8661], 4),
     "zf-9hp48": ([4.700, 2.842, 1.909, 1.382, 1.0, 0.808, 0.699, 0.580, 0.479], [-3.805], 3),
-    "mercedes-9g-tronic": (
-        [5.3545, 3.2432, 2.2523, 1.6356, 1.2106, 1.0, 0.8651, 0.7167, 0.6015],
-        [-4.7983],
-        4,
-    ),
+    "mercedes-9g-tronic": ([5.3545, 3.2432, 2.2523, 1.6356, 1.2106, 1.0, 0.8651, 0.7167, 0.6015], [-4.7983], 4),
     "gm-4t60": ([2.921, 1.568, 1.0, 0.705], [-2.385], 3),
     "simpson-set": ([2.45, 1.45, 1.0], [-2.2], 2),
     "ravigneaux-set": ([2.4, 1.47, 1.0, 0.67], [-2.0], 2),
@@ -154,55 +146,44 @@ def _deviation(chosen: tuple[object, ...]) -> float:
     return pstdev([a - b for a, b in pairwise(logs)])
 
 
-ZF_6HP26 = """
-name: ZF 6HP26
+def lepelletier(name: str, r1: int, s1: int, p1: int, s2: int, s3: int, r: int) -> str:
+    """Six gears of a planetary set before a Ravigneaux set."""
+    return f"""
+name: {name}
 links:
-  case: {}
-  IN: {wheels: {r1: {teeth: 71, internal: true}}}
-  S1: {wheels: {s1: 37}}
-  C1: {}
-  S2: {wheels: {s2: 31}}
-  S3: {wheels: {s3: 38}}
-  C2: {}
-  OUT: {wheels: {r: {teeth: 85, internal: true}}}
-  P1: {wheels: {p1: 17}}
-  SHORT: {wheels: {a: 23}}
-  LONG: {wheels: {b: 23}}
+  case: {{}}
+  IN: {{wheels: {{r1: {{teeth: {r1}, internal: true}}}}}}
+  S1: {{wheels: {{s1: {s1}}}}}
+  C1: {{}}
+  S2: {{wheels: {{s2: {s2}}}}}
+  S3: {{wheels: {{s3: {s3}}}}}
+  C2: {{}}
+  OUT: {{wheels: {{r: {{teeth: {r}, internal: true}}}}}}
+  P1: {{wheels: {{p1: {p1}}}}}
+  SHORT: {{wheels: {{a: 23}}}}
+  LONG: {{wheels: {{b: 23}}}}
 frame: case
-revolutes: {main: [case, IN, S1, C1, S2, S3, C2, OUT], p: [C1, P1], a: [C2, SHORT], b: [C2, LONG]}
+revolutes: {{main: [case, IN, S1, C1, S2, S3, C2, OUT], p: [C1, P1], a: [C2, SHORT], b: [C2, LONG]}}
 gears: [r1 ~ p1, p1 ~ s1, s2 ~ a, a ~ b, b ~ s3, b ~ r]
 fixed: [S1]
-clutches: {A: {locks: [C1, S2]}, B: {locks: [C1, S3]}, C: {fixes: S3}, D: {fixes: C2}, E: {locks: [IN, C2]}}
-inputs: {IN: 1}
-outputs: {OUT: {}}
+clutches: {{A: {{locks: [C1, S2]}}, B: {{locks: [C1, S3]}}, C: {{fixes: S3}}, D: {{fixes: C2}}, E: {{locks: [IN, C2]}}}}
+inputs: {{IN: 1}}
+outputs: {{OUT: {{}}}}
 states:
-  1: {engaged: [A, D]}
-  2: {engaged: [A, C]}
-  3: {engaged: [A, B]}
-  4: {engaged: [A, E]}
-  5: {engaged: [B, E]}
-  6: {engaged: [C, E]}
-  R: {engaged: [B, D]}
+  1: {{engaged: [A, D]}}
+  2: {{engaged: [A, C]}}
+  3: {{engaged: [A, B]}}
+  4: {{engaged: [A, E]}}
+  5: {{engaged: [B, E]}}
+  6: {{engaged: [C, E]}}
+  R: {{engaged: [B, D]}}
 """
+
+
+ZF_6HP26 = lepelletier("ZF 6HP26", 71, 37, 17, 31, 38, 85)
 # counts that give the printed ratios at all their digits
-GM_6L80 = (
-    ZF_6HP26.replace("ZF 6HP26", "GM 6L80")
-    .replace("teeth: 71", "teeth: 94")
-    .replace("s1: 37", "s1: 50")
-    .replace("p1: 17", "p1: 22")
-    .replace("s2: 31", "s2: 35")
-    .replace("s3: 38", "s3: 46")
-    .replace("teeth: 85", "teeth: 92")
-)
-AISIN_TF80 = (
-    ZF_6HP26.replace("ZF 6HP26", "Aisin TF-80SC")
-    .replace("teeth: 71", "teeth: 90")
-    .replace("s1: 37", "s1: 50")
-    .replace("p1: 17", "p1: 20")
-    .replace("s2: 31", "s2: 36")
-    .replace("s3: 38", "s3: 44")
-    .replace("teeth: 85", "teeth: 96")
-)
+GM_6L80 = lepelletier("GM 6L80", 94, 50, 22, 35, 46, 92)
+AISIN_TF80 = lepelletier("Aisin TF-80SC", 90, 50, 20, 36, 44, 96)
 MODEL_T = """
 name: Ford model T
 links:

@@ -16,6 +16,7 @@ import diagrams
 import make_diagrams
 import pytest
 from playwright.sync_api import Browser, Locator, Page
+from viewing import listen
 
 import geartrain
 
@@ -93,9 +94,8 @@ def draw(browser: Browser, tmp_path: Path) -> Iterator[Opening]:
         still = '<img alt="still" src="data:,">'
         text = f"<style>{style}</style>{diagrams.element(kind, still)}<script>{script}</script>"
         (tmp_path / "page.html").write_text(f'<!DOCTYPE html><meta charset="utf-8">{text}', encoding="utf-8")
-        drawn = Drawn(context.new_page(), [])
-        drawn.page.on("console", lambda said: drawn.wrong.append(said.text))
-        drawn.page.on("pageerror", lambda error: drawn.wrong.append(str(error)))
+        page = context.new_page()
+        drawn = Drawn(page, listen(page, "file:", "data:"))
         drawn.page.goto((tmp_path / "page.html").as_uri())
         drawn.page.wait_for_selector(".gd-alive" if window.get("java_script_enabled", True) else "gear-diagram")
         return drawn
@@ -121,34 +121,49 @@ def test_every_kind_stands_in_a_page_above_its_still_and_every_page_that_explain
     assert all("<!-- diagram: " in pages[name] for name in explaining)
 
 
+# corners of words in a picture, and of the picture
+WORDS = """() => {
+  const box = (each) => (({left, right, top, bottom}) => [left, right, top, bottom])(each.getBoundingClientRect());
+  const all = [...document.querySelectorAll('.gd-text')];
+  return [box(document.querySelector('.gd-picture')), all.map((each) => [each.textContent, ...box(each)])];
+}"""
+
+
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_diagram_is_the_still_until_scripts_run_and_again_in_print(draw: Opening, kind: str) -> None:
-    without = draw(kind, java_script_enabled=False)
-    assert without.page.locator("gear-diagram > img").is_visible()
+def test_a_diagram_is_its_still_until_scripts_run_and_in_print_and_its_words_do_not_overlap(
+    draw: Opening, kind: str
+) -> None:
+    still = draw(kind, java_script_enabled=False).page.locator("gear-diagram > img")
+    assert still.is_visible()
     drawn = draw(kind)
-    assert drawn.page.locator(".gd-picture").is_visible()
-    assert not drawn.page.locator("gear-diagram > img").is_visible()
-    drawn.page.emulate_media(media="print")
-    assert drawn.page.locator("gear-diagram > img").is_visible()
-    assert not drawn.page.locator(".gd-live").is_visible()
+    page, still = drawn.page, drawn.page.locator("gear-diagram > img")
+    assert (page.locator(".gd-picture").is_visible(), still.is_visible()) == (True, False)
+    for choice in page.locator("input + span").all() or [page.locator(".gd-hint")]:
+        choice.click()
+        (left, right, top, bottom), words = page.evaluate(WORDS)
+        for (text, *a), (other, *b) in combinations(words, 2):
+            across, down = min(a[1], b[1]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[2], b[2])
+            assert across < 1 or down < 4, f"{text} meets {other}"  # the boxes of lines have room above letters
+        assert all(left <= a and b <= right and top <= c and d <= bottom for _, a, b, c, d in words)
+    page.emulate_media(media="print")
+    assert (page.locator(".gd-live").is_visible(), still.is_visible()) == (False, True)
+    page.emulate_media(media="screen")
+    assert make_diagrams.still(page, kind) == (ROOT / f"docs/images/diagram-{kind}.svg").read_text("utf-8")
     assert drawn.wrong == []
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_still_is_what_the_diagram_draws(draw: Opening, kind: str) -> None:
-    drawn = draw(kind)
-    assert make_diagrams.still(drawn.page, kind) == (ROOT / "docs" / "images" / f"diagram-{kind}.svg").read_text(
-        "utf-8"
-    )
-
-
-@pytest.mark.parametrize("kind", DRAGGED)
-def test_every_handle_has_a_name_and_turns_by_keys(draw: Opening, kind: str) -> None:
-    drawn = draw(kind)
-    handles = drawn.page.locator(".gd-handle:visible")
-    assert handles.count() > 0
+def test_handles_have_names_and_turn_by_keys_and_are_seen_with_their_numbers(draw: Opening, kind: str) -> None:
+    drawn = draw(kind, viewport={"width": 704, "height": 700})  # the width of a page of the site
+    sides = """[...document.querySelectorAll('.gd-live, .gd-side, .gd-reading, .gd-remark')].map((each) => {
+      const {left, right, top, bottom} = each.getBoundingClientRect();
+      return [left, right, top, bottom];
+    })"""
+    (left, right, top, bottom), *inside = drawn.page.evaluate(sides)
+    assert bottom - top < 600
+    assert all(left < a and b < right and top < c and d < bottom for a, b, c, d in inside)
     moved = 0
-    for handle in handles.all():
+    for handle in drawn.page.locator(".gd-handle:visible").all():
         before = handle.get_attribute("aria-valuetext")
         assert handle.get_attribute("aria-label")
         assert before
@@ -157,7 +172,7 @@ def test_every_handle_has_a_name_and_turns_by_keys(draw: Opening, kind: str) -> 
         if handle.get_attribute("aria-valuetext") == before:  # it may stand at its end
             handle.press("ArrowLeft")
         moved += handle.get_attribute("aria-valuetext") != before
-    assert moved > 0
+    assert (moved > 0) == (kind in DRAGGED)
     assert drawn.wrong == []
 
 
@@ -169,37 +184,6 @@ def test_a_diagram_fits_a_phone_and_leaves_fingers_to_its_handles(draw: Opening,
     assert set(drawn.page.evaluate(touch)) == ({"none"} if kind in DRAGGED else set())
     heights = "[...document.querySelectorAll('.gd-text')].map((each) => each.getBoundingClientRect().height)"
     assert all(height >= 11 for height in drawn.page.evaluate(heights))
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_on_a_desk_what_is_dragged_and_its_numbers_are_seen_together(draw: Opening, kind: str) -> None:
-    drawn = draw(kind, viewport={"width": 704, "height": 700})  # the width of a page of the site
-    sides = """[...document.querySelectorAll('.gd-live, .gd-side, .gd-reading, .gd-remark')].map((each) => {
-      const {left, right, top, bottom} = each.getBoundingClientRect();
-      return [left, right, top, bottom];
-    })"""
-    (left, right, top, bottom), *inside = drawn.page.evaluate(sides)
-    assert bottom - top < 600
-    assert all(left < a and b < right and top < c and d < bottom for a, b, c, d in inside)
-
-
-WORDS = """() => {
-  const box = (each) => (({left, right, top, bottom}) => [left, right, top, bottom])(each.getBoundingClientRect());
-  const all = [...document.querySelectorAll('.gd-text')];
-  return [box(document.querySelector('.gd-picture')), all.map((each) => [each.textContent, ...box(each)])];
-}"""
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_words_in_a_picture_neither_overlap_nor_leave_it(draw: Opening, kind: str) -> None:
-    drawn = draw(kind)
-    for choice in drawn.page.locator("input + span").all() or [drawn.page.locator(".gd-hint")]:
-        choice.click()
-        (left, right, top, bottom), words = drawn.page.evaluate(WORDS)
-        for (text, *a), (other, *b) in combinations(words, 2):
-            across, down = min(a[1], b[1]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[2], b[2])
-            assert across < 1 or down < 4, f"{text} meets {other}"  # the boxes of lines have room above letters
-        assert all(left <= a and b <= right and top <= c and d <= bottom for _, a, b, c, d in words)
 
 
 def test_a_finger_drags_on_a_phone(draw: Opening) -> None:
@@ -217,8 +201,7 @@ def test_pages_of_the_site_have_their_diagrams_in_light_and_dark_and_on_phones(s
     for path in sorted((ROOT / "docs").glob("*.md")):
         if count := path.read_text(encoding="utf-8").count("<!-- diagram: "):
             page = browser.new_page(offline=True)
-            wrong = list[str]()
-            page.on("pageerror", lambda error, wrong=wrong: wrong.append(str(error)))
+            wrong = listen(page, "file:", "data:", "blob:")
             page.goto((site / f"{path.stem}.html").as_uri())
             assert page.locator("gear-diagram.gd-alive").count() == count, path.stem
             paper = "getComputedStyle(document.querySelector('.gd-live')).backgroundColor"

@@ -91,7 +91,6 @@ def loader(program: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def boxes(work: SolidModel, share: float) -> dict[str, tuple[Floats, Floats]]:
     """Bounding box (m) of every part after a share of the animation, by the poses of bodies one on the other."""
     turning, bodies = Keyframes.of(work), work.scene.bodies
-    assert turning is not None
     count = 1000
 
     def placed(at: int, points: Floats) -> Floats:
@@ -123,7 +122,6 @@ def test_three_js_shows_every_part_at_its_place_at_rest_and_in_motion(
     data = base64.b64encode(train_file(work, "glb")).decode("ascii")
     (seconds,) = shown.run("(data) => show(data)", data)
     turning = Keyframes.of(work)
-    assert turning is not None
     assert seconds == pytest.approx(turning.seconds, rel=1e-6)
     for share in (0.0, 0.137, 0.5):
         places = shown.run("(time) => places(time)", share * seconds)

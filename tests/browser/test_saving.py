@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from base64 import b64decode
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from itertools import pairwise
@@ -16,7 +15,7 @@ import shipped
 from conftest import Shown
 from PIL import Image
 from stills import gif, pace_of, stills, webp
-from viewing import SIMPLE, Opening
+from viewing import SIMPLE, Opening, picture
 
 pytestmark = pytest.mark.usefixtures("program")
 
@@ -26,10 +25,6 @@ STILL = """(turns) => {
   stage.render();
   return stage.canvas.toDataURL('image/png');
 }"""
-
-
-def picture(data: bytes) -> np.ndarray:
-    return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"), dtype=int)
 
 
 def taken(*turns: Fraction, background: str = "#f4f1ea", size: tuple[int, int] = (240, 160)) -> list[bytes]:
@@ -119,7 +114,7 @@ def test_the_handle_seen_in_the_pictures_turns_as_the_input_does(show_shared: Op
     shown.run("geartrain.stages[0].look('front')")
     count = 8
     stands = [shown.run(STILL, f"{n}/{count}") for n in range(count)]
-    seen = [knob(picture(b64decode(each.partition(",")[2]))) for each in stands]
+    seen = [knob(picture(each)) for each in stands]
     middle = sum(seen) / count
     turned = [np.angle((after - middle) / (before - middle)) / tau for before, after in pairwise(seen)]
     assert min(abs(each - middle) for each in seen) > 15

@@ -19,7 +19,7 @@ from package.test_public_names import SHOWING
 from PIL import Image
 from places import train_files
 from playwright.sync_api import Browser, Page, expect
-from viewing import GALLERY
+from viewing import GALLERY, listen
 
 ROOT = Path(__file__).parent.parent.parent
 DOCS = sorted(
@@ -246,14 +246,8 @@ def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None
 def sheet(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
     """A sheet of the browser, and all that goes wrong on it: errors, and requests to anything but files."""
     context = browser.new_context(viewport={"width": 1100, "height": 800})
-    sheet, wrong = context.new_page(), list[str]()
-    sheet.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
-    sheet.on("pageerror", lambda error: wrong.append(str(error)))
-    sheet.on(
-        "request",
-        lambda requested: wrong.append(requested.url) if not requested.url.startswith(("file:", "data:")) else None,
-    )
-    yield sheet, wrong
+    sheet = context.new_page()
+    yield sheet, listen(sheet, "file:", "data:")
     context.close()
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
+from viewing import listen
 
 START = 120_000  # ms: Python on a busy machine
 PLANETARY = "#train=planetary-24-18-60"
@@ -39,27 +40,23 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
 
 
 @pytest.fixture(scope="module")
-def wrong() -> list[str]:
-    """What a page logs as an error, asks of others, or sends."""
-    return []
-
-
-@pytest.fixture(scope="module")
-def sheet(context: BrowserContext, address: str, wrong: list[str]) -> Iterator[Page]:
-    """The page with Python started, and from then on without any network."""
+def opened(context: BrowserContext, address: str) -> Iterator[tuple[Page, list[str]]]:
+    """The page with Python started, and from then on without any network; and what goes wrong on it."""
     page = context.new_page()
-    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
-    page.on("pageerror", lambda error: wrong.append(str(error)))
-    mine = (address, "about:", "blob:")
-    page.on("request", lambda requested: wrong.append(requested.url) if not requested.url.startswith(mine) else None)
+    wrong = listen(page, address, "about:", "blob:")
     page.on("request", lambda requested: wrong.append(requested.method) if requested.method != "GET" else None)
     page.goto(address + "try.html" + PLANETARY)
     expect(page.locator("#try .progress")).to_be_visible()
     expect(page.locator("#try .verdict.good")).to_be_visible(timeout=START)
     context.set_offline(True)
-    yield page
+    yield page, wrong
     context.set_offline(False)
     page.close()
+
+
+@pytest.fixture
+def sheet(opened: tuple[Page, list[str]]) -> Page:
+    return opened[0]
 
 
 def text_of(page: Page) -> str:
@@ -83,7 +80,8 @@ def dial(page: Page, name: str) -> str:
     return page.locator("#try .dial", has=page.locator(f"b:text-is('{name}')")).locator("code").inner_text()
 
 
-def test_it_answers_exactly_and_asks_nobody(sheet: Page, wrong: list[str]) -> None:
+def test_it_answers_exactly_and_asks_nobody(opened: tuple[Page, list[str]]) -> None:
+    sheet, wrong = opened
     assert sheet.locator("#try .verdict").inner_text() == "determined: every speed follows from sun"
     assert dial(sheet, "carrier") == "2/7", "24 / (24 + 60)"
     report = sheet.frame_locator("#try .page iframe")
@@ -159,8 +157,9 @@ def test_dials_and_pitch_circles_turn_by_exact_speeds(sheet: Page) -> None:
 
 
 def test_an_address_holds_a_text_and_its_page_answers_it(
-    sheet: Page, context: BrowserContext, address: str, wrong: list[str]
+    opened: tuple[Page, list[str]], context: BrowserContext, address: str
 ) -> None:
+    sheet, wrong = opened
     replace(sheet, "A simple planetary", "Mine, ünd more")
     sheet.locator("#try .share").click()
     sheet.wait_for_function("location.hash.startsWith('#text=')")

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 import shipped
-from test_viewer_themes import TEXTS, contrast
-from test_viewer_trains import BLIND
-from viewing import DESK, tab, wait
+from test_viewer_themes import TEXTS
+from viewing import BLIND, DESK, contrast, go, tab, wait
 
 from geartrain import GearTrain, load
 from geartrain.scene import make_scene
@@ -136,10 +135,8 @@ def test_a_step_is_one_tooth_and_pointers_follow(opened: Any) -> None:
     assert shown.run("document.activeElement.getAttribute('aria-label')") == "one tooth less on p"
     changed = train.with_teeth(s=26, p=17)
     at = Fraction(100_003, 7)
-    shown.page.get_by_label("Go to turn").fill(str(at))
-    shown.page.keyboard.press("Enter")
+    go(shown, at)
     for output, result in changed.solve().outputs.items():
-        assert result.speed is not None
         angle = shown.run("(name) => geartrain.pointer(0, name).angle / (2 * Math.PI)", output)
         off = angle - float(Fraction(result.speed) * at % 1)
         assert off - round(off) == pytest.approx(0, abs=1e-9), output

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import base64
-import io
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 import shipped
 from conftest import OpenedPage
-from matplotlib.image import imread, imsave
-from viewing import DESK, SIMPLE, Opening, tab, wait
+from matplotlib.image import imsave
+from viewing import SIMPLE, Opening, picture, tab, wait
 
 from geartrain import load
 from geartrain.scene import build_scene
-from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, Shown
+    from conftest import Shown
 
 TURN = 2 * pi
 DRAWN = """() => new Promise((done) => {
@@ -37,13 +34,6 @@ THREE = """
 links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
 """
-
-
-def write_page(folder: Path, *names: str, **options: Any) -> Path:
-    """The page of shipped trains, in their first states."""
-    path = folder / "page.html"
-    path.write_text(page([shipped.built(name) for name in names], **options), encoding="utf-8")
-    return path
 
 
 def apart(one: float, other: float) -> float:
@@ -66,18 +56,9 @@ def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
         yield output, TURN * float(part - part.numerator // part.denominator)
 
 
-def stand_as_fractions_say(shown: Shown, name: str, turns: Sequence[str | float]) -> None:
-    """Every output of a shipped train that is shown, after each of the turns, to 1e-12 rad."""
-    outputs = list(shipped.train(name).declaration.outputs)
-    for each, angles in zip(turns, shown.angles(turns, outputs), strict=True):
-        expected = dict(directions(name, Fraction(each)))
-        for output, angle in zip(outputs, angles, strict=True):
-            assert apart(angle, expected[output]) < 1e-12, (output, each)
-
-
 @pytest.mark.parametrize("name", ["freeth-2021", "bevel-differential", "zf-8hp70"])
-def test_a_page_opens_from_disk_without_errors_or_requests(open_page: OpenPage, tmp_path: Path, name: str) -> None:
-    shown = open_page(write_page(tmp_path, name))
+def test_a_page_opens_from_disk_without_errors_or_requests(show: Opening, name: str) -> None:
+    shown = show(name)
     shown.run(DRAWN)
     assert shown.errors == []
     assert shown.requests == []
@@ -92,8 +73,8 @@ SEEN = """() => {
 }"""
 
 
-def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(open_page: OpenPage, tmp_path: Path) -> None:
-    opened = OpenedPage(open_page(write_page(tmp_path, "planetary-24-18-60"), **DESK))
+def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(show: Opening) -> None:
+    opened = OpenedPage(show(SIMPLE, teeth=True))
     shown = opened.shown
     before = shown.run(SEEN)
     shown.page.get_by_label("Colours").select_option("speed")
@@ -114,7 +95,12 @@ def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(open_page: Ope
 @pytest.mark.parametrize("name", ["price-1974", "prague-orloj", "gosper-2005", "humpage"])
 def test_pointers_of_ideal_trains_stand_where_fractions_say(show_shared: Opening, name: str) -> None:
     texts = ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003")
-    stand_as_fractions_say(show_shared(name), name, texts)
+    outputs = list(shipped.train(name).declaration.outputs)
+    turns = (*texts, 0.1, -2.7, 1e9 + 0.1, 123456.789)  # a float is taken as exactly what it is
+    for each, angles in zip(turns, show_shared(name).angles(turns, outputs), strict=True):
+        expected = dict(directions(name, Fraction(each)))
+        for output, angle in zip(outputs, angles, strict=True):
+            assert apart(angle, expected[output]) < 1e-12, (output, each)
 
 
 # how far the end of a part stands out of what it ends in (mm): where a ray along its axis meets these, below the plates
@@ -161,10 +147,6 @@ def test_a_dial_about_two_axes_has_a_face_for_each(show_shared: Opening) -> None
     assert hands[1:] == [[["synodic month", True]], [["lunar year", True]], [["four years", True]]]
 
 
-def test_a_float_of_turns_is_taken_as_exactly_what_it_is(show_shared: Opening) -> None:
-    stand_as_fractions_say(show_shared("price-1974"), "price-1974", (0.1, -2.7, 1e9 + 0.1, 123456.789))
-
-
 @pytest.mark.parametrize(
     "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
 )
@@ -200,55 +182,6 @@ def test_backwards_the_other_flanks_drive(show_shared: Opening) -> None:
     assert differ > 1e-4, "the way back is the way forth: this asks nothing"
 
 
-def test_a_slot_follows_its_pin_as_plane_geometry_says(show_shared: Opening) -> None:
-    """The drawn pin stays in the drawn slot: both parts are asked where they are."""
-    shown = show_shared("freeth-2008")
-    script = """t => {
-      geartrain.setTurns(t);
-      const stage = geartrain.stages[0]; stage.render(); stage.world.root.updateMatrixWorld(true);
-      return geartrain.scenes[0].couplings.map(c => {
-        const {nodes} = stage.world;
-        const through = (body, p) => stage.camera.position.clone().set(...p).applyMatrix4(nodes[body].matrixWorld);
-        const [pin, axis] = [through(c.pin, c.pin_at), through(c.slot, c.slot_at)];
-        const rail = through(c.slot, c.pin_at).sub(axis).normalize();
-        return pin.sub(axis).normalize().dot(rail);
-      });
-    }"""
-    for turns in ("0", "1/3", "7/5", "1000001/13"):
-        assert shown.run(script, turns) == pytest.approx([1.0], abs=1e-9)
-
-
-def test_meshing_wheels_have_one_velocity_where_they_touch(show_shared: Opening) -> None:
-    """Spin of both wheels at the pitch point, by finite differences of what is drawn."""
-    shown = show_shared("planetary")
-    script = """h => {
-      const stage = geartrain.stages[0], scene = geartrain.scenes[0], Vector = stage.camera.position.constructor;
-      const at = t => {
-        geartrain.setTurns(t); stage.world.turn(); stage.world.root.updateMatrixWorld(true);
-        return stage.world.nodes.map(n => n.matrixWorld.clone());
-      };
-      const [before, after] = [at(0.3 - h), at(0.3 + h)];
-      return scene.pairs.map(({wheels: [i, j]}) => {
-        const [a, b] = [scene.wheels[i], scene.wheels[j]];
-        const middle = at(0.3);
-        const where = w => new Vector(...w.centre).applyMatrix4(middle[w.body]);
-        const [p, q] = [where(a), where(b)];
-        const [big, small] = a.radius > b.radius ? [a, b] : [b, a];
-        const [from, to] = big === a ? [p, q] : [q, p];
-        const contact = from.clone().add(to.clone().sub(from).setZ(0).setLength(big.radius));
-        const speed = w => {
-          const own = contact.clone().applyMatrix4(middle[w.body].clone().invert());
-          const [ahead, behind] = [after, before].map(pose => own.clone().applyMatrix4(pose[w.body]));
-          return ahead.sub(behind).divideScalar(2 * h);
-        };
-        const [u, v] = [speed(a), speed(b)];
-        return [u.clone().sub(v).length(), u.length()];
-      });
-    }"""
-    for slip, _speed in shown.run(script, 1e-5):
-        assert slip < 1e-4
-
-
 def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
     """What the first stage shows, drawn at a size of ours: (height, width, 3), 0 to 1."""
     script = """([width, height]) => {
@@ -257,22 +190,22 @@ def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
       Object.assign(stage.canvas.style, place);
       stage.theme({background: '#f4f1ea'});
       stage.resize(); stage.look('free'); stage.setTurns('1/7'); stage.render();
-      return stage.canvas.toDataURL('image/png').split(',')[1];
+      return stage.canvas.toDataURL('image/png');
     }"""
-    return imread(io.BytesIO(base64.b64decode(shown.run(script, list(size)))))[:, :, :3]
+    return picture(shown.run(script, list(size))) / 255
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "bevel-differential"])
-def test_the_picture_is_the_one_that_was_looked_at_and_approved(open_page: OpenPage, tmp_path: Path, name: str) -> None:
+def test_the_picture_is_the_one_that_was_looked_at_and_approved(show: Opening, name: str) -> None:
     """Within a tolerance; GEARTRAIN_NEW_PICTURES=1 stores what is drawn, to be looked at and approved."""
-    drawn = canvas_of(open_page(write_page(tmp_path, name)))
+    drawn = canvas_of(show(name, teeth=True))
     stored = PICTURES / f"{name}.png"
     if os.environ.get("GEARTRAIN_NEW_PICTURES"):
         imsave(stored, drawn)
-    approved = imread(stored)[:, :, :3]
+    approved = picture(stored.read_bytes()) / 255
     assert drawn.shape == approved.shape
     assert drawn.std() > 0.05, "the picture is blank"
-    coarse = [picture.reshape(45, 4, 60, 4, 3).mean(axis=(1, 3)) for picture in (drawn, approved)]
+    coarse = [each.reshape(45, 4, 60, 4, 3).mean(axis=(1, 3)) for each in (drawn, approved)]
     off = np.abs(coarse[0] - coarse[1])
     assert off.mean() < 0.01
     assert np.quantile(off, 0.99) < 0.15
@@ -331,12 +264,10 @@ def test_a_tap_on_a_wheel_tells_which_one(show_shared: Opening, apart: int) -> N
         ("gears: [{pair: [x, y]}, {pair: [y, z]}]\ninputs: {a: 1, c: 1}", "contradictory"),
     ],
 )
-def test_trains_that_cannot_turn_are_shown_standing(open_page: OpenPage, tmp_path: Path, rest: str, kind: str) -> None:
+def test_trains_that_cannot_turn_are_shown_standing(show: Opening, rest: str, kind: str) -> None:
     scene = build_scene(load(THREE + rest))
     assert scene.verdict["kind"] == kind
-    path = tmp_path / "page.html"
-    path.write_text(page([scene]), encoding="utf-8")
-    shown = open_page(path)
+    shown = show(text=THREE + rest)
     shown.run("geartrain.setTurns('5/7')")
     assert shown.errors == []
     assert kind in shown.page.inner_text("body").lower()
@@ -346,14 +277,6 @@ def test_trains_that_cannot_turn_are_shown_standing(open_page: OpenPage, tmp_pat
     })""")
     assert red == [any(pair.broken and at in pair.wheels for pair in scene.pairs) for at in range(3)]
     assert any(red) == (kind == "locked") or kind == "contradictory"
-
-
-def test_without_webgl_all_else_is_there(open_page: OpenPage, tmp_path: Path) -> None:
-    blind = "HTMLCanvasElement.prototype.getContext = () => null"
-    shown = open_page(write_page(tmp_path, "price-1974"), before=blind)
-    assert shown.run("document.querySelectorAll('.view canvas').length") == 0
-    stand_as_fractions_say(shown, "price-1974", ("5/7",))
-    assert "determined" in shown.page.inner_text("body")
 
 
 def test_nothing_is_drawn_while_nothing_changes(show_shared: Opening) -> None:
@@ -367,28 +290,13 @@ def test_nothing_is_drawn_while_nothing_changes(show_shared: Opening) -> None:
     wait(shown, f"{frames} > {before}")
 
 
-def test_the_work_of_a_frame_is_told(
-    open_page: OpenPage, tmp_path: Path, record_property: Callable[[str, object], None]
-) -> None:
-    """Measured and reported, with calls to the GPU that do nothing: a busy machine proves nothing about a laptop."""
-    shown = open_page(write_page(tmp_path, "freeth-2021"))
-    script = """() => {
-      const [stage] = geartrain.stages, gl = stage.renderer.getContext();
-      const calls = ['drawElementsInstanced', 'drawArraysInstanced', 'drawArrays', 'drawElements'];
-      for (const name of calls) gl[name] = () => {};
-      const took = [];
-      for (let n = 0; n < 40; n += 1) {
-        const began = performance.now();
-        stage.setTurns(n / 37); stage.render();
-        took.push(performance.now() - began);
-      }
-      return {milliseconds: took.sort((a, b) => a - b)[20], calls: stage.renderer.info.render.calls,
-              triangles: stage.renderer.info.render.triangles, first: geartrain.firstPicture};
-    }"""
-    told = shown.run(script)
-    for name, value in told.items():
-        record_property(name, value)
-    print(f"freeth-2021: {told}")
-    assert told["milliseconds"] > 0
-    assert told["triangles"] > 69 * 12
-    assert told["calls"] <= 5, "what stands there first, the teeth, plates, those of glass, and the ground"
+def test_a_frame_of_the_largest_train_takes_five_calls_of_the_gpu(show_shared: Opening) -> None:
+    shown = show_shared("freeth-2021", teeth=True)
+    calls, triangles = shown.run("""() => {
+      const [stage] = geartrain.stages;
+      stage.setTurns(1 / 37);
+      stage.render();
+      return [stage.renderer.info.render.calls, stage.renderer.info.render.triangles];
+    }""")
+    assert triangles > 69 * 12
+    assert calls <= 5, "what stands there first, the teeth, plates, those of glass, and the ground"

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import io
-from base64 import b64decode
-
 import numpy as np
 import pytest
-from PIL import Image
-from viewing import SIMPLE, Opening, wait
+from viewing import SIMPLE, Opening, picture, wait
 
 TWO_RINGS = "wolfrom-175"
 PICTURE = """() => {
@@ -34,10 +30,6 @@ MET = """([radius, degrees]) => {
   const met = world.pick(Object.assign(stage.hands.ray.ray.clone(), {origin, direction: towards.clone().negate()}));
   return met === null ? null : scene.wheels[met].id;
 }"""
-
-
-def picture(data: str) -> np.ndarray:
-    return np.asarray(Image.open(io.BytesIO(b64decode(data.partition(",")[2]))).convert("RGB"), dtype=int)
 
 
 @pytest.mark.parametrize(("name", "opened"), [(TWO_RINGS, True), (SIMPLE, False)])

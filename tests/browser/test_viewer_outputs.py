@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import shipped
-from viewing import ANTIKYTHERA, Opening, tab, wait
+from viewing import ANTIKYTHERA, Opening, go, tab, wait
 
 from geartrain import load
 
@@ -86,8 +86,7 @@ def test_dials_read_clockwise_what_fractions_say(show_shared: Opening) -> None:
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(100_003, 7)
-    shown.page.get_by_label("Go to turn").fill(str(at))
-    shown.page.keyboard.press("Enter")
+    go(shown, at)
     hands = shown.run(
         "Object.fromEntries([...document.querySelectorAll('.dial .hand')].map((h) => [h.dataset.output, "
         "[Number(h.dataset.turns), Number(/rotate\\(([^)]+)/.exec(h.getAttribute('transform'))[1])]]))"

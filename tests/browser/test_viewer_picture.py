@@ -132,7 +132,6 @@ def test_no_button_says_from_where_one_looks_once_the_picture_was_turned_by_hand
     pressed = "[...document.querySelectorAll('[data-look][aria-pressed=true]')].map((each) => each.dataset.look)"
     assert shown.run(pressed) == ["front"]
     box = shown.page.locator("canvas").bounding_box()
-    assert box is not None
     shown.page.mouse.move(box["x"] + 20, box["y"] + 20)
     shown.page.mouse.down()
     shown.page.mouse.move(box["x"] + 120, box["y"] + 60, steps=4)
@@ -172,7 +171,6 @@ def test_only_what_is_shown_holds_a_drawing_context(show: Opening) -> None:
 def test_equal_times_pass_in_two_trains_whose_units_are_times(show: Opening) -> None:
     shown = show("huygens-planetarium-1682", "longcase-clock", compare=True)
     first, second = (shipped.train(name).declaration for name in ("huygens-planetarium-1682", "longcase-clock"))
-    assert first.unit_days is not None
     assert second.unit_days == Fraction(1, 24)
     speeds = [next(Fraction(speed.value) for speed in each.inputs.values()) for each in (first, second)]
     for _ in range(2):

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenPage, SharePage, Shown
-from viewing import DESK, tab, wait
+from conftest import SharePage, Shown
+from viewing import Opening, tab, wait
 
 from geartrain import load
 from geartrain.scene import Scene, build_scene
@@ -34,7 +32,6 @@ def shown(played: Played, share: SharePage) -> Shown:
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
     """Some samples of the run: their numbers, and where the crank of the page stands there (turns)."""
     run, scene = played
-    assert scene.run is not None
     first = int(np.argmax(run.time > run.skip - run.step / 2))
     chosen = np.linspace(first, len(run.time) - 1, count).round().astype(int)
     return chosen.tolist(), ((run.time[chosen] - run.time[first]) / scene.run.period).tolist()
@@ -42,7 +39,6 @@ def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
 
 def test_bodies_and_pointers_stand_where_the_simulation_has_them(played: Played, shown: Shown) -> None:
     run, scene = played
-    assert scene.run is not None
     samples, turns = times(played)
     names = [body.id for body in scene.bodies]
     found = shown.run(
@@ -79,7 +75,6 @@ def glow(shown: Shown) -> float:
 
 def test_the_next_impact_is_found_and_seen(played: Played, shown: Shown) -> None:
     scene = played[1]
-    assert scene.run is not None
     first = min(each.impact_times[0] for each in scene.run.contacts if len(each.impact_times))
     assert glow(shown) == 0
     shown.page.get_by_label("next impact").click()
@@ -132,7 +127,6 @@ def test_a_contact_that_is_chosen_is_shown_in_the_picture(shown: Shown) -> None:
 
 def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
     box = shown.page.locator(".strip").bounding_box()
-    assert box is not None
     shown.page.mouse.click(box["x"] + box["width"] - 1, box["y"] + 5)
     later = shown.run("geartrain.machines[0].time()")
     assert later > 0
@@ -158,10 +152,8 @@ def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     assert shown.requests == []
 
 
-def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(open_page: OpenPage, tmp_path: Path) -> None:
-    path = tmp_path / "page.html"
-    path.write_text(page([shipped.built("planetary-24-18-60")], teeth=False), encoding="utf-8")
-    plain = open_page(path, **DESK)
+def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(show: Opening) -> None:
+    plain = show("planetary-24-18-60")
     assert plain.page.get_by_role("slider", name="crank").count() == 1
     assert plain.page.get_by_role("tab", name="Contacts").count() == 0
 
@@ -173,14 +165,10 @@ gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.98}]
 """
 
 
-def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(
-    open_page: OpenPage, tmp_path: Path
-) -> None:
+def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(share: SharePage) -> None:
     train = load(PLANETARY)
     run = train.dynamics(rate="1 turn/s", turns=1, skip=0, steps=1000, fast=False)
-    path = tmp_path / "run.html"
-    path.write_text(page([build_scene(train, run=run)], teeth=False), encoding="utf-8")
-    shown = open_page(path, **DESK)
+    shown = share(page([build_scene(train, run=run)], teeth=False))
     rows = shown.run(
         """() => {
           geartrain.setTurns(0.77);

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab, wait
+from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, contrast, go, luminance, tab, wait
 
 SMALL = """() => [...document.querySelectorAll('button, select, input:not([type=checkbox]), .tick, summary, .handle')]
   .filter((each) => each.checkVisibility())
@@ -38,20 +38,6 @@ TEXTS = """() => {
 }"""
 
 PHONE: dict[str, Any] = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
-
-
-def luminance(colour: tuple[float, float, float]) -> float:
-    """Relative luminance, WCAG 2.2."""
-    linear = [
-        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in (c / 255 for c in colour)
-    ]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
-
-
-def contrast(one: str, other: str) -> float:
-    """Contrast ratio, WCAG 2.2."""
-    dark, light = sorted((luminance(rgb(one)), luminance(rgb(other))))
-    return (light + 0.05) / (dark + 0.05)
 
 
 # buttons that stay pressed, in the moment in which they are: [what, its colour, that behind it]
@@ -98,7 +84,7 @@ def test_the_reader_may_choose_a_theme(show: Opening) -> None:
     before = shown.run("getComputedStyle(document.body).backgroundColor")
     shown.page.get_by_label("theme").select_option("dark")
     after = shown.run("getComputedStyle(document.body).backgroundColor")
-    assert luminance(rgb(before)) > 0.8 > 0.05 > luminance(rgb(after))
+    assert luminance(before) > 0.8 > 0.05 > luminance(after)
     clear = shown.run("geartrain.stages[0].renderer.getClearColor({ copy: (colour) => colour }).getHex()")
     assert clear < 0x303030
 
@@ -163,17 +149,14 @@ def test_a_phone_that_lies_has_crank_picture_and_panels_at_once(
     shown = show(name, viewport={"width": width, "height": height}, has_touch=True, is_mobile=True)
     for part in (".handle", ".round", ".turns", ".where .quiet", ".view canvas", "[role=tablist]", ".page .dial"):
         box = shown.page.locator(part).locator("visible=true").first.bounding_box()
-        assert box is not None
         inside = box["x"] >= 0 and box["x"] + box["width"] <= width + 1 and box["y"] >= 0
         assert inside, (part, box)
         assert box["y"] + (0 if part == ".page .dial" else box["height"]) <= height, (part, box)
     canvas = shown.page.locator(".view canvas").bounding_box()
-    assert canvas is not None
     assert canvas["width"] > 0.3 * width
     assert canvas["height"] > 0.5 * height
     assert shown.run("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [width, height]
-    shown.page.get_by_label("Go to turn").fill("5/2")
-    shown.page.keyboard.press("Enter")
+    go(shown, "5/2")
     assert shown.page.locator(".turns").inner_text() == "2.5 = 5/2"
     assert shown.run(SMALL) == []
 

@@ -48,8 +48,6 @@ def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show_s
         for row in rows.all()
     }
     picture, legend = (shown.page.locator(each).bounding_box() for each in (".view canvas", ".legend"))
-    assert picture is not None
-    assert legend is not None
     assert legend["y"] >= picture["y"] + picture["height"], "the legend stands over the picture"
     painted = shown.run(PAINTED)
     for status in ("surviving", "reconstructed"):

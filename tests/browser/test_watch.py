@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from clusters import PATIENCE, next_line
 from playwright.sync_api import Browser, Page
+from viewing import listen
 
 pytest.importorskip("tornado", reason="the extra 'watch' is not installed")
 pytest.importorskip("watchdog", reason="the extra 'watch' is not installed")
@@ -54,9 +55,7 @@ def served(file: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     environment = {**os.environ, "COLUMNS": "200"}
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as running:
         try:
-            assert running.stderr is not None
             address = re.search(r"http://127\.0\.0\.1:\d+/", next_line(running.stderr))
-            assert address is not None
             yield address[0], running
             running.send_signal(signal.SIGINT)
             running.communicate(timeout=PATIENCE)
@@ -73,8 +72,7 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     browser: Browser, served: tuple[str, subprocess.Popen[str]], file: Path, parent: Path
 ) -> None:
     page = browser.new_page(viewport={"width": 1200, "height": 700})
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
+    wrong = listen(page, served[0], served[0].replace("http", "ws"), "data:", "blob:", "about:")
     page.goto(served[0])
     follow(page, 1)
     report, view = page.frame_locator("#report"), page.frames[2]
@@ -98,7 +96,7 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     file.write_text("extends: elsewhere/parent.yaml\ntitle: Second\n", encoding="utf-8")
     told.wait_for(state="hidden")
     report.get_by_text("Second").first.wait_for()
-    assert not errors
+    assert not wrong
     page.close()
 
 
@@ -110,7 +108,6 @@ def test_the_outer_page_runs_its_own_script_and_reaches_its_own_server_only(
     broken: list[str] = []
     page.on("console", lambda message: broken.append(message.text) if message.type == "error" else None)
     answer = page.goto(served[0].replace("127.0.0.1", host))
-    assert answer is not None
     assert "default-src 'none'" in answer.headers["content-security-policy"]
     follow(page, 1)
     assert not broken, "nothing that the page needs is forbidden"

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import time
+from base64 import b64decode
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import shipped
+from PIL import Image
 
 from geartrain import load
 from geartrain.scene import build_scene
@@ -16,12 +20,14 @@ from geartrain.viewer import page
 
 if TYPE_CHECKING:
     from conftest import Shown
+    from playwright.sync_api import Page
 
     from geartrain.scene import Scene
 
 SIMPLE, ANTIKYTHERA = "planetary-24-18-60", "freeth-2008"
 GALLERY = ("worm", "longcase-clock", "zf-8hp70", "south-pointing-chariot")  # what of the gallery is made for tests
 DESK: dict[str, Any] = {"viewport": {"width": 1000, "height": 620}}
+BLIND = "HTMLCanvasElement.prototype.getContext = () => null"  # no WebGL
 
 LOCKED = """
 name: locked
@@ -59,6 +65,12 @@ def tab(shown: Shown, name: str) -> None:
     shown.page.get_by_role("tab", name=name).click()
 
 
+def go(shown: Shown, turn: object) -> None:
+    """Type a number of turns of the crank."""
+    shown.page.get_by_label("Go to turn").fill(str(turn))
+    shown.page.keyboard.press("Enter")
+
+
 def wait(shown: Shown, expression: str) -> None:
     """Until an expression in the page is true."""
     end = time.monotonic() + 60
@@ -75,3 +87,32 @@ def turns(shown: Shown) -> Fraction:
 def rgb(text: str) -> tuple[float, float, float]:
     red, green, blue = (float(part) for part in text.removeprefix("rgb(").rstrip(")").split(","))
     return red, green, blue
+
+
+def luminance(colour: str) -> float:
+    """Relative luminance, WCAG 2.2."""
+    parts = [part / 255 for part in rgb(colour)]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(one: str, other: str) -> float:
+    """Contrast ratio, WCAG 2.2."""
+    dark, light = sorted((luminance(one), luminance(other)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+def picture(data: str | bytes) -> np.ndarray:
+    """A picture as a file or a data URL: (height, width, 3), 0 to 255."""
+    file = data if isinstance(data, bytes) else b64decode(data.partition(",")[2])
+    return np.asarray(Image.open(io.BytesIO(file)).convert("RGB"), dtype=int)
+
+
+def listen(page: Page, *own: str) -> list[str]:
+    """All that goes wrong on a page from now on: errors, dialogs, and requests to addresses that do not begin so."""
+    wrong = list[str]()
+    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("dialog", lambda dialog: wrong.append(dialog.message))
+    page.on("request", lambda requested: None if requested.url.startswith(own) else wrong.append(requested.url))
+    return wrong

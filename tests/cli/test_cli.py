@@ -16,7 +16,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import networkx as nx
 import pytest
 from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, functions, verbs
 from jsonschema import Draft202012Validator
@@ -115,23 +114,21 @@ def test_a_verdict_is_a_result_on_standard_output(
     train_file: Write, verb: str, text: str, kind: str, code: int
 ) -> None:
     ended, out, err = run(verb, train_file(text))
-    assert ended == code
-    assert err == ""
+    assert (ended, err) == (code, "")
     assert code == 0 or kind in out
 
 
-def test_a_comparison_says_the_verdict_of_trains_without_outputs(train_file: Write) -> None:
-    code, out, err = run("compare", train_file(LOCKED, "first.yaml"), train_file(LOCKED, "second.yaml"))
-    assert code == 1
-    assert "locked" in out + err
-
-
 @pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "inspect equations", "inspect graph"])
-def test_a_missing_file_has_no_result_and_a_reason(verb: str, tmp_path: Path) -> None:
-    code, out, err = run(*verb.split(), tmp_path / "penestri-2002.yaml")
-    assert (code, out) == (2, "")
-    assert "the file does not exist" in err
-    assert "pennestri-2002" in err
+def test_a_missing_or_unusable_file_has_no_result_and_a_reason_with_its_line(train_file: Write, verb: str) -> None:
+    path = train_file(UNUSABLE)
+    for file, *said in (
+        ("penestri-2002.yaml", "the file does not exist", "pennestri-2002"),
+        (path, f"{path}:3: unknown key 'geers'", "did you mean 'gears'?"),
+    ):
+        code, out, err = run(*verb.split(), file)
+        assert (code, out) == (2, "")
+        assert all(part in err for part in said)
+        assert "Traceback" not in err
 
 
 @pytest.mark.parametrize("verb", ["report", "compare"])
@@ -162,12 +159,6 @@ def test_a_quiet_check_says_nothing_of_what_is_right(train_file: Write) -> None:
     code, out, _ = run("check", "--quiet", train_file(WRONG), "pennestri-2002")
     assert code == 1
     assert [line.split(" ")[0] for line in out.splitlines()] == ["FAIL"]
-
-
-def test_check_names_the_published_figure_that_fails(train_file: Write) -> None:
-    _, out, _ = run("check", train_file(PUBLISHED))
-    assert "output 'c' is 1/2" in out
-    assert "published 2.1 as input/output" in out
 
 
 def test_check_names_the_state_that_fails(train_file: Write) -> None:
@@ -234,17 +225,14 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
 
 def test_the_json_of_one_output_or_state_leaves_out_what_was_not_requested() -> None:
     data = json.loads(run("solve", "pennestri-2002", "--of", "moon", "--json")[1])
-    assert set(data) == TOP
-    assert data["mobility"] is None
+    assert (set(data), data["mobility"]) == (TOP, None)
     (answer,) = data["states"]
     assert set(answer["outputs"]) == {"moon"}
     check_answer(answer)
-    data = json.loads(run("solve", "zf-8hp70", "--state", "R", "--json")[1])
-    assert set(data) == TOP
-    assert [answer["state"] for answer in data["states"]] == ["R"]
-    data = json.loads(run("solve", "zf-8hp70", "--of", "OUT", "--json")[1])
-    assert set(data) == TOP
-    assert len(data["states"]) == 9
+    for more, states in ((("--state", "R"), ["R"]), (("--of", "OUT"), [*"12345678R"])):
+        data = json.loads(run("solve", "zf-8hp70", *more, "--json")[1])
+        assert set(data) == TOP
+        assert [answer["state"] for answer in data["states"]] == states
 
 
 def test_the_json_of_reports_has_the_promised_keys() -> None:
@@ -283,10 +271,7 @@ def test_a_part_of_the_work_gives_the_same_number_for_every_pointer_of_the_cosmo
         assert answer[name] == result.speed, name
         works[name] = answer.work
     assert max(works.values()) < whole.work == len(train.circuits)
-    # the crank is one pair away from b1; Mars, its pin and its ring have no wheel in common with the Moon
-    assert works["crank"] == 1
-    # at least the pairs 2-4, 4-10, 10-11, 11-5; at most the ring of wheels that closes over 12, 13, 14, 15
-    assert 4 <= load("pennestri-2002").solve(output="moon").work <= 9
+    assert works["crank"] == 1, "the crank is one pair away from b1"
 
 
 def test_one_state_is_the_same_alone_and_among_all() -> None:
@@ -311,33 +296,6 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true() ->
         assert f"{data['speeds'][link]['estimate']:.1e}" == estimate
         assert f"{data['speeds'][link]['true_error']:.1e}" == error
     assert "estimate" not in run("solve", "pennestri-2002", "--method", "exact")[1]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["solve", "zf-8hp70", "--of", "OOT"], ["no output or link 'OOT'", "did you mean 'OUT'?"]),
-        (["solve", "planetary", "--state", "ring fixt"], ["no state 'ring fixt'", "did you mean 'ring fixed'?"]),
-        (["inspect", "equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
-        (["solve", "worm", "--state", "1"], ["no state '1'", "omit the state"]),
-        (["solve", "worm", "--method", "exakt"], ["'exakt'", "did you mean 'exact'?"]),
-        (["inspect", "graph", "worm", "--as", "dott"], ["'dott'", "did you mean 'dot'?"]),
-        (["inspect", "graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
-        (["report", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
-        (["compare", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
-        (["inspect", "schema", "--as", "yaml"], ["'yaml'", "json, markdown, answers"]),
-        (["periods", "month_synodik"], ["no name contains 'month_synodik'", "month_synodic"]),
-    ],
-)
-def test_what_does_not_exist_is_refused_with_what_does(
-    arguments: list[str], said: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    code, out, err = run(*arguments)
-    assert (code, out) == (2, "")
-    words = " ".join(err.replace("│", " ").split())
-    assert all(part in words for part in said), words
-    assert list(tmp_path.iterdir()) == []
 
 
 # ----------------------------------------------------------------------------------------------------------- equations
@@ -393,18 +351,6 @@ def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(n
             assert sum(value * answer.speeds[link] for link, value in row.items()) == right, label
 
 
-def test_gear_rows_carry_the_tooth_numbers_of_the_paper() -> None:
-    teeth = {name: wheel.count for name, (_, wheel) in load("pennestri-2002").declaration.wheels.items()}
-    rows = {label: row for label, row, _ in text_rows(run("inspect", "equations", "pennestri-2002")[1])}
-    for line in TABLES_1_TO_3.strip().splitlines():
-        pair, i, j, k, z_i, z_j = line.split()
-        first, second = Fraction(teeth[z_i] or 0), Fraction(teeth[z_j] or 0)
-        scale = rows[pair][i] / first
-        assert scale != 0
-        # both wheels are external: z_i w_i + z_j w_j = (z_i + z_j) w_k
-        assert rows[pair] == {i: scale * first, j: scale * second, k: -scale * (first + second)}
-
-
 @pytest.mark.parametrize("name", ["pennestri-2002", "humpage", "freeth-2021", "wolfrom-175"])
 def test_latex_says_the_same_as_text(name: str) -> None:
     latex = run("inspect", "equations", name, "--latex")[1]
@@ -457,12 +403,6 @@ def paper_edges() -> dict[frozenset[str], tuple[str, str]]:
     return edges
 
 
-def read_graphml(path: Path) -> dict[frozenset[str], tuple[str, str]]:
-    graph = nx.read_graphml(path)
-    assert [node for node, data in graph.nodes(data=True) if data["frame"]] == ["1"]
-    return {frozenset(edge[:2]): (edge[2]["kind"], edge[2]["label"]) for edge in graph.edges(data=True)}
-
-
 FORMS = {".graphml": "graphml", ".json": "json", ".dot": "dot", ".gv": "dot", ".md": "labels"}
 
 
@@ -477,13 +417,6 @@ def test_a_form_of_graph_is_chosen_by_suffix_or_by_name(tmp_path: Path, suffix: 
         by_suffix.read_text(encoding="utf-8").rstrip() == by_name.read_text(encoding="utf-8").rstrip() == out.rstrip()
     )
     assert out.startswith({"graphml": "<graphml", "json": "{", "dot": 'graph "pennestri-2002" {', "labels": "#"}[form])
-
-
-def test_the_graph_holds_the_edges_of_the_paper(tmp_path: Path) -> None:
-    run("inspect", "graph", "pennestri-2002", "-o", tmp_path / "a.graphml")
-    expected = paper_edges()
-    assert len(expected) == 37
-    assert read_graphml(tmp_path / "a.graphml") == expected
 
 
 def test_the_matrix_in_numbers_is_the_matrix_in_letters() -> None:
@@ -591,18 +524,6 @@ def test_periods_shows_the_rows_with_a_word_and_no_others(word: str) -> None:
 
 def test_the_version_is_the_packages() -> None:
     assert run("--version")[1].strip() == f"geartrain {version('geartrain')}"
-
-
-@pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "inspect equations", "inspect graph"])
-def test_unusable_input_is_said_on_standard_error_with_its_line_and_without_a_traceback(
-    train_file: Write, verb: str
-) -> None:
-    path = train_file(UNUSABLE)
-    done = ended(*verb.split(), path)
-    assert done.returncode == 2
-    assert f"{path}:3: unknown key 'geers'" in done.stderr
-    assert "did you mean 'gears'?" in done.stderr
-    assert "Traceback" not in done.stderr
 
 
 def test_a_pipe_that_closes_early_ends_quietly() -> None:

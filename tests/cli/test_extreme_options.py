@@ -23,6 +23,7 @@ from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 from geartrain.teeth.pin_transmission import PinTransmission
+from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -41,9 +42,6 @@ inputs: {a: 1}
 outputs: {b: }
 """
 
-TRIANGULAR = ("mesh", "48", "96", "--form", "triangular")
-CLEARED = (*TRIANGULAR, "-p", "clearance_factor=1.01")
-SIZED = (*CLEARED, "--module", "2mm")
 CONJUGATE = {
     "involute": ("pressure_angle:angle", "shift", "addendum", "dedendum", "centre_distance", "backlash"),
     "cycloidal": ("rolling", "addendum", "arcs"),
@@ -56,24 +54,8 @@ SHARED = ("friction", "shaft-angle:angle", "driver", "module:length")
 OUTLINED = tuple(f"blank={key}:length" for key in ("clearance", "fillet", "bore", "rim", "tolerance"))
 OUTLINED += ("wheel", "module:length")
 
-# the command without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
-CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
-    (
-        TRIANGULAR,
-        (
-            *("p=half_angle:angle", "p=clearance_factor", "p=excess", "p=window", "p=backlash", "p=centre_distance"),
-            *("p=radii", "driver"),
-        ),
-    ),
-    (CLEARED, ("p=half_angle:angle", "module:length", "friction", "p=radii")),
-    ((*SIZED, "--rate", "1turn/s", "--load", "1N*m"), ("inertia:inertia",)),
-    ((*SIZED, "--inertia", "1kg*m2", "--load", "1N*m"), ("rate:speed",)),
-    ((*SIZED, "--inertia", "1kg*m2", "--rate", "1turn/s"), ("load:torque",)),
-    ((*CLEARED, "--plot", "{out}/t.svg"), ("at:angle",)),
-    (("pin", "10"), ("", ":length")),
-    (("pin", "10", "5"), ("friction", "driver")),
-    (("pin", "10", "12", "--driver", "slot"), ("friction",)),
-    (("mesh", "24", "36", "--compare"), ("p=arcs", "p=pressure_angle:angle", "shaft-angle:angle", "form")),
+# commands without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
+CASES = [
     *(
         (("mesh", "24", "36", "--form", form, *more), (*(f"p={key}" for key in own), *SHARED))
         for form, own in CONJUGATE.items()
@@ -83,32 +65,38 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
         (("mesh", "24", "36", "--form", form, "--module", "1mm", "--profile", "{out}/w.svg"), OUTLINED)
         for form in ("involute", "lantern")
     ),
-    (("motion", "{pair}", "--samples", "40"), ("turns", "seed", "phases", "tabulated", "output")),
-    (("motion", "{pair}", "--samples", "40", "--turns", "3", "--spectrum", "--estimates"), ("turns", "tabulated")),
-    (("motion", "{pair}", "--turns", "3"), ("samples:few",)),
-    (("montecarlo", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "workers:few")),
-    (("montecarlo", "{pair}"), ("trials:few",)),
-    (("budget", "{pair}", "--samples", "40", "--trials", "4"), ("turns", "span", "seed", "output", "cutting", "body")),
-    (("budget", "{pair}", "--turns", "3"), ("samples:few",)),
-    (
-        ("posterior", "{pair}", "--free", "x=47:49"),
-        ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free"),
-    ),
-    (("teeth", "ratio", "5.25"), ("stages", "range", "wheels", "pinions", "tolerance", "best", "most-total")),
-    (
-        ("teeth", "set", "5.25", "--kind", "simple"),
-        ("planets", "clearance", "ratio-is", "best", "tolerance", "mode", "pick", "shift"),
-    ),
-    (("teeth", "orrery", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
-    (("sphere", "cube"), ("teeth", "radius", "suggest", "best")),
-    (("draw", "{pair}", "-o", "{out}/d.svg"), ("turns",)),
-    (
-        ("export", "{pair}", "--to", "{out}/e", "--as", "svg"),
-        ("module:length", "thickness:length", "bore:length", "sheet"),
-    ),
-    (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("backlash:length", "turns")),
-    (("export", "planetary-24-18-60", "--to", "{out}/e", "--as", "svg", "--module", "1mm"), ("backlash:length",)),
 ]
+for _line in """
+mesh 48 96 --form triangular | p=half_angle:angle p=clearance_factor p=excess p=window p=backlash p=centre_distance
+mesh 48 96 --form triangular | p=radii driver
+mesh 48 96 --form triangular -p clearance_factor=1.01 | p=half_angle:angle module:length friction p=radii
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s --load 1N*m | inertia:inertia
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2 --load 1N*m | rate:speed
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2 --rate 1turn/s | load:torque
+mesh 48 96 --form triangular -p clearance_factor=1.01 --plot {out}/t.svg | at:angle
+pin 10 | value value:length
+pin 10 5 | friction driver
+pin 10 12 --driver slot | friction
+mesh 24 36 --compare | p=arcs p=pressure_angle:angle shaft-angle:angle form
+motion {pair} --samples 40 | turns seed phases tabulated output
+motion {pair} --samples 40 --turns 3 --spectrum --estimates | turns tabulated
+motion {pair} --turns 3 | samples:few
+montecarlo {pair} --trials 4 | seed set clearance workers:few
+montecarlo {pair} | trials:few
+budget {pair} --samples 40 --trials 4 | turns span seed output cutting body
+budget {pair} --turns 3 | samples:few
+posterior {pair} --free x=47:49 | tolerance scale most limit samples:few seed free
+teeth ratio 5.25 | stages range wheels pinions tolerance best most-total
+teeth set 5.25 --kind simple | planets clearance ratio-is best tolerance mode pick shift
+teeth orrery a=3.2 b=7.1 | effort walk tolerance best range
+sphere cube | teeth radius suggest best
+draw {pair} -o {out}/d.svg | turns
+export {pair} --to {out}/e --as svg | module:length thickness:length bore:length sheet
+export {pair} --to {out}/e --as svg | backlash:length turns
+export planetary-24-18-60 --to {out}/e --as svg --module 1mm | backlash:length
+""".strip().splitlines():
+    _base, _, _options = _line.partition(" | ")
+    CASES.append((tuple(_base.split()), tuple(_options.split())))
 
 
 @contextmanager
@@ -154,7 +142,7 @@ def judge(arguments: list[str]) -> str:
 def requested(option: str, value: str) -> list[str]:
     """The option with a value, in the unit of its kind."""
     name, _, kind = option.partition(":")
-    if not name:
+    if name == "value":
         return ["--", f"{value}{UNITS.get(kind, '')}"]
     if kind == "few" and value in ("1e9", "9" * 25):
         value = "7"
@@ -177,40 +165,37 @@ def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
 
 
 KEPT = [
-    *(
-        ("mesh 48 96 --form triangular -p clearance_factor=1.01", option, value)
-        for option, values in {"p=half_angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
-        for value in values
-    ),
-    ("mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
-    ("mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
-    ("pin 10", "", "1e300"),
-    ("pin 10", ":length", "1e300"),
-    ("mesh 24 36 --compare", "shaft-angle:angle", "1e-300"),
-    ("mesh 24 36 --form cycloidal", "shaft-angle:angle", "1e-300"),
-    ("motion {pair} --samples 40", "turns", "1e300"),
-    ("motion {pair} --samples 40", "turns", "nan"),
-    ("motion {pair} --samples 40", "turns", "-inf"),
-    ("motion {pair} --samples 40", "tabulated", "nan"),
-    ("motion {pair} --samples 40", "tabulated", "-1"),
-    ("motion {pair} --samples 40", "seed", "-1"),
-    ("motion {pair} --samples 40", "phases", "9" * 25),
-    ("draw {pair} -o {out}/d.svg", "turns", "inf"),
-    ("sphere cube", "radius", "inf"),
-    ("sphere cube", "radius", "nan"),
-    ("teeth ratio 5.25", "best", "9" * 25),
-    ("teeth ratio 5.25", "most-total", "0"),
-    ("posterior {pair} --free x=47:49", "seed", "-1"),
-    *(
-        ("export planetary-24-18-60 --to {out}/e", "module:length", value)
-        for value in ("1e3", "1e16", "1e-20", "0.01", "0.05")
-    ),
-    ("export planetary-24-18-60 --to {out}/e --module 1mm", "thickness:length", "1e30"),
-    ("export planetary-24-18-60 --to {out}/e --module 1mm", "bore:length", "1e20"),
-    ("export planetary-24-18-60 --to {out}/e --as svg --module 1mm", "sheet", "1e15x1e15mm"),
-    *(("teeth approximants", "", value) for value in ("1e-320", "1e-400", "1e308", "1e-200/1e200", "1e200/1e-99")),
-    ("teeth ratio", "", "1e-320"),
-    ("teeth set --kind planetary", "", "1e-320"),
+    (base, option, value)
+    for base, option, values in (
+        line.split(" | ")
+        for line in """
+mesh 48 96 --form triangular -p clearance_factor=1.01 | p=half_angle:angle | 1e-300 1e-9
+mesh 48 96 --form triangular -p clearance_factor=1.01 | module:length | 0 -1 1e300
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s | inertia:inertia | 0
+mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2 | rate:speed | 1e300
+pin 10 | value | 1e300
+pin 10 | value:length | 1e300
+mesh 24 36 --compare | shaft-angle:angle | 1e-300
+mesh 24 36 --form cycloidal | shaft-angle:angle | 1e-300
+motion {pair} --samples 40 | turns | 1e300 nan -inf
+motion {pair} --samples 40 | tabulated | nan -1
+motion {pair} --samples 40 | seed | -1
+motion {pair} --samples 40 | phases | 9999999999999999999999999
+draw {pair} -o {out}/d.svg | turns | inf
+sphere cube | radius | inf nan
+teeth ratio 5.25 | best | 9999999999999999999999999
+teeth ratio 5.25 | most-total | 0
+posterior {pair} --free x=47:49 | seed | -1
+export planetary-24-18-60 --to {out}/e | module:length | 1e3 1e16 1e-20 0.01 0.05
+export planetary-24-18-60 --to {out}/e --module 1mm | thickness:length | 1e30
+export planetary-24-18-60 --to {out}/e --module 1mm | bore:length | 1e20
+export planetary-24-18-60 --to {out}/e --as svg --module 1mm | sheet | 1e15x1e15mm
+teeth approximants | value | 1e-320 1e-400 1e308 1e-200/1e200 1e200/1e-99
+teeth ratio | value | 1e-320
+teeth set --kind planetary | value | 1e-320
+""".strip().splitlines()
+    )
+    for value in values.split()
 ]
 """What once ended in a traceback, in nonsense or never."""
 
@@ -251,74 +236,45 @@ def test_any_option_of_a_number_takes_or_refuses_any_number(
 
 # ------------------------------------------------------------------------------------------------------- the library
 
-ODD = (0.0, -1.0, 1e-300, 1e300, nan, inf, -inf, 0.3, 1.01, 30.0)
+ODD = st.sampled_from((0.0, -1.0, 1e-300, 1e300, nan, inf, -inf, 0.3, 1.01, 30.0))
+Pins = type[PinTransmission]
 
 
-def right_or_refused(ask: Callable[[], list[float]]) -> bool:
-    """True for finite numbers, and for a refusal that says what to do."""
+def right_or_refused(make: Callable[[], TransmissionFunction]) -> bool:
+    """True for a transmission function with finite figures, and for a refusal that says what to do."""
     try:
-        found = ask()
+        made = make()
+        found = [*made.speed_range(), *made.error_moments(), *made.error_range(), *made.error(np.linspace(0, 9, 7))]
     except GearTrainError as error:
         return all(problem.what and problem.fix for problem in error.problems)
     return bool(np.isfinite(found).all())
 
 
-@given(*[st.sampled_from(ODD)] * 3, st.integers(-1, 40), st.integers(-1, 40))
+@given(ODD, ODD, ODD, st.integers(-1, 40), st.integers(-1, 40))
 @settings(max_examples=150, deadline=None)
 def test_sizes_and_transmissions_of_triangular_teeth_take_or_refuse_any_number(
     radius: float, beta: float, excess: float, z1: int, z2: int
 ) -> None:
-    def ask() -> list[float]:
-        transmission = TriangularTransmission(TriangularSizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
-        return [
-            *transmission.error_range(),
-            *transmission.speed_range(),
-            *transmission.error_moments(),
-            *transmission.error(np.linspace(0, 9, 7)),
-        ]
-
     with warnings.catch_warnings(), bounded(SECONDS):
         warnings.simplefilter("error")
-        assert right_or_refused(ask)
+        sizes = (z1, z2, radius, radius, beta, beta, excess)
+        assert right_or_refused(lambda: TriangularTransmission(TriangularSizes(*sizes), 0.1))
 
 
-@given(
-    st.sampled_from(ODD),
-    st.sampled_from(ODD),
-    st.sampled_from(ODD),
-    st.sampled_from((PinToSlotTransmission, SlotToPinTransmission)),
-)
-def test_transmissions_of_pins_take_or_refuse_any_number(
-    r: float, e: float, friction: float, transmission: type[PinTransmission]
-) -> None:
-    def ask() -> list[float]:
-        made = transmission(r, e, friction)
-        return [made.amplitude, *made.speed_range(), *made.error_moments(), *made.error(np.linspace(0, 9, 7))]
-
-    assert right_or_refused(ask)
+@given(ODD, ODD, ODD, st.sampled_from((PinToSlotTransmission, SlotToPinTransmission)))
+def test_transmissions_of_pins_take_or_refuse_any_number(r: float, e: float, friction: float, kind: Pins) -> None:
+    assert right_or_refused(lambda: kind(r, e, friction))
 
 
-@pytest.mark.parametrize(
-    "ask",
-    [
-        TriangularTransmission.error_range,
-        TriangularTransmission.speed_range,
-        TriangularTransmission.error_moments,
-        TriangularTransmission.efficiency_mean,
-        TriangularTransmission.efficiency_at_constant_load,
-        TriangularTransmission.kinks,
-        lambda transmission: transmission.jumps,
-    ],
-)
 @pytest.mark.parametrize("excess", [0.04, 1.0, 1e300])
-def test_the_transmission_of_wheels_apart_is_refused_in_words(
-    ask: Callable[[TriangularTransmission], object], excess: float
-) -> None:
+def test_the_transmission_of_wheels_apart_is_refused_in_words(excess: float) -> None:
     radii = equal_depth(48, 96, pi / 6, pi / 6)
     transmission = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, excess))
     assert transmission.verdict.kind == "apart"
-    with pytest.raises(GearTrainError, match="too far apart"):
-        ask(transmission)
+    results = ("error_range", "speed_range", "error_moments", "efficiency_mean", "efficiency_at_constant_load", "kinks")
+    for ask in (*(getattr(transmission, name) for name in results), lambda: transmission.jumps):
+        with pytest.raises(GearTrainError, match="too far apart"):
+            ask()
 
 
 @pytest.mark.parametrize("turns", [1e300, nan, inf, -inf, 1e13])

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from commands import call, ended, without
+from commands import call, without
 from places import DATA
 
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
@@ -56,14 +56,7 @@ def test_the_ratios_are_those_of_the_printed_tables(pair: str) -> None:
             assert value is None if text == "inf" else isclose(value, float(text), rel_tol=2e-9), (form["form"], name)
         involute = float(ROWS[pair, "involute20"][-1])
         assert form["ratios"]["slowest"] * involute == pytest.approx(float(slowest), abs=1e-9)
-
-
-def test_uniform_temperature_has_the_depth_of_the_involute_in_all_readings() -> None:
-    readings = ",".join(f"uniform_temperature_{reading}" for reading in "abc")
-    data = compared(*PAIR, *forms(readings))
-    assert [form["ratios"]["depth"] for form in data["forms"]] == pytest.approx([1, 1, 1], abs=1e-9)
-    assert "the working depth" in data["matched"]
-    assert data["forms"][2]["ratios"]["one_pair"]["stress"] is not None
+        assert "temperature" not in form["form"] or form["ratios"]["depth"] == pytest.approx(1, abs=1e-9)
 
 
 def test_a_form_that_cannot_run_has_its_faults_in_place_of_numbers() -> None:
@@ -71,37 +64,10 @@ def test_a_form_that_cannot_run_has_its_faults_in_place_of_numbers() -> None:
     assert done.exit_code == 1
     assert re.search(r"^lantern +- +refused ", done.output, re.M)
     assert "no mate in closed form" in " ".join(done.output.split())
-    data = compared(*PAIR, "-p", "arcs=0.7,0.7", "-p", "pressure_angle=10deg", *forms("involute"))
-    (form,) = data["forms"]
+    (form,) = compared(*PAIR, "-p", "arcs=0.7,0.7", "-p", "pressure_angle=10deg", *forms("involute"))["forms"]
+    assert (form["runs"], form["ratios"]) == (False, None)
     # the dedendum of gear 1 ends where the line of action touches its base circle: R1 tan psi, in pitches
-    assert not form["runs"]
-    assert form["ratios"] is None
-    fault = next(fault for fault in form["faults"] if fault["gear"] == 1)
-    assert fault["kind"] == "undercut"
-    assert float(re.search(r"before ([\d.]+) pitches", fault["fix"])[1]) == pytest.approx(  # type: ignore[index]
-        12 * tan(radians(10)) / pi, rel=1e-5
-    )
-
-
-def test_the_pins_of_a_lantern_are_set_beside_an_involute_with_their_arcs() -> None:
-    data = compared(*PAIR, *forms("lantern"))
-    lantern, beside = data["forms"]
-    assert lantern["arcs"] == pytest.approx(beside["arcs"])
-    lost, arc = -lantern["arcs"][0], lantern["arcs"][1]
-    assert 0 < lost < 0.05, "what the pins cut off the flanks"
-    assert arc - lost == pytest.approx(1, abs=1e-7)
-    # the mean of X over an arc in recess, against a quarter of a pitch over two halves
-    assert beside["ratios"]["one_pair"]["loss"] == pytest.approx(2 * (arc + lost), rel=1e-12)
-    # pins of 1.5 modules on R2 = 18: J in closed form
-    pins = np.arcsin(0.75 / 36)
-    first, last = pins + lost * pi / 36, pins + arc * pi / 36
-
-    def J(u: float) -> float:
-        return float(-4 * 18**2 * np.log(cos(u)) - 2 * 18 * 0.75 * np.log(tan(pi / 4 + u / 2)))
-
-    loss = (1 / 12 + 1 / 18) * (J(last) - J(first)) / ((arc - lost) * pi)
-    for load in ("one_pair", "shared"):
-        assert lantern["ratios"][load]["loss"] * data["base"][load]["loss"] == pytest.approx(loss, rel=1e-6)
+    assert f"before {12 * tan(radians(10)) / pi:.6g}" in form["faults"][0]["fix"]
 
 
 def test_a_table_a_page_and_data_say_the_same(tmp_path: File) -> None:
@@ -127,21 +93,10 @@ def test_every_key_of_a_form_is_the_promised_one(form: str) -> None:
     assert sum(data["arcs"]) == pytest.approx(data["contact_ratio"])
 
 
-def test_a_page_of_a_pair_has_textbook_numbers() -> None:
-    data = json.loads(call("mesh", *PAIR, "--json").output)
-    base = [R * cos(radians(20)) for R in (12, 18)]
-    lengths = [sqrt((R + 1) ** 2 - b * b) - R * sin(radians(20)) for R, b in zip((12, 18), base, strict=True)]
-    # the tip of gear 2 begins the contact, the tip of gear 1 ends it; pi cos psi is the base pitch
-    assert data["arcs"] == pytest.approx([length / (pi * cos(radians(20))) for length in reversed(lengths)], rel=1e-12)
-    slide = (1 / 12 + 1 / 18) * max(lengths)
-    assert data["losses_and_stresses"]["sliding"] == pytest.approx(slide, rel=1e-6)
-    assert data["flanks"][0][1] == pytest.approx(13, rel=1e-12)
+def test_a_page_names_verdict_contact_ratio_and_driver() -> None:
     text = call("mesh", *PAIR).output
     assert "Verdict: the teeth run" in text
     assert "Contact ratio 1.64717" in text
-
-
-def test_the_efficiency_tends_to_the_printed_loss_and_the_driver_is_named() -> None:
     done = json.loads(call("mesh", *PAIR, "--form", "uniform_stress", "--friction", 1e-6, "--json").output)
     assert (1 - done["efficiency"]["mean"]) / 1e-6 == pytest.approx(0.109176344569, rel=1e-5)
     assert "wheel of 36 drives the wheel of 24" in call("mesh", *PAIR, "--form", "uniform_stress", "--driver", 2).output
@@ -155,58 +110,6 @@ def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verd
     most = sqrt((30 * cos(radians(20))) ** 2 + (34 * sin(radians(20))) ** 2) - 30
     assert fits == pytest.approx(most, abs=5e-4)
     assert call("mesh", 8, 60, "--form", "involute", "-p", f"addendum=1,{fits - 0.001}").exit_code in (0, 1)
-
-
-REFUSED = [
-    (["--compare", *PAIR, "--form", "involut"], "--form", "did you mean 'involute'"),
-    (["--compare", *PAIR, "--form", "rubber"], "--form", "give one or more of: involute"),
-    (["--compare", *PAIR, "--form", ""], "--form", "give one or more of"),
-    (["--compare", *PAIR, "-p", "pressure_angle=50deg"], "-p pressure_angle", "between 0 and 45 deg"),
-    (["--compare", *PAIR, "-p", "pressure_angle=20"], "-p pressure_angle", "has no unit"),
-    (["--compare", *PAIR, "-p", "arcs=0.5,x"], "-p arcs", "in pitches"),
-    (["--compare", *PAIR, "-p", "arcs=-1,2"], "-p arcs", "in pitches"),
-    (["--compare", *PAIR, "-p", "arcs=0.2,0.2"], "-p arcs", "the contact ratio is 0.4"),
-    (["--compare", 8, 9], "-p arcs", "end the approach before 0.463"),
-    (["--compare", 2, 36], "Z1 Z2", "at least 3 teeth"),
-    (["--compare", 36, 24, "--internal"], "Z1 Z2", "cannot contain"),
-    (["--compare", *PAIR, "--internal", "--shaft-angle", "90deg"], "--shaft-angle", "parallel"),
-    (["--compare", *PAIR, "--shaft-angle", "200deg"], "Z1 Z2", "between 0 and 180 deg"),
-    (["--compare", *PAIR, "-o", "x.pdf"], "-o", ".md, .html, .json"),
-    ([*PAIR, "-p", "pressure_angle=95deg"], "-p pressure_angle", "between 0 and 90 deg"),
-    ([*PAIR, "--form", "uniform_stress", "-p", "pressure_angle=45deg"], "-p pressure_angle", "between 0 and 45 deg"),
-    ([*PAIR, "--form", "uniform_temperature", "-p", "reading=d"], "-p reading", "'d' is not a valid value"),
-    ([*PAIR, "--friction", "-1"], "--friction", "0 or more"),
-    ([*PAIR, "-p", "centre_distance=20"], "Z1 Z2", "too short"),
-    ([*PAIR, "-p", "backlash=0.1mm"], "Z1 Z2", "give the `module` of both wheels"),
-    ([*PAIR, "--module", "-2mm"], "--module", "above 0"),
-    ([*PAIR, "--profile", "w.svg"], "--module", "to scale"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.step"], "--profile", ".svg, .dxf, .csv"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "fillet=9mm"], "--blank fillet", "at most"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "bore=43mm"], "--blank bore", "43 mm"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "rim=4mm"], "--blank rim", "omit --blank rim"),
-    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "tolerance=0mm"], "--blank tolerance", "above 0"),
-    ([*PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "the folder does not exist"),
-    ([*PAIR, "--shaft-angle", "90deg", "--module", "2mm", "--profile", "w.svg"], "--profile", "on a sphere"),
-    ([8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
-    ([*PAIR, "--form", "involut"], "involut", "did you mean 'involute'?"),
-    ([*PAIR, "-p", "presure_angle=25deg"], "-p presure_angle", "did you mean 'pressure_angle'?"),
-    ([*PAIR, "-p", "shift"], "-p", "KEY=VALUE"),
-    ([*PAIR, "--form", "cycloidal", "--helix", "18deg"], "--helix", "does not apply to cycloidal teeth"),
-    ([*PAIR, "--inertia", "1 kg mm2"], "--inertia", "does not apply to involute teeth"),
-    ([*PAIR, "--form", "lantern", "--form", "cycloidal"], "--form", "add --compare"),
-    ([], "Z1 Z2", "the tooth counts are missing"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "place", "said"), REFUSED, ids=lambda value: str(value)[:60])
-def test_what_cannot_be_answered_is_refused_with_place_and_what_to_do(
-    arguments: list[object], place: str, said: str
-) -> None:
-    done = ended("mesh", *arguments)
-    assert (done.returncode, done.stdout) == (2, "")
-    text = " ".join(done.stderr.replace("│", " ").split())
-    assert place in text
-    assert said in text
 
 
 @pytest.mark.parametrize(
@@ -262,15 +165,6 @@ def test_each_panel_draws_what_it_says() -> None:
     # a cycloid's path is its rolling circle, of half the pitch radius of the gear whose dedendum works
     x, y = drawn(figure(), 2, "cycloidal").T
     assert x**2 + y**2 == pytest.approx(np.where(x < 0, -12, 18) * y, abs=1e-9)
-
-
-def test_forms_differ_in_colour_or_dashes_and_in_both_where_there_are_few() -> None:
-    lines = [line for line in figure().axes[0].lines if line.get_gid() not in (None, "pitch point")]
-    assert len(lines) == 6
-    assert len({line.get_color() for line in lines}) == 6
-    assert len({str(line._dash_pattern) for line in lines}) == 6
-    for axes in figure().axes:
-        assert min(text.get_fontsize() for text in (axes.title, axes.xaxis.label, axes.yaxis.label)) >= 10
 
 
 def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:

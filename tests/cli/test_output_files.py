@@ -70,13 +70,7 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("optimise", "-o"): (SIZED_TRAIN, (".md", ".html", ".json", ".yaml")),
     ("optimise", "--plot"): (SIZED_TRAIN, (".svg",)),
     ("inspect bench", "-o"): (("inspect", "bench", "worm"), (".md", ".html", ".json")),
-    ("inspect schema", "-o"): (
-        (
-            "inspect",
-            "schema",
-        ),
-        (".json",),
-    ),
+    ("inspect schema", "-o"): (("inspect", "schema"), (".json",)),
     ("mesh triangular", "-o"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".md", ".json")),
     ("mesh triangular", "--plot"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
     ("mesh triangular", "--profile"): (("mesh", *SIZED, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
@@ -307,14 +301,13 @@ def test_what_is_written_is_on_the_disk_before_it_takes_its_name(here: Path, mon
     assert done == ["sync", "name", "sync"] * 2
 
 
-@pytest.mark.parametrize(("names", "words"), [("a", "'a' is"), ("ab", "'a' and 1 other file are"),
-                                              ("abcd", "'a' and 3 other files are")])  # fmt: skip
-def test_files_that_are_there_are_counted_in_one_sentence(here: Path, names: str, words: str) -> None:
-    for name in names:
-        (here / name).write_text("mine", encoding="utf-8")
-    with pytest.raises(GearTrainError) as found:
-        check_folder(here, [*names, "z"])
-    assert found.value.problems[0].what == f"{words} already in the folder"
+def test_files_that_are_there_are_counted_in_one_sentence(here: Path) -> None:
+    for names, words in (("a", "'a' is"), ("ab", "'a' and 1 other file are"), ("abcd", "'a' and 3 other files are")):
+        for name in names:
+            (here / name).write_text("mine", encoding="utf-8")
+        with pytest.raises(GearTrainError) as found:
+            check_folder(here, [*names, "z"])
+        assert found.value.problems[0].what == f"{words} already in the folder"
 
 
 def test_a_folder_of_results_follows_the_same_rule(here: Path) -> None:

@@ -85,22 +85,6 @@ def test_nothing_that_fits_is_an_answer_and_exit_1(train: Path) -> None:
     assert "None of them fits" in result.stdout
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        ("--free", "w=22:18"),
-        ("--free", "w"),
-        ("--free", "w=many"),
-        ("--tolerance", "2 mm"),
-        ("-o", "out.stl"),
-    ],
-)
-def test_options_that_say_nothing_are_refused(train: Path, options: tuple[str, str]) -> None:
-    result = call("posterior", train, *options)
-    assert result.exit_code == 2
-    assert "Traceback" not in result.output
-
-
 def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from geartrain.search.posterior import inference as sweeping
 

@@ -23,35 +23,25 @@ def test_the_set_of_the_document_has_its_printed_numbers() -> None:
     assert (found["gears"], found["meshes"], found["mobility"], found["gridlock"]) == (32, 60, 1, None)
     assert (found["closes"], found["residue"], found["rule"]) == (True, 0, "3 divides z3 and 5 divides z5")
     assert found["sphere_radius"] == pytest.approx(3.13198541004301, rel=1e-14)
-    assert found["radii"]["5"] == pytest.approx(1.25, rel=1e-14)
-    assert found["radii"]["3"] == pytest.approx(0.75, rel=1e-13)
-    assert found["cones"]["5"] == pytest.approx(23.522418447732, abs=1e-12)
-    assert found["cones"]["3"] == pytest.approx(13.854949692918, abs=1e-12)
+    assert found["radii"] == pytest.approx({"5": 1.25, "3": 0.75}, rel=1e-13)
+    assert found["cones"] == pytest.approx({"5": 23.522418447732, "3": 13.854949692918}, abs=1e-12)
     assert found["angles"]["5-3"] == pytest.approx(degrees(atan(3 - sqrt(5))), abs=1e-13)
 
 
-def test_canaries() -> None:
-    assert data("octahedron", "--teeth", 7)["closes"] is True
-    missed = data("icosidodecahedron", "--teeth", "5=12,3=6")
-    assert missed["closes"] is False
+def test_sets_that_do_not_close_or_turn_have_exit_code_1() -> None:
+    done = call("sphere", "icosidodecahedron", "--teeth", "5=12,3=6", "--json")
+    missed = json.loads(done.stdout)
+    assert (done.exit_code, missed["closes"]) == (1, False)
     assert missed["residue"] == pytest.approx(0.4, abs=1e-12)
-    assert call("sphere", "icosidodecahedron", "--teeth", "5=12,3=6").exit_code == 1
     locked = data("truncated icosahedron")
-    assert locked["mobility"] == 0
-    assert len(locked["gridlock"]["release"]["meshes"]) == 30
-    assert locked["closes"] is None
+    assert (locked["mobility"], locked["closes"], len(locked["gridlock"]["release"]["meshes"])) == (0, None, 30)
 
 
 def test_a_set_becomes_a_train_that_turns_as_it_should(tmp_path: Path) -> None:
     path = tmp_path / "sphere.yaml"
     assert call("sphere", "rhombicosidodecahedron", "--teeth", "5=25,4=14,3=12", "-o", path).exit_code == 0
     train = load(str(path))
-    assert train.mobility.by_rank == 1
-    assert train.mobility.redundant == 120 - 62 + 1
-    speeds = train.solve().speeds
-    for gear in train.declaration.gears:
-        (first, z), (second, other) = (train.declaration.wheels[wheel] for wheel in gear.pair)
-        assert z.count * speeds[first] == -other.count * speeds[second]
+    assert (train.mobility.by_rank, train.mobility.redundant) == (1, 120 - 62 + 1)
     # the declared train knows of its loops what the set knew
     assert train.closure.kind == "closes"
 
@@ -68,13 +58,10 @@ def test_a_picture_has_the_teeth_of_every_mesh_in_the_gaps() -> None:
 
 
 def test_suggestions_are_the_best_of_the_table() -> None:
-    found = json.loads(call("sphere", "rhombicosidodecahedron", "--suggest", 40, "--best", 3, "--json").stdout)
-    best = found["solutions"][0]
-    assert best["teeth"] == {"5": 40, "4": 34, "3": 15}
-    assert best["mismatch"] == pytest.approx(-3.342905645e-04, rel=1e-9)
-    assert best["residue"] == 0
-    assert "rejected" in call("sphere", "rhombicosidodecahedron", "--suggest", 8).stdout
-    assert call("sphere", "rhombicosidodecahedron", "--suggest", 8).exit_code == 1
+    found = data("rhombicosidodecahedron", "--suggest", 40, "--best", 3)
+    assert found["solutions"][0]["teeth"] == {"5": 40, "4": 34, "3": 15}
+    none = call("sphere", "rhombicosidodecahedron", "--suggest", 8)
+    assert (none.exit_code, "rejected" in none.stdout) == (1, True)
 
 
 def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
@@ -83,7 +70,6 @@ def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
     cube.write_text("# a cube\n" + "".join(f"{x}, {y}, {z}\n" for x, y, z in kinks), encoding="utf-8")
     found = data(cube, "--gears", "faces+vertices", "--teeth", "4=16,v=12")
     assert (found["gears"], found["meshes"], found["mobility"]) == (14, 24, 1)
-    assert found["angles"]["4-v"] == pytest.approx(54.7356103172453, abs=1e-12)
     cube.write_text("1 0 0\n0 1\n0 0 one\n", encoding="utf-8")
     with pytest.raises(GearTrainError, match=r"cube.txt:2.*(\n.*)*cube.txt:3"):
         raise call("sphere", cube).exception or AssertionError
@@ -92,22 +78,6 @@ def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
     packed = data("--graph", graph)
     assert (packed["gears"], packed["meshes"], packed["mobility"]) == (8, 12, 1)
     assert set(packed["angles"].values())
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("icosidodecaedron",), "did you mean 'icosidodecahedron'"),
-        (("cube", "--teeth", "5=20"), "5"),
-        (("icosidodecahedron", "--teeth", "5=20,3=12", "--plot", "x.gif"), "gif"),
-        (("icosidodecahedron", "--radius", "6=1"), "use 5, 3"),
-        ((), "give a solid"),
-    ],
-)
-def test_refusals_say_what_to_do(arguments: tuple[str, ...], message: str) -> None:
-    done = call("sphere", *arguments)
-    assert done.exit_code != 0
-    assert message in f"{done.output}{done.exception}"
 
 
 def test_the_picture_and_the_survey(tmp_path: Path) -> None:

@@ -10,8 +10,10 @@ import signal
 import subprocess
 import sys
 from fractions import Fraction
+from itertools import product
 from math import prod
 from pathlib import Path
+from typing import Any
 
 import pytest
 from clusters import PATIENCE, until
@@ -19,7 +21,6 @@ from commands import call
 from sampling import first_few
 
 from geartrain import load
-from geartrain.errors import GearTrainError
 
 HANDS = """
 name: hands
@@ -56,27 +57,17 @@ def answer(*arguments: object) -> dict[str, object]:
     return json.loads(done.stdout)
 
 
-@pytest.mark.parametrize(
-    ("stages", "pinions", "wheels", "tolerance", "count"),
-    [(2, "12:40", "30:130", "0.001 %", 9), (3, "15:40", "30:100", "0.0001%", 85)],
-)
-def test_a_month_has_the_solutions_that_trying_everything_finds(
-    stages: int, pinions: str, wheels: str, tolerance: str, count: int, hands: Path
-) -> None:
-    options = ("--stages", stages, "--pinions", pinions, "--wheels", wheels, "--tolerance", tolerance, "--best", 100)
-    found = answer("ratio", "13.368267", *options)
+def test_a_month_has_the_solutions_that_trying_everything_finds(hands: Path) -> None:
+    ranges = ("--pinions", "12:40", "--wheels", "30:130")
+    found = answer("ratio", "13.368267", "--stages", 2, *ranges, "--tolerance", "0.001 %", "--best", 100)
     assert found["complete"] is True
-    assert found["count"] == len(found["solutions"]) == count
+    assert found["count"] == len(found["solutions"]) == 9
     for one in found["solutions"]:
         top, beneath = one["teeth"]
         ratio = Fraction(prod(top), prod(beneath))
         assert str(ratio) == one["ratio"]
         assert one["error"] == pytest.approx(float(ratio / Fraction("13.368267") - 1), rel=1e-12)
         assert sorted(a for a, _ in one["stages"]) == sorted(top)
-    if stages == 3:
-        best = [one["teeth"] for one in found["solutions"] if one["ratio"] == found["solutions"][0]["ratio"]]
-        assert [[39, 73, 91], [15, 34, 38]] in best
-        assert found["solutions"][0]["error"] == pytest.approx(-5.58e-8, abs=5e-11)
 
 
 def test_csv_and_json_tell_the_same(hands: Path) -> None:
@@ -85,21 +76,17 @@ def test_csv_and_json_tell_the_same(hands: Path) -> None:
     for row, one in zip(rows, answer(*requested)["solutions"], strict=True):
         assert [list(map(int, row[side].split("*"))) for side in ("top", "beneath")] == one["teeth"]
         assert row["ratio"] == one["ratio"]
-        assert [float(row[name]) for name in ("value", "error")] == [one[name] for name in ("value", "error")]
-        assert [int(row[name]) for name in ("total", "largest", "distinct")] == [
-            one[name] for name in ("total", "largest", "distinct")
-        ]
+        for name in ("value", "error", "total", "largest", "distinct"):
+            assert float(row[name]) == one[name]
 
 
 def test_an_unwanted_sense_is_refused_by_name(hands: Path) -> None:
-    done = call("teeth", "ratio", "+235/19", "--stages", 1, "--range", "15:240", "--workers", 1)
-    assert done.exit_code == 1
-    assert "idler" in done.stdout
-    assert call("teeth", "ratio", "--stages", 1, "--range", "15:240", "--workers", 1, "--", "-235/19").exit_code == 0
-    assert (
-        call("teeth", "ratio", "+235/19", "--stages", 1, "--range", "15:240", "--internal", 1, "--workers", 1).exit_code
-        == 0
-    )
+    def requested(*more: object) -> Any:
+        return call("teeth", "ratio", "--stages", 1, "--range", "15:240", "--workers", 1, *more)
+
+    done = requested("+235/19")
+    assert (done.exit_code, "idler" in done.stdout) == (1, True)
+    assert requested("--", "-235/19").exit_code == requested("+235/19", "--internal", 1).exit_code == 0
 
 
 def test_fractions_on_the_way_are_told_with_their_kinds(hands: Path) -> None:
@@ -116,17 +103,9 @@ def test_fractions_of_any_size_are_approximants() -> None:
 def test_the_wheels_of_a_train_are_those_that_looking_at_all_of_them_finds(hands: Path) -> None:
     found = answer("train", hands, "--best", 100)
     rows = {tuple(one["teeth"].values()) for one in found["solutions"]}  # type: ignore[union-attr]
-    expected = {
-        (a, b, c, d)
-        for a in range(8, 41)
-        for b in range(20, 81)
-        for c in range(6, 31)
-        for d in [a + b - c]
-        if 20 <= d <= 90 and a * c * 12 == b * d
-    }
-    assert found["complete"] is True
-    assert found["count"] == len(expected)
-    assert rows == expected
+    every = product(range(8, 41), range(20, 81), range(6, 31))
+    expected = {(a, b, c, a + b - c) for a, b, c in every if 20 <= a + b - c <= 90 and a * c * 12 == b * (a + b - c)}
+    assert (found["complete"], found["count"], rows) == (True, len(expected), expected)
 
 
 def test_a_solution_is_written_as_a_train_that_does_what_is_requested(hands: Path) -> None:
@@ -148,81 +127,33 @@ def test_nothing_found_tells_what_to_relax_and_exits_with_one(hands: Path) -> No
 
 
 def test_where_a_printed_row_stands(hands: Path) -> None:
-    requested = (
-        "train",
-        "pennestri-2002-missing",
-        "--best",
-        1,
-        "--where",
-        "VO1=32,VO2=50,VX=40",
-        "--where",
-        "VO1=32,VO2=48,VX=41",
-    )
-    right, wrong = answer(*requested)["where"]  # type: ignore[misc]
+    known = ("--where", "VO1=32,VO2=50,VX=40", "--where", "VO1=32,VO2=48,VX=41")
+    right, wrong = answer("train", "pennestri-2002-missing", "--best", 1, *known)["where"]  # type: ignore[misc]
     assert right["rank"] == 21
     assert right["refused"] == []
     assert wrong["rank"] is None
     assert wrong["assignment"]["outputs"]["venus"]["error"] == pytest.approx(-0.064162, abs=5e-7)
 
 
-def test_an_exact_wolfrom_set_is_found_and_written(hands: Path) -> None:
+def test_a_set_and_an_orrery_are_written_as_trains(hands: Path) -> None:
+    made = hands.parent / "made.yaml"
     requested = ("teeth", "set", 142, "--kind", "wolfrom", "--planets", 3, "--range", "12:100")
-    done = call(*requested, "-o", hands.parent / "set.yaml")
-    assert done.exit_code == 0
-    made = load(hands.parent / "set.yaml")
-    (output,) = made.solve().outputs.values()
+    assert call(*requested, "-o", made).exit_code == 0
+    (output,) = load(made).solve().outputs.values()
     assert output.ratio == Fraction(1, 142)
     assert "wolfrom" in call("teeth", "set", "--kind", "list").stdout
-
-
-def test_an_orrery_is_found_and_holds_as_a_train(hands: Path) -> None:
     requested = ("teeth", "orrery", "moon=29.53059", "venus=224.701", "--range", "12:120", "--tolerance", "1e-4")
-    done = call(*requested, "-o", hands.parent / "orrery.yaml")
-    assert done.exit_code == 0
-    made = load(hands.parent / "orrery.yaml").solve()
+    assert call(*requested, "-o", made, "--force").exit_code == 0
+    found = load(made).solve()
     for name, period in (("moon", Fraction("29.53059")), ("venus", Fraction("224.701"))):
-        assert abs(abs(made[name]) * period - 1) < Fraction(1, 10**4)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "what"),
-    [
-        (["ratio", "13.3683x"], "only one count"),
-        (["ratio", "months_per_yea"], "did you mean"),
-        (["ratio", "3", "--range", "5:2"], "reversed"),
-        (["set", "3", "--kind", "planetry"], "unknown kind"),
-        (["ratio", "3", "--sort", "size"], "not an order"),
-        (["ratio", "3", "--tolerance", "-1"], "tolerance"),
-        (["train", "hands.yaml", "--free", "nut,screw"], "screw"),
-        (["train", "hands.yaml", "--where", "nut"], "wheel=32"),
-        (["ratio", "3", "-o", "x.yaml"], "as a declaration"),
-        (["orrery", "moon=29.5", "29.5"], "moon=29.53"),
-        (["orrery", "venus=venus_synodic_per_year_289_in_462"], "is a speed, not a period"),
-    ],
-    ids=lambda each: " ".join(each) if isinstance(each, list) else "",
-)
-def test_bad_input_is_refused_with_a_way_out(arguments: list[str], what: str, hands: Path) -> None:
-    done = call("teeth", *arguments)
-    assert isinstance(done.exception, GearTrainError) or done.exit_code == 2  # the command makes 2 of both
-    assert what in f"{done.exception} {done.stderr}"
-    assert not list(hands.parent.glob("*.partial.jsonl"))
+        assert abs(abs(found[name]) * period - 1) < Fraction(1, 10**4)
 
 
 # cut and taken up ----------------------------------------------------------------------------------------------------
 
 LONG = (
-    "teeth",
-    "ratio",
-    "13.36838",
-    "--stages",
-    "4",
-    "--range",
-    "12:120",
-    "--tolerance",
-    "1e-9",
-    "--best",
-    "5",
-    "--json",
+    *("teeth", "ratio", "13.36838", "--stages", "4", "--range", "12:120"),
+    *("--tolerance", "1e-9", "--best", "5", "--json"),
 )
 
 
@@ -274,35 +205,6 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
     assert not list(tmp_path.rglob("*.partial.jsonl"))
 
 
-@pytest.mark.parametrize(
-    ("requested", "said"),
-    [
-        (("train", "hands.yaml", "--range", "12:20"), "--range"),
-        (("train", "hands.yaml", "-o", "hands.yaml", "--force"), "the input file"),
-        (("train", "hands.yaml", "--tolerance", "-1"), "--tolerance"),
-        (("ratio", "235/19", "--minimum", "20"), "--minimum"),
-        (("ratio", "235/19", "--planets", "3"), "--planets"),
-        (("ratio", "235/19", "--tolerance", "1e400"), "--tolerance"),
-        (("ratio", "235/19", "--tolrance", "1e-6"), "--tolrance"),
-        (("set", "4", "--kind", "planetary", "--hunting"), "--hunting"),
-        (("set", "4", "--kind", "planetary", "--clearance", "1"), "--planets"),
-        (("orrery", "moon=29.5", "--sort", "total"), "--sort"),
-        (
-            (
-                "orrery",
-                "moon=-29.5",
-            ),
-            "sense",
-        ),
-    ],
-)
-def test_what_a_search_would_pass_over_is_refused(hands: Path, requested: tuple[str, ...], said: str) -> None:
-    done = call("teeth", *requested)
-    assert done.exit_code == 2
-    assert said in " ".join(done.stderr.split())
-    assert hands.read_text(encoding="utf-8") == HANDS
-
-
 def test_a_negative_ratio_is_no_option() -> None:
     found = answer("ratio", "-4", "--range", "12:48", "--stages", 1, "--best", 1)
     assert (found["wanted"]["sense"], found["solutions"][0]["teeth"]) == (-1, [[48], [12]])
@@ -314,50 +216,9 @@ def test_conditions_on_one_pair_hold_in_long_ranges_too() -> None:
     assert answer("ratio", "+3", "--stages", 1, "--range", "12:100050")["count"] == 0  # an external pair reverses
 
 
-@pytest.mark.parametrize(
-    ("ratio", "words"),
-    [
-        ("1e29", "cannot be approximated"),
-        ("1e-29", "cannot be approximated"),
-        ("1e300", "from 1e-30 to 1e30"),
-        ("1e-300", "1e-30"),
-    ],
-)
-def test_a_ratio_beyond_all_pairs_is_refused_at_once(ratio: str, words: str) -> None:
-    done = call("teeth", "ratio", ratio, "--stages", 1, "--range", "12:200000")
-    assert isinstance(done.exception, GearTrainError)
-    assert words in str(done.exception)
-
-
 def test_a_file_is_written_in_the_form_of_its_name_whatever_is_printed(hands: Path) -> None:
     done = call("teeth", "ratio", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found.csv")
     assert json.loads(done.stdout)["solutions"]
     assert (hands.parent / "found.csv").read_text(encoding="utf-8").startswith("top,beneath,ratio")
     assert not call("teeth", "ratio", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found").stdout
     assert json.loads((hands.parent / "found").read_text(encoding="utf-8"))["solutions"]
-
-
-@pytest.mark.parametrize(
-    ("requested", "said"),
-    [
-        ("5.31 --stages 1", "ratio 5.31 --stages 1"),
-        ("-235/19", "ratio -235/19"),
-        ("hands.yaml --sort total", "train hands.yaml --sort total"),
-        ("pennestri-2002-missing", "train pennestri-2002-missing"),
-        ("365.2422 --approximants --range 1:400", "approximants 365.2422 --range 1:400"),
-        ("--kind list any", "set --kind list any"),
-        ("142 --kind wolfrom", "set 142 --kind wolfrom"),
-        ("moon=29.53 venus=224.7", "orrery moon=29.53 venus=224.7"),
-    ],
-)
-def test_a_question_without_its_word_is_answered_with_the_word(requested: str, said: str) -> None:
-    done = call("teeth", *requested.split())
-    assert done.exit_code == 2
-    words = " ".join(done.stderr.replace("│", " ").split())
-    assert f"`geartrain teeth {said}`" in words
-
-
-def test_a_misspelt_search_is_answered_with_its_name() -> None:
-    done = call("teeth", "orery", "moon=29.53")
-    assert done.exit_code == 2
-    assert "did you mean 'orrery'?" in done.stderr

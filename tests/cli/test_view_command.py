@@ -35,21 +35,14 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_page_of_the_largest_train_is_below_1200_kilobytes(here: Path) -> None:
+def test_the_page_of_the_largest_train_is_below_1200_kilobytes_and_its_program_below_720(here: Path) -> None:
+    assert (VIEWER / "built" / "viewer.js").stat().st_size < 720_000
     done = call("view", "freeth-2021")
     written = here / "freeth-2021.html"
     assert done.exit_code == 0, done.output
     assert 100_000 < written.stat().st_size < 1_200_000
     assert f"{written.stat().st_size / 1000:,.0f} kB" in done.output
     assert [path.name for path in here.iterdir()] == ["freeth-2021.html"]
-
-
-def test_the_program_in_the_page_is_below_720_kilobytes() -> None:
-    """It leaves the largest train some 480 kB of the 1,200 that its page may weigh, of which it takes 290.
-
-    Thin wheels that bend, and the measure of what stands before wheels, took the last 5 kB.
-    """
-    assert (VIEWER / "built" / "viewer.js").stat().st_size < 720_000
 
 
 def test_the_page_carries_the_scene_unchanged_and_nothing_that_points_elsewhere() -> None:
@@ -122,18 +115,13 @@ inputs: {a: 1}
 """
 
 
-@pytest.mark.parametrize("text", [WRONG, JAMMED])
-def test_the_exit_code_is_that_of_a_report(train_file: Written, here: Path, text: str) -> None:
-    train = train_file(text)
-    told, shown = call("report", train), call("view", train, "-o", "shown.html")
-    assert "Verdict" in told.output
-    assert (here / "shown.html").is_file()
-    assert told.exit_code == shown.exit_code == 1
-
-
-def test_teeth_that_jam_are_named_at_the_head_of_the_page(train_file: Written, here: Path) -> None:
-    call("view", train_file(JAMMED), "-o", "jammed.html")
-    scene = scenes_of(here / "jammed.html")[0][0]
+def test_the_exit_code_is_that_of_a_report_and_teeth_that_jam_are_named(train_file: Written, here: Path) -> None:
+    for text in (WRONG, JAMMED):
+        train = train_file(text)
+        told, shown = call("report", train), call("view", train, "-o", "shown.html", "--force")
+        assert "Verdict" in told.output
+        assert told.exit_code == shown.exit_code == 1
+    scene = scenes_of(here / "shown.html")[0][0]
     (named,) = scene["verdict"]["loops"]  # type: ignore[index]
     assert (named["pairs"], named["links"]) == (["p~q"], ["a", "b"])
     for part in ("jam", "clearance factor 1.001 is below the window", "window: 0.5"):  # what, why, what to do
@@ -149,38 +137,6 @@ def refusal(*arguments: object) -> str:
         assert problem.why
         assert problem.fix
     return str(done.exception)
-
-
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        (".", "folder"),
-        ("missing/train.html", "the folder does not exist"),
-        ("train.txt", "not a suffix of an HTML page"),
-        ("train.png", "pictures and films can be saved from the page"),
-        ("train", "no suffix"),
-        ("x" * 300 + ".html", "not a valid file name"),
-    ],
-)
-def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> None:
-    assert said in refusal("planetary-24-18-60", "-o", name)
-    assert list(here.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("requested", "said"),
-    [
-        (("--embed", "--kiosk"), "--embed and --kiosk are given together"),
-        (("planetary", "--embed"), "two trains"),
-        (("planetary", "--kiosk"), "two trains"),
-        (("--skip", "1"), "options of --dynamics are given without --dynamics"),
-        (("--turns", "2"), "options of --dynamics are given without --dynamics"),
-        (("planetary", "--dynamics"), "two trains are given with --dynamics"),
-    ],
-)
-def test_what_does_not_go_together_is_refused(here: Path, requested: tuple[str, ...], said: str) -> None:
-    assert said in refusal("worm", *requested)
-    assert list(here.iterdir()) == []
 
 
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc, where nobody may write")

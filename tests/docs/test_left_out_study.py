@@ -74,8 +74,6 @@ def test_of_what_is_not_finished_less_is_requested() -> None:
         whole = full[tuple(row.lost)]
         assert row.reached
         assert whole.reached
-        assert whole.rank is not None
-        assert row.told is not None
         assert row.told[0] <= whole.rank[0]  # meshes that are told can but leave out others
         assert row.first == whole.rank[0]
         assert list(row.solutions) == list(whole.solutions[:-1])
@@ -101,7 +99,6 @@ outputs: {d: {expect: -1/8}}
         row = LeftOutRecord("beside", lost, lost_wheels(tree, lost), [], [], None, False, None)
         problem = evidence_question(lost_evidence(tree, lost)).problem
         place = find_place(tree.arbor(lost), problem, find_reconstructions(problem))
-        assert place is not None
         assert list(left_out_study._better(tree, tuple(lost), row))[-1][1] == place.ranks[0] - 1, lost
 
 

@@ -30,9 +30,7 @@ def rows(records: MotionRecords) -> dict[tuple[str, str], MotionRecord]:
 
 
 def error(rows: dict[tuple[str, str], MotionRecord], family: str, method: str) -> float:
-    found = rows[family, method].error
-    assert found is not None
-    return found
+    return rows[family, method].error
 
 
 @pytest.mark.parametrize("family", [MOON, PRICE])
@@ -71,7 +69,6 @@ def test_the_sum_of_ranges_is_above_and_independent_phases_are_near(
         bound, independent = rows[train.family, "sum of ranges"], rows[train.family, "independent rms"]
         assert bound.note.startswith("+")
         assert 0 < error(rows, train.family, "sum of ranges") < train.outputs[bound.output]["peak_to_peak"]
-        assert independent.rms is not None
         assert independent.rms < 0.05 * train.outputs[independent.output]["rms"]
 
 

@@ -80,7 +80,6 @@ def speeds(arbor: Arbor, speed: Fraction) -> dict[str, Fraction]:
     found = dict.fromkeys(arbor.dials, speed)
     for wheel, below in arbor.drives:
         for each in below:
-            assert each.driven is not None
             found |= speeds(each, -speed * wheel.teeth / each.driven.teeth)
     return found
 

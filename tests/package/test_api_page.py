@@ -42,7 +42,6 @@ def test_every_public_package_has_a_page_that_the_index_lists() -> None:
 def test_a_list_of_members_is_complete(page: str) -> None:
     """A list gives the order of use; the names are those of `__all__`."""
     listed = re.search(r"members:\s+\[(.*?)\]", PAGES[page], re.DOTALL)
-    assert listed is not None
     assert sorted(re.findall(r"\w+", listed[1])) == importlib.import_module(f"geartrain.{page}").__all__
 
 
@@ -63,7 +62,6 @@ def test_the_site_shows_what_an_import_brings(room: str, read: griffe.Module) ->
 def test_the_names_of_the_package_itself_are_listed() -> None:
     names = set(geartrain.__all__) - {"__version__"}
     listed = re.search(r"^The package `geartrain` itself contains .*?\. ", PAGES["index"], re.MULTILINE | re.DOTALL)
-    assert listed is not None
     assert set(re.findall(r"`(\w+)`", listed[0])) - {"geartrain"} == names
 
 

@@ -25,14 +25,13 @@ from geartrain.cli.common import (
     emit,
     option_error,
     picture_sink,
-    read_share,
     show,
     sink,
     table_text,
     tell,
 )
 from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.cli.option_values import MOST_COUNT, Theme, at_option
+from geartrain.cli.option_values import MOST_COUNT, Theme, at_option, read_share
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
-    from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.teeth.transmission import ToothTransmission, TransmissionFunction
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class GearMesh(Shown, ABC):
     """Tooth form of the pair."""
     who: MeshDriver
     """Name of the driving wheel, and how the driver was determined."""
-    transmission: TransmissionFunction
+    transmission: ToothTransmission
     """Transmission function of the pair while the driving wheel turns forwards.
 
     `coast` is the transmission function of the coast flanks, and `reversed` the transmission function with the other
@@ -138,15 +138,15 @@ class GearMesh(Shown, ABC):
         """Transmission function of the coast flanks, which are in contact while the driver turns backwards."""
         return self.transmission.reversed_motion()
 
-    @property
-    @abstractmethod
-    def reversed(self) -> TransmissionFunction:
+    @cached_property
+    def reversed(self) -> ToothTransmission:
         """Transmission function with the other wheel driving."""
+        return self.transmission.reversed
 
     @property
-    @abstractmethod
     def verdict(self) -> PairVerdict:
         """Verdict on whether these teeth can run."""
+        return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
         """Yield all faults of these teeth. The texts do not mention the pair or its file."""

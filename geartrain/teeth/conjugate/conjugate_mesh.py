@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
-    from geartrain.teeth.pair_results import PairVerdict
 
 _WORDS = (
     "Conjugate teeth have a constant speed ratio at their design centre distance, involutes at any distance; other "
@@ -73,16 +72,6 @@ class ConjugateMesh(GearMesh):
 
     tooth_form: ConjugateDetails
     transmission: ConjugateTransmission | OffDesignTransmission
-
-    @cached_property
-    def reversed(self) -> ConjugateTransmission | OffDesignTransmission:
-        """Transmission function with the other wheel driving."""
-        return self.transmission.reversed
-
-    @property
-    def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can run."""
-        return self.transmission.verdict
 
     @property
     def tooth_phase(self) -> float:

@@ -324,17 +324,8 @@ class OffDesignTransmission(OutlineTransmission):
         self.pair, self.path = pair, pair.path
         super().__init__(_outline_gears(pair, distance), friction, driver, direction)
 
-    @property
-    def reversed(self) -> OffDesignTransmission:
-        """Transmission function with the other wheel driving."""
-        return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
-
-    def reversed_motion(self) -> OffDesignTransmission:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
-
-        Angles keep their sign convention, so they decrease.
-        """
-        return OffDesignTransmission(self.pair, self.distance, self.friction, self.driver, -self.direction)
+    def _driven(self, driver: int, direction: int) -> OffDesignTransmission:
+        return OffDesignTransmission(self.pair, self.distance, self.friction, driver, direction)
 
 
 @lru_cache(maxsize=64)

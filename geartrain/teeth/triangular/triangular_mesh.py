@@ -98,15 +98,6 @@ class TriangularMesh(GearMesh):
     transmission: TriangularTransmission
 
     @cached_property
-    def reversed(self) -> TriangularTransmission:
-        """Transmission function with the other wheel driving."""
-        from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-
-        return TriangularTransmission(
-            self.transmission.sizes.swapped(), self.transmission.friction, self.transmission.direction
-        )
-
-    @cached_property
     def verdict(self) -> PairVerdict:
         """Verdict on whether these teeth can run, with the cause from the clearance window."""
         found = self.transmission.verdict

@@ -15,7 +15,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, behind, check_friction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, behind, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
@@ -41,7 +41,7 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
     return TriangularContact(sizes)
 
 
-class TriangularTransmission(TransmissionFunction):
+class TriangularTransmission(ToothTransmission):
     """Transmission function of a pair of wheels with triangular teeth.
 
     The function includes the dwells of the driven wheel, if any. If the pair jams or clashes, the function describes
@@ -70,6 +70,8 @@ class TriangularTransmission(TransmissionFunction):
     >>> transmission.verdict.kind, transmission.ratio, [round(jump.value, 4) for jump in transmission.jumps]
     ('runs', Fraction(1, 2), [0.1582])
     """
+
+    driver = 1
 
     def __init__(self, sizes: TriangularSizes, friction: float = 0.0, direction: int = 1) -> None:
         self.sizes, self.friction, self.direction = sizes, check_friction(friction), direction
@@ -149,12 +151,10 @@ class TriangularTransmission(TransmissionFunction):
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
-    def reversed_motion(self) -> TriangularTransmission:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
-
-        Angles keep their sign convention, so they decrease.
-        """
-        return TriangularTransmission(self.sizes, self.friction, -self.direction)
+    def _driven(self, driver: int, direction: int) -> TriangularTransmission:
+        return TriangularTransmission(
+            self.sizes if driver == self.driver else self.sizes.swapped(), self.friction, direction
+        )
 
     def alpha1(self, S: ArrayLike) -> Floats:
         """Return the angle alpha_1 [rad] of the driving tooth pair at driver angles S.

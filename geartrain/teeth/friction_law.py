@@ -16,11 +16,11 @@ from math import log, sqrt
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Quantity, Velocity
 from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import root
+from geartrain.teeth.tooth_form import bad
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -97,19 +97,15 @@ def dokos(v: Floats, slowest: float) -> Floats:
     return found
 
 
-def _invalid(what: str, fix: str) -> PydanticCustomError:
-    return PydanticCustomError("friction", "{what}", {"what": what, "fix": fix})
-
-
 def _positive(value: Any) -> Any:
     if value.value <= 0:
-        raise _invalid(f"the value must be greater than 0, not {value.text}", "give a number above 0")
+        raise bad("friction", f"the value must be greater than 0, not {value.text}", "give a number above 0")
     return value
 
 
 def _not_negative(value: Any) -> Any:
     if value.value < 0:
-        raise _invalid(f"{value.text} is below 0", "give 0 or more")
+        raise bad("friction", f"{value.text} is below 0", "give 0 or more")
     return value
 
 
@@ -250,11 +246,13 @@ class TabulatedFriction(FrictionLaw):
     def _check_table(self) -> TabulatedFriction:
         speeds = [speed.base for speed in self.speeds]
         if len(speeds) != len(self.coefficients) or len(speeds) < 2:
-            raise _invalid(
-                "speeds and coefficients do not form a table", "give as many coefficients as speeds, two or more"
+            raise bad(
+                "friction",
+                "speeds and coefficients do not form a table",
+                "give as many coefficients as speeds, two or more",
             )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise _invalid("the speeds are not in rising order from 0 or more", "give them in rising order")
+            raise bad("friction", "the speeds are not in rising order from 0 or more", "give them in rising order")
         return self
 
     @property

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from geartrain.numerics.quantity import Angle
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, refused
+from geartrain.teeth.tooth_form import TwoFigures, bad, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -89,14 +89,7 @@ class Involute(ConjugateToothForm):
     @model_validator(mode="after")
     def _check_parameters(self) -> Involute:
         check_angle("pressure_angle", self.pressure_angle)
-        for name in ("addendum", "dedendum"):
-            for height in getattr(self, name):
-                if height.value <= 0:
-                    raise bad(
-                        "height",
-                        f"{name} must be greater than 0, not {height.text}",
-                        "give a number of modules above 0",
-                    )
+        check_above_0(self, "height", "addendum", "dedendum")
         for name in ("shift", "addendum", "dedendum"):
             for length in getattr(self, name):
                 if abs(length.value) > _MOST_MODULES:

@@ -274,7 +274,7 @@ class CircularArc(ToothForm):
             raise refused(f"a {f'{odd[0]} wheel' if odd else 'ring'} cannot have circular-arc teeth", _SCOPE, IDEAL)
         transmission = self.transmission(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
         teeth = self.teeth(*wheels.counts, wheels.module)
-        cut = [FixedTooth(each.tip, each.root, tuple(each.vertices())) for each in teeth]
+        cut = [FixedTooth("external", each.tip, each.root, tuple(each.vertices())) for each in teeth]
         return OutlineMesh(wheels, self, wheels.driver, transmission, (cut[0], cut[1]))
 
 

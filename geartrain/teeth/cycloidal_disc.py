@@ -235,7 +235,7 @@ class CycloidalDisc:
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
         tip = self.circle + 0.5 - self.pin - self.clearance
-        return FixedTooth(tip, float(np.abs(points[0])), tooth)
+        return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
     def _chord_excess(self, number: int) -> Floats:
         """Return the distances by which the midpoints of `number` chords are outside a lobe [module].
@@ -268,7 +268,7 @@ class CycloidalDisc:
         points += [(foot[0], foot[1], 0.0)] if root > R else []
         tooth = [(float(x), float(y), float(bulge)) for x, y, bulge in points]
         tooth[-1] = (*tooth[-1][:2], tan(across / 4))
-        return FixedTooth(R - r, root, tuple(tooth), "ring", LanternPins(2, R, r))
+        return FixedTooth("ring", R - r, root, tuple(tooth), LanternPins(2, R, r))
 
 
 class DiscTransmission(ExactRatio, ToothTransmission):

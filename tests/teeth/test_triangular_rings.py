@@ -247,7 +247,7 @@ def test_the_inverse_pair_undoes_the_pair() -> None:
         for x in np.linspace(-0.8, 0.8, 5) * drawn.reach1:
             y = tooth_pair.contact(float(x))
             assert -inverse.contact(-y) == pytest.approx(x, abs=1e-13)
-            phase = "approach" if tooth_pair.approach_angle(x) <= tooth_pair.recess_angle(x) else "recess"
+            phase = "approach" if tooth_pair.angle("approach", x) <= tooth_pair.angle("recess", x) else "recess"
             back = "recess" if phase == "approach" else "approach"
             assert tooth_pair.speed(phase, x) * inverse.speed(back, -y) == pytest.approx(1, abs=1e-11)
             there, here = inverse.efficiency(back, -y, 0.15), tooth_pair.efficiency(phase, x, -0.15)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
-from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
+from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, PairSize
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
+    from geartrain.teeth.tooth_form import ToothForm
     from geartrain.teeth.transmission import ToothTransmission, TransmissionFunction
 
 
@@ -42,7 +43,7 @@ class GearMesh(Shown, ABC):
 
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
-    tooth_form: NamedForm
+    tooth_form: ToothForm
     """Tooth form of the pair."""
     who: MeshDriver
     """Name of the driving wheel, and how the driver was determined."""

@@ -31,7 +31,6 @@ _SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its c
 _FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
 _NO_CORNER = 1e-9  # rad of the driver
 _AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
-_ROUGH = 1e-4  # rad: touches within this margin of the first one are refined
 _BLUNT = radians(10)  # lower bound of the half aperture
 
 
@@ -70,9 +69,7 @@ class ToothPairSearch:
         count, none = len(x), np.zeros(len(x), int)
         touch_search = self.pair.touch_search
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
-        touches = touch_search.touch(
-            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), _ROUGH)
-        )
+        touches = touch_search.touch(tooth_pairs, touch_search.segments(tooth_pairs))
         # the touch of maximum angle of each pair is sorted last
         order = np.lexsort((touches.angle, touches.tooth_pair))
         last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]

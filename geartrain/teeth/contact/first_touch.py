@@ -290,25 +290,6 @@ class FirstTouches(NamedTuple):
 class FirstTouchSearch(FlankSegmentation):
     """Search for the points of the driver's flanks that determine the driven angle."""
 
-    # --------------------------------------------------------------------------------------------- relevant segments
-
-    def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
-        """Return the segments that can contain the maximum of G of their position, within `margin` [rad]."""
-        ends, slopes = self._estimates(segments)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            width = segments.u[1] - segments.u[0]
-            # intersection of the tangents at both ends: bounds G if it is concave, and is doubled in case it is not
-            meets = (ends[1] - ends[0] - slopes[1] * width) / (slopes[0] - slopes[1])
-            rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
-        unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
-        rise = np.where(unknown, np.inf, np.maximum(rise, 0.0))
-        place = tooth_pairs.place[segments.tooth_pair]
-        position = tooth_pairs.position[segments.tooth_pair]
-        best = np.full(int(tooth_pairs.position.max()) + 1 if len(tooth_pairs.position) else 0, -np.inf)
-        # `maximum.at`, because many segments share a position and an assignment would keep only the last
-        np.maximum.at(best, position, ends.max(axis=0) - place)
-        return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
-
     def _stalled(self, segments: FlankSegments) -> Bools:
         """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;
         shape (2, n).
@@ -317,26 +298,6 @@ class FirstTouchSearch(FlankSegmentation):
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
         found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         return found
-
-    def _estimates(self, segments: FlankSegments) -> tuple[Floats, Floats]:
-        """Return estimates of G and its slope at both ends, shape (2, n) each, from an inversion that is not
-        refined.
-        """
-        piece = np.broadcast_to(segments.piece2, segments.u.shape)
-        low, high = self.second.ends[:, segments.piece2]
-        r = np.clip(segments.polar2[0], low, high)
-        within = np.isnan(segments.v)
-        v = np.where(within, self.second.guess(piece, r)[0], segments.v)
-        # where the piece is stationary a single Newton step is not reliable
-        stationary = within & self.second.near_stall(piece, v)
-        v[stationary] = self.second.inverse(piece[stationary], r[stationary])
-        radius, rise = value(self.second.radius, piece, v)
-        azimuth, turn = value(self.second.azimuth, piece, v)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            slant = turn / rise
-            # elsewhere one Newton step replaces the inversion; at an end of the piece no correction is needed
-            correction = np.where(within & ~stationary, slant * (r - radius), 0.0)
-            return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
     # ------------------------------------------------------------------------------------------------ exact contact
 

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
 
 _BLOCK = 60_000  # nodes per block, which limits the memory of long arrays of angles
-_MARGIN = 1e-5  # of a driven pitch: maximum error of estimated angles
 _TIE = 4e-15  # rad: among touches within this the later tooth pair, and a flank before a corner, is reported
 KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
@@ -113,10 +112,7 @@ class OutlinePair:
         touch_search, count = self.touch_search, len(rest)
         if not len(j):
             return _no_contact(count)
-        margin = _MARGIN * self.second.pitch + within
-        found = touch_search.touch(
-            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), margin)
-        )
+        found = touch_search.touch(tooth_pairs, touch_search.segments(tooth_pairs))
         position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
+from itertools import pairwise
 from math import degrees, inf
 from typing import TYPE_CHECKING, NamedTuple, Self
 
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.pair_results import PairVerdict
+
+
+_NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 
 
 def check_friction(friction: float) -> float:
@@ -220,6 +224,14 @@ class TransmissionFunction(Shown, ABC):
         an empty list.
         """
         return []
+
+    def smooth_intervals(self) -> list[tuple[float, float]]:
+        """Return the intervals of driver angle between the kinks of one period [rad]; shorter ones than 1e-13 periods
+        are rounding.
+        """
+        cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
+        edges = pairwise([*cuts, cuts[0] + self.period])
+        return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
         """Return all upward steps of the speed ratio within one pitch, at which the teeth impact; None if the steps are

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
 from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
 
 # 8 nodes give 1e-11 and 16 give rounding on usual teeth; twice as many for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(32)
-_NARROW = 1e-13  # of a period: shorter intervals are rounding
 _TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding
 
 
@@ -205,20 +203,13 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         return locking_friction(self.path, self.driver)
 
     @cached_property
-    def _stretches(self) -> list[tuple[float, float]]:
-        """Smooth intervals of one period, in driver angle (rad)."""
-        cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()})
-        edges = pairwise([*cuts, cuts[0] + self.period])
-        return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
-
-    @cached_property
     def _sampled(self) -> tuple[Floats, Floats]:
         """Efficiency at the Gauss-Legendre nodes of one period and their normalised weights; gaps in contact are
         omitted.
         """
         x, w = _GAUSS
-        S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in self._stretches])
-        weights = np.concatenate([(high - low) / 2 * w for low, high in self._stretches])
+        S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in self.smooth_intervals()])
+        weights = np.concatenate([(high - low) / 2 * w for low, high in self.smooth_intervals()])
         found = self.efficiency(S)
         touching = ~np.isnan(found)
         return found[touching], weights[touching] / weights[touching].sum()
@@ -251,5 +242,5 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
             return nan
         # the ends belong also to the next tooth pair or to the other side of the pitch point
         inside = np.linspace(1e-9, 1 - 1e-9, 201)
-        S = np.concatenate([low + (high - low) * inside for low, high in self._stretches])
+        S = np.concatenate([low + (high - low) * inside for low, high in self.smooth_intervals()])
         return float(np.nanmin(self.efficiency(S)))

@@ -106,7 +106,7 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
     middle = np.zeros((len(X), 3 if pitch.bevel else 2))
     if pitch.bevel:
         middle[:, 2] = 1.0
-    P0 = (pitch.on_gear1 if gear == 1 else pitch.on_gear2)(middle, -X)
+    P0 = pitch.on_gear(gear, middle, -X)
     # P is on the normal (bevel: P x n is the pole of its great circle), so the values at the pitch point apply
     return np.asarray(P0[:, 1] * at.cos_psi - P0[:, 0] * at.sin_psi)
 

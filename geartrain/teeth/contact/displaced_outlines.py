@@ -75,7 +75,7 @@ class ToothPairSearch:
         last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]
         where = touches.tooth_pair[last]
         corner = np.full(count, -1)
-        corner[where] = self._corners(touches.piece1[last], touches.u[last], touches.piece2[last], touches.v[last])
+        corner[where] = self.pair.kinds(touches)[last]
         angle, point, normal = np.full(count, np.nan), np.full((2, count), np.nan), np.full((2, count), np.nan)
         angle[where] = touches.angle[last]
         r, dr = value(touch_search.first.radius, touches.piece1[last], touches.u[last])
@@ -86,14 +86,6 @@ class ToothPairSearch:
         normal[:, where] = self._normals(point[:, where], along, touches.speed[last])
         ratio = self.first.z / self.second.z
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
-
-    def _corners(self, piece1: Indices, u: Floats, piece2: Indices, v: Floats) -> Indices:
-        touch_search, found = self.pair.touch_search, np.zeros(len(u), int)
-        for at, (table, piece, end) in enumerate(
-            ((touch_search.first, piece1, u), (touch_search.second, piece2, v)), 1
-        ):
-            found += at * ((end == -1) & table.corners[0][piece] | (end == 1) & table.corners[1][piece])
-        return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
         """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of

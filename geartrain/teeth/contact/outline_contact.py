@@ -117,7 +117,7 @@ class OutlinePair:
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
         sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
-        kind = self._kind(found)
+        kind = self.kinds(found)
         # order of ties: later tooth pair, then flank before corner, then maximum angle
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
         order = ties[np.lexsort((found.angle[ties], kind[ties] == 0, j[found.tooth_pair[ties]], position[ties]))]
@@ -133,7 +133,7 @@ class OutlinePair:
         )
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
-    def _kind(self, found: FirstTouches) -> Indices:
+    def kinds(self, found: FirstTouches) -> Indices:
         """Return the kind of each touch: 0 for two flanks, 1 for a corner of the first wheel, 2 of the second, 3 of
         both.
         """

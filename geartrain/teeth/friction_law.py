@@ -36,32 +36,6 @@ DOKOS = (0.53, 0.18, 1e7)
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
-def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
-    """Return the coefficient mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md
-    (16).
-
-    The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s,
-    viscous in s/m.
-    """
-    import numpy as np
-
-    found: Floats = kinetic + (static - kinetic) * np.exp(-((v / speed) ** exponent)) + viscous * v
-    return found
-
-
-def buckingham(V: Floats) -> Floats:
-    """Return Buckingham's coefficient of friction at pitch-line speeds V [m/s], docs/shapes.md (17).
-
-    mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
-    """
-    import numpy as np
-
-    c1, c2, c3 = buckingham_constants()
-    root_of = np.sqrt(np.asarray(V) / FOOT_A_MINUTE)
-    found: Floats = c2 * np.exp(-c1 * root_of) + c3 * root_of
-    return found
-
-
 @cache
 def buckingham_constants() -> tuple[float, float, float]:
     """Return the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
@@ -78,23 +52,6 @@ def buckingham_constants() -> tuple[float, float, float]:
     most = low / rest  # above it c3 would be negative
     a = root(off, 0.0, most, off(0.0), off(most))
     return -log(a) / sqrt(slow), rest, (low - rest * a) / sqrt(slow)
-
-
-def dokos(v: Floats, slowest: float) -> Floats:
-    """Return the coefficient mu at sliding speeds v [m/s]; it falls from 0.53 at `slowest` to 0.18 at 10^7 times that
-    speed.
-
-    The coefficient is constant below and above these speeds. Smith prints only both end values and the ratio of speeds
-    ("gradually"). Linear interpolation in log v is an assumption, and so is any value of `slowest`.
-    """
-    import numpy as np
-
-    first, last, factor = DOKOS
-    # the logarithm is -inf at rest, which the clip below maps to the first coefficient
-    with np.errstate(divide="ignore"):
-        decades = np.log(np.asarray(v) / slowest) / log(factor)
-    found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
-    return found
 
 
 def _positive(value: Any) -> Any:
@@ -177,9 +134,17 @@ class StribeckFriction(FrictionLaw):
     viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at sliding speeds [m/s], computed by `stribeck`."""
-        exponent, viscous = float(self.exponent.value), float(self.viscous.value)
-        return stribeck(speed, float(self.static.value), float(self.kinetic.value), self.speed.si, exponent, viscous)
+        """Return the coefficient of friction at sliding speeds v [m/s], docs/shapes.md (16).
+
+        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, viscous in s/m.
+        """
+        import numpy as np
+
+        static, kinetic, exponent, viscous = (
+            float(each.value) for each in (self.static, self.kinetic, self.exponent, self.viscous)
+        )
+        fallen: Floats = np.exp(-((speed / self.speed.si) ** exponent))
+        return kinetic + (static - kinetic) * fallen + viscous * speed
 
 
 class BuckinghamFriction(FrictionLaw):
@@ -200,12 +165,24 @@ class BuckinghamFriction(FrictionLaw):
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at pitch-line speeds [m/s], computed by `buckingham`."""
-        return buckingham(speed)
+        """Return the coefficient of friction at pitch-line speeds [m/s], docs/shapes.md (17).
+
+        mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
+        """
+        import numpy as np
+
+        c1, c2, c3 = buckingham_constants()
+        root_of = np.sqrt(np.asarray(speed) / FOOT_A_MINUTE)
+        found: Floats = c2 * np.exp(-c1 * root_of) + c3 * root_of
+        return found
 
 
 class DokosFriction(FrictionLaw):
     """Friction of dry steel on dry steel as a function of the sliding speed.
+
+    The coefficient falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, and is constant below and above
+    these speeds. Smith prints only both end values and the ratio of speeds ("gradually"). Linear interpolation in log
+    v is an assumption, and so is any value of `slowest`.
 
     Examples
     --------
@@ -221,8 +198,15 @@ class DokosFriction(FrictionLaw):
     )
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at sliding speeds [m/s], computed by `dokos`."""
-        return dokos(speed, self.slowest.si)
+        """Return the coefficient of friction at sliding speeds [m/s]."""
+        import numpy as np
+
+        first, last, factor = DOKOS
+        # the logarithm is -inf at rest, which the clip below maps to the first coefficient
+        with np.errstate(divide="ignore"):
+            decades = np.log(np.asarray(speed) / self.slowest.si) / log(factor)
+        found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
+        return found
 
 
 class TabulatedFriction(FrictionLaw):

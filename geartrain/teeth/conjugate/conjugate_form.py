@@ -392,18 +392,13 @@ def _refusal(kinds: tuple[str, str]) -> str:
     return ""
 
 
-def wheel_specific_parameters(form: ToothForm) -> list[str]:
-    """Return the names of parameters whose values differ between the two wheels."""
-    given = {name: getattr(form, name) for name in type(form).model_fields}
-    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
-    return uneven + [name for name in ("pins",) if name in form.model_fields_set]
-
-
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
     """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear
     first.
     """
-    if uneven := wheel_specific_parameters(form):
+    given = {name: getattr(form, name) for name in type(form).model_fields}
+    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
+    if uneven := uneven + [name for name in ("pins",) if name in form.model_fields_set]:
         ring, pinion = pair
         raise refused(
             f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",

@@ -162,9 +162,25 @@ class FlankSegments(NamedTuple):
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
 
 
+class FirstTouches(NamedTuple):
+    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
+    axles.
+    """
+
+    angle: Floats
+    speed: Floats
+    piece1: Indices
+    u: Floats
+    piece2: Indices
+    v: Floats
+    radius1: Floats
+    radius2: Floats
+    tooth_pair: Indices
+
+
 @dataclass(frozen=True)
-class FlankSegmentation:
-    """Division of the flanks of two wheels at given axles into smooth segments."""
+class FirstTouchSearch:
+    """Search for the points of the driver's flanks that determine the driven angle, at given axles."""
 
     first: FlankTable
     second: FlankTable
@@ -266,29 +282,6 @@ class FlankSegmentation:
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
         return self.axles.frame(r, a + x), dr, da
-
-
-# -------------------------------------------------------------------------------------------------------------- touches
-
-
-class FirstTouches(NamedTuple):
-    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
-    axles.
-    """
-
-    angle: Floats
-    speed: Floats
-    piece1: Indices
-    u: Floats
-    piece2: Indices
-    v: Floats
-    radius1: Floats
-    radius2: Floats
-    tooth_pair: Indices
-
-
-class FirstTouchSearch(FlankSegmentation):
-    """Search for the points of the driver's flanks that determine the driven angle."""
 
     def _stalled(self, segments: FlankSegments) -> Bools:
         """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;

@@ -319,7 +319,7 @@ class TriangularTransmission(ToothTransmission):
         """
         if self.friction >= self.locking_friction:
             return nan
-        return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
+        return self._contact_mean(self._eta)
 
     def efficiency_at_constant_load(self) -> float:
         """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
@@ -327,8 +327,8 @@ class TriangularTransmission(ToothTransmission):
         """
         if self.friction >= self.locking_friction:
             return nan
-        work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
-        return self.contact.mean(("load", self.friction), lambda: self._contact_mean(self._tau) / work())
+        work = self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
+        return self._contact_mean(self._tau) / work
 
     def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
         """Return the mean of `what` over the driver angles with contact.

@@ -42,14 +42,6 @@ class AxlePlacement:
     bevel: bool = False
     ring: Literal[0, 1, 2] = 0
 
-    def frame(self, r: Floats, b: Floats) -> DrivenFrame:
-        """Return the polar coordinates about the second axle of points at radii r and azimuths b about the first axle
-        [rad].
-
-        For bevels r is the polar angle [rad].
-        """
-        return DrivenFrame(self, r, b)
-
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
         """Return the maximum |azimuth| [rad] at which a point can be within the range of radii about the second axle.
 
@@ -115,17 +107,13 @@ class DrivenFrame:
             return radius, (self.along * side - self.side * along) / (h * h)
         # on the sphere, both differentials also change the height along the inclined second axle
         far = sin(self.axles.distance)
-        fall = -self._sine() * dr
+        fall = -np.hypot(self.side, self.across) * dr
         along = along + e * far * fall
         up = self.tilt * fall - s * e * far * across
         h = np.hypot(self.side, self.along)
         return (self.up * (self.side * side + self.along * along) / h - h * up), (
             self.along * side - self.side * along
         ) / (h * h)
-
-    def _sine(self) -> Floats:
-        found: Floats = np.hypot(self.side, self.across)
-        return found
 
 
 # ----------------------------------------------------------------------------------------- segments of the driving side
@@ -212,7 +200,7 @@ class FirstTouchSearch:
             nodes[2][tooth_pairs.tooth1, :-1],
         )
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
-        view = self.axles.frame(r, a + tooth_pairs.x[:, None])
+        view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
         # an extreme of the distance inside a cell exceeds the ends by less than the slopes there would give
@@ -261,7 +249,7 @@ class FirstTouchSearch:
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
                 r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
-                return self.axles.frame(r, a + x[these]).radius - goal[these]
+                return DrivenFrame(self.axles, r, a + x[these]).radius - goal[these]
 
             u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.polar2[0][:, which] - goal))
             polar2[:, side, which] = self._driven_polar(x, piece, u[side, which])
@@ -281,7 +269,7 @@ class FirstTouchSearch:
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
-        return self.axles.frame(r, a + x), dr, da
+        return DrivenFrame(self.axles, r, a + x), dr, da
 
     def _stalled(self, segments: FlankSegments) -> Bools:
         """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;

@@ -371,6 +371,7 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
         ({"window": "0.5", "radii": "equal_depth"}, (20, 60), ["no clearance", "pitch_true"]),
         ({"window": "0.5"}, (60, 60), ["a ring of 60 teeth cannot contain a wheel of 60 teeth"]),
         ({"excess": "0.9", "radii": "0.9"}, (20, 21), ["overlap at every angle"]),
+        ({"backlash": "0.05", "radii": ["18", "10"]}, (20, 60), ["overlap at every angle"]),
     ],
 )
 def test_what_no_ring_can_have_is_refused_by_name(

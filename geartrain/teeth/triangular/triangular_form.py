@@ -231,7 +231,9 @@ class Triangular(ToothForm):
         if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
             what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
             raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
-        sizes = self._sizes_at_clearance(self._sizes_at_deepest(z1, z2, ring), pitch_distance)
+        sizes = self._sizes_at_deepest(z1, z2, ring)
+        # less distance only makes an overlap worse, and the backlash of such teeth is undefined
+        sizes = sizes if sizes.surrounds else self._sizes_at_clearance(sizes, pitch_distance)
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",

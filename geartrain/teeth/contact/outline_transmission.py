@@ -137,8 +137,11 @@ class OutlineTransmission(ToothTransmission):
         return _nodes(self.gears, self.driver)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio."""
-        return self.table.speed_range()
+        """Return the minimum and the maximum speed ratio among 16 angles of each smooth interval and its ends."""
+        ends = self.table.breaks
+        # at a kink the speed has two values, one on either side
+        found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
+        return float(np.nanmin(found)), float(np.nanmax(found))
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics import Motion
     from geartrain.kinematics.answer import Answer
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction
 
 Stage = Literal["speeds", "transmission functions", "motion", "torques"]
 
@@ -184,7 +185,9 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
     """Yield the methods for transmission functions: direct evaluation, and interpolation in tables of two
     tolerances.
     """
-    transmissions = {mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
+    transmissions: dict[str, TransmissionFunction] = {
+        mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid
+    }
     transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
     if not transmissions:
         what = "every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM

@@ -427,8 +427,8 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     styles = {name: (series_colour(at), series_dash(at)) for at, name in enumerate(paths)}
     for name, path in paths.items():
         X = _places(path)
-        _line(panels[0, 0], name, styles, _flat(path.flank1(X)) / unit)
-        _line(panels[0, 1], name, styles, _flat(path.flank2(X)) / unit)
+        _line(panels[0, 0], name, styles, _flat(path.flank(1, X)) / unit)
+        _line(panels[0, 1], name, styles, _flat(path.flank(2, X)) / unit)
         contact = path.at(X)
         points = _flat(pitch.point(contact.d, contact.sin_psi, contact.cos_psi)) / unit
         _line(panels[1, 0], name, styles, points)

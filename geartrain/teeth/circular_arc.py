@@ -28,10 +28,20 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from geartrain.errors import Problem
-from geartrain.numerics.quantity import Length, Quantity
+from geartrain.numerics.quantity import Length
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, TwoFigures, bad, refused
+from geartrain.teeth.tooth_form import (
+    IDEAL,
+    ShaftAngle,
+    ToothForm,
+    TwoFigures,
+    bad,
+    check_above_0,
+    check_one_of,
+    in_modules,
+    number_of_wheel,
+    refused,
+)
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -71,11 +81,6 @@ def addendum_factor(z: int, ratio: float) -> float:
     return z / 4 * (sqrt(1 + k * k - 2 * k * cos(t)) - 2 * ratio)
 
 
-def _wheel_number(raw: object) -> object:
-    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
-    return int(raw) if raw in ("1", "2") else raw
-
-
 class CircularArc(ToothForm):
     """Circular-arc clock teeth of BS 978 Part 2: radial flanks, ogival tips and thin leaves.
 
@@ -98,9 +103,10 @@ class CircularArc(ToothForm):
     """
 
     any_distance: ClassVar[bool] = True
+    own_play: ClassVar[tuple[str, ...]] = ("backlash", "thickness")
 
     form: Literal["circular_arc"] = Field(description="Name of the tooth form")
-    pinion: Annotated[Literal[1, 2], BeforeValidator(_wheel_number)] | None = Field(
+    pinion: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] | None = Field(
         None,
         description="Number of the wheel that is the pinion, 1 or 2; default the wheel with fewer teeth, the second of "
         "equal ones",
@@ -136,24 +142,10 @@ class CircularArc(ToothForm):
 
     @model_validator(mode="after")
     def _check_parameters(self) -> CircularArc:
-        for name in ("addendum", "radius", "thickness"):
-            for figure in getattr(self, name) or ():
-                if figure.value <= 0:
-                    raise bad(
-                        "length",
-                        f"{name} must be greater than 0, not {figure.text}",
-                        "give a number of modules above 0",
-                    )
-        if self.thickness is not None and self.backlash is not None:
-            raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
+        check_above_0(self, "length", "addendum", "radius", "thickness", "centre_distance")
+        check_one_of(self, "backlash", "thickness", "backlash")
         if self.backlash is not None and not self.backlash.value >= 0:
             raise bad("backlash", f"a backlash of {self.backlash.text} would jam the teeth", "give 0 or more")
-        if self.centre_distance is not None and self.centre_distance.value <= 0:
-            raise bad(
-                "length",
-                f"centre_distance must be greater than 0, not {self.centre_distance.text}",
-                "give a length above 0",
-            )
         return self
 
     # ----------------------------------------------------------------------------------------------- teeth of a pair
@@ -194,7 +186,7 @@ class CircularArc(ToothForm):
         ]
         if self.backlash is not None:
             # a thinner leaf keeps the shape of its tip; the two thicknesses of the standard do so within a few percent
-            thickness = min(_THIN[many], pi / 2 - _modules(self.backlash, module, "backlash"))
+            thickness = min(_THIN[many], pi / 2 - in_modules(self.backlash, module, "backlash"))
             sizes[1] = tuple(size * thickness / _THIN[many] for size in sizes[1])
         declared = (self.thickness, self.addendum, self.radius)
         found = [
@@ -234,7 +226,7 @@ class CircularArc(ToothForm):
         """
         if self.centre_distance is None:
             return (z1 + z2) / 2
-        return _modules(self.centre_distance, module, "centre_distance")
+        return in_modules(self.centre_distance, module, "centre_distance")
 
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
@@ -282,53 +274,8 @@ class CircularArc(ToothForm):
             raise refused(f"a {f'{odd[0]} wheel' if odd else 'ring'} cannot have circular-arc teeth", _SCOPE, IDEAL)
         transmission = self.transmission(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
         teeth = self.teeth(*wheels.counts, wheels.module)
-        cut = [FixedTooth(each.tip, each.root, tuple(each.vertices())) for each in teeth]
+        cut = [FixedTooth("external", each.tip, each.root, tuple(each.vertices())) for each in teeth]
         return OutlineMesh(wheels, self, wheels.driver, transmission, (cut[0], cut[1]))
-
-    # ------------------------------------------------------------------------------------------------- backlash
-
-    def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
-
-        A declared backlash or thickness takes precedence over the backlash of the manufacturing options.
-
-        Returns
-        -------
-        Problem or None
-            None if neither is declared.
-        """
-        if self.backlash is None and self.thickness is None:
-            return None
-        why = "a declared backlash or thickness takes precedence over --backlash"
-        fix = "omit --backlash, or remove `backlash` and `thickness` from the file"
-        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
-
-    def thinned(self, backlash: Quantity) -> CircularArc:
-        """Return a copy whose leaves are thinned if the pair has less than the given backlash.
-
-        Parameters
-        ----------
-        backlash : Quantity
-            Minimum backlash on the pitch circle, in modules or with a unit.
-
-        Returns
-        -------
-        CircularArc
-            Copy with this `backlash`.
-        """
-        return self.model_copy(update={"backlash": backlash})
-
-
-def _modules(length: Quantity, module: float | None, name: str) -> float:
-    if length.unit is None:
-        return float(length.value)
-    if module is None:
-        raise refused(
-            f"the {name} {length.text} cannot be converted to modules",
-            "the wheels declare no module with a unit",
-            f"declare the `module` of both wheels with a unit, or give the {name} as a number of modules",
-        )
-    return length.si / module
 
 
 @lru_cache(maxsize=256)

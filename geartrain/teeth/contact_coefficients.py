@@ -19,9 +19,9 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Friction, parse_friction
+from geartrain.teeth.tooth_form import bad
 
 
 class CoulombFriction(BaseModel):
@@ -47,15 +47,8 @@ class CoulombFriction(BaseModel):
     @model_validator(mode="after")
     def _check_static(self) -> CoulombFriction:
         if self.static is not None and self.static.value < self.sliding.value:
-            raise PydanticCustomError(
-                "friction",
-                "a static friction of {static} is below the sliding friction of {sliding}",
-                {
-                    "static": self.static.text,
-                    "sliding": self.sliding.text,
-                    "fix": "give a `static` friction of `sliding` or more, or omit `static`",
-                },
-            )
+            what = f"a static friction of {self.static.text} is below the sliding friction of {self.sliding.text}"
+            raise bad("friction", what, "give a `static` friction of `sliding` or more, or omit `static`")
         return self
 
     @model_serializer(mode="wrap")
@@ -78,14 +71,8 @@ DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
 
 def _check_restitution(figure: Figure) -> Figure:
     if not 0 <= figure.value <= 1:
-        raise PydanticCustomError(
-            "restitution",
-            "a restitution of {text} is out of range",
-            {
-                "text": figure.text,
-                "fix": "give a number from 0 (no rebound) to 1 (no loss of energy)",
-            },
-        )
+        fix = "give a number from 0 (no rebound) to 1 (no loss of energy)"
+        raise bad("restitution", f"a restitution of {figure.text} is out of range", fix)
     return figure
 
 

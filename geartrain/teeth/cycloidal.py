@@ -6,15 +6,14 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import pi
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.errors import Problem
 from geartrain.numerics.quantity import Figure
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, refused
+from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, check_above_0, check_one_of, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -39,6 +38,8 @@ class Cycloidal(ConjugateToothForm):
     >>> transmission.verdict.text, transmission.ratio, transmission.path.contact_ratio
     ('the teeth run', Fraction(2, 15), 1.0)
     """
+
+    own_play: ClassVar[tuple[str, ...]] = ("thickness", "backlash")
 
     form: Literal["cycloidal"] = Field(description="Name of the tooth form")
     rolling: TwoLengths | None = Field(
@@ -67,17 +68,8 @@ class Cycloidal(ConjugateToothForm):
 
     @model_validator(mode="after")
     def _check_parameters(self) -> Cycloidal:
-        if self.rolling is not None and self.rolling_fraction is not None:
-            raise bad(
-                "rolling", "rolling and rolling_fraction are both given", "remove `rolling` or `rolling_fraction`"
-            )
-        for circle in (*(self.rolling or ()), *(self.rolling_fraction or ())):
-            if circle.value <= 0:
-                raise bad(
-                    "rolling",
-                    f"the radius of a rolling circle must be greater than 0, not {circle.text}",
-                    "give a radius above 0",
-                )
+        check_one_of(self, "rolling", "rolling", "rolling_fraction")
+        check_above_0(self, "rolling", "rolling", "rolling_fraction")
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
             raise bad(
                 "rolling",
@@ -86,10 +78,7 @@ class Cycloidal(ConjugateToothForm):
             )
         if self.thickness is not None:
             self._check_thickness(self.thickness)
-        if self.arcs is not None and self.addendum is not None:
-            raise bad(
-                "arcs", "arcs and addendum are both given", "remove `arcs` or `addendum`: each determines the other"
-            )
+        check_one_of(self, "arcs", "arcs", "addendum")
         if self.arcs is not None:
             check_arcs(self.arcs)
         elif self.addendum is not None and (
@@ -101,32 +90,11 @@ class Cycloidal(ConjugateToothForm):
         return self
 
     def _check_thickness(self, thickness: TwoFigures) -> None:
-        if "backlash" in self.model_fields_set:
-            raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
-        if (minimum := min(thickness, key=lambda each: each.value)).value <= 0:
-            raise bad(
-                "length", f"a thickness must be greater than 0, not {minimum.text}", "give a number of modules above 0"
-            )
+        check_one_of(self, "backlash", "thickness", "backlash")
+        check_above_0(self, "length", "thickness")
         if (both := sum(float(each.value) for each in thickness)) > pi:
             fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
             raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
-
-    def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
-
-        A declared thickness determines the backlash, as a declared backlash does.
-
-        Returns
-        -------
-        Problem or None
-            None if neither is declared.
-        """
-        if self.thickness is None:
-            return super().own_backlash(pair)
-        declared = " and ".join(each.text for each in self.thickness)
-        why = f"the declared thickness of {declared} modules takes precedence over --backlash"
-        fix = "omit --backlash, or remove `thickness` from the file"
-        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """Return the pair of these wheels at its design centre distance.

@@ -21,7 +21,7 @@ from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth, LanternPins
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PairVerdict, motion_figures
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -235,7 +235,7 @@ class CycloidalDisc:
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
         tip = self.circle + 0.5 - self.pin - self.clearance
-        return FixedTooth(tip, float(np.abs(points[0])), tooth)
+        return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
     def _chord_excess(self, number: int) -> Floats:
         """Return the distances by which the midpoints of `number` chords are outside a lobe [module].
@@ -268,10 +268,10 @@ class CycloidalDisc:
         points += [(foot[0], foot[1], 0.0)] if root > R else []
         tooth = [(float(x), float(y), float(bulge)) for x, y, bulge in points]
         tooth[-1] = (*tooth[-1][:2], tan(across / 4))
-        return FixedTooth(R - r, root, tuple(tooth), "ring", LanternPins(2, R, r))
+        return FixedTooth("ring", R - r, root, tuple(tooth), LanternPins(2, R, r))
 
 
-class DiscTransmission(ExactRatio):
+class DiscTransmission(ExactRatio, ToothTransmission):
     """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
 
     Parameters
@@ -290,41 +290,18 @@ class DiscTransmission(ExactRatio):
         self.disc, self.driver, self.direction = disc, driver, direction
         self.friction = check_friction(friction)
         z1, z2 = (disc.lobes, disc.pins) if driver == 1 else (disc.pins, disc.lobes)
-        super().__init__(Fraction(z1, z2), 2 * pi / z1)
         # rad of the driven wheel: the clearance on both flanks at the pitch radius z2 / 2
         self._backlash = 4 * disc.clearance / z2
+        # the coast flanks are ahead by the backlash
+        super().__init__(Fraction(z1, z2), 2 * pi / z1, self._backlash if direction < 0 else 0.0)
 
     @property
     def verdict(self) -> PairVerdict:
         """Verdict on the pair, always "runs", since discs that cannot run are rejected when they are declared."""
         return PairVerdict("runs", "the teeth run", self._backlash, ())
 
-    @property
-    def reversed(self) -> DiscTransmission:
-        """Transmission function with the other wheel driving."""
-        return DiscTransmission(self.disc, self.friction, 3 - self.driver, self.direction)
-
-    def reversed_motion(self) -> DiscTransmission:
-        """Return the transmission function of the coast flanks, for motion in the reverse direction."""
-        return DiscTransmission(self.disc, self.friction, self.driver, -self.direction)
-
-    @property
-    def _constant_error(self) -> float:
-        return self._backlash if self.direction < 0 else 0.0
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel]: 0 on the drive flanks, the backlash on the coast
-        flanks.
-        """
-        return self._constant(S, self._constant_error)
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which are equal."""
-        return self._constant_error, self._constant_error
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error [rad] and its rms deviation, which is 0."""
-        return self._constant_error, 0.0
+    def _driven(self, driver: int, direction: int) -> DiscTransmission:
+        return DiscTransmission(self.disc, self.friction, driver, direction)
 
     def _phase(self, S: ArrayLike) -> Floats:
         """Return the angle of a pin from the line of centres [rad] at driver angles S [rad].
@@ -391,16 +368,6 @@ class DiscMesh(GearMesh):
     """Mesh of a disc and its ring of pins; the disc is gear 1."""
 
     transmission: DiscTransmission
-
-    @cached_property
-    def reversed(self) -> DiscTransmission:
-        """Transmission function with the other wheel driving."""
-        return self.transmission.reversed
-
-    @property
-    def verdict(self) -> PairVerdict:
-        """Verdict on the pair, always "runs"."""
-        return self.transmission.verdict
 
     @property
     def gears(self) -> tuple[str, str]:

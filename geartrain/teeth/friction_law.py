@@ -16,11 +16,11 @@ from math import log, sqrt
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Quantity, Velocity
 from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import root
+from geartrain.teeth.tooth_form import bad
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -34,32 +34,6 @@ BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
 DOKOS = (0.53, 0.18, 1e7)
 """Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds: Dokos, cited by Smith."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
-
-
-def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
-    """Return the coefficient mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md
-    (16).
-
-    The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s,
-    viscous in s/m.
-    """
-    import numpy as np
-
-    found: Floats = kinetic + (static - kinetic) * np.exp(-((v / speed) ** exponent)) + viscous * v
-    return found
-
-
-def buckingham(V: Floats) -> Floats:
-    """Return Buckingham's coefficient of friction at pitch-line speeds V [m/s], docs/shapes.md (17).
-
-    mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
-    """
-    import numpy as np
-
-    c1, c2, c3 = buckingham_constants()
-    root_of = np.sqrt(np.asarray(V) / FOOT_A_MINUTE)
-    found: Floats = c2 * np.exp(-c1 * root_of) + c3 * root_of
-    return found
 
 
 @cache
@@ -80,36 +54,15 @@ def buckingham_constants() -> tuple[float, float, float]:
     return -log(a) / sqrt(slow), rest, (low - rest * a) / sqrt(slow)
 
 
-def dokos(v: Floats, slowest: float) -> Floats:
-    """Return the coefficient mu at sliding speeds v [m/s]; it falls from 0.53 at `slowest` to 0.18 at 10^7 times that
-    speed.
-
-    The coefficient is constant below and above these speeds. Smith prints only both end values and the ratio of speeds
-    ("gradually"). Linear interpolation in log v is an assumption, and so is any value of `slowest`.
-    """
-    import numpy as np
-
-    first, last, factor = DOKOS
-    # the logarithm is -inf at rest, which the clip below maps to the first coefficient
-    with np.errstate(divide="ignore"):
-        decades = np.log(np.asarray(v) / slowest) / log(factor)
-    found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
-    return found
-
-
-def _invalid(what: str, fix: str) -> PydanticCustomError:
-    return PydanticCustomError("friction", "{what}", {"what": what, "fix": fix})
-
-
 def _positive(value: Any) -> Any:
     if value.value <= 0:
-        raise _invalid(f"the value must be greater than 0, not {value.text}", "give a number above 0")
+        raise bad("friction", f"the value must be greater than 0, not {value.text}", "give a number above 0")
     return value
 
 
 def _not_negative(value: Any) -> Any:
     if value.value < 0:
-        raise _invalid(f"{value.text} is below 0", "give 0 or more")
+        raise bad("friction", f"{value.text} is below 0", "give 0 or more")
     return value
 
 
@@ -181,9 +134,17 @@ class StribeckFriction(FrictionLaw):
     viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at sliding speeds [m/s], computed by `stribeck`."""
-        exponent, viscous = float(self.exponent.value), float(self.viscous.value)
-        return stribeck(speed, float(self.static.value), float(self.kinetic.value), self.speed.si, exponent, viscous)
+        """Return the coefficient of friction at sliding speeds v [m/s], docs/shapes.md (16).
+
+        mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, viscous in s/m.
+        """
+        import numpy as np
+
+        static, kinetic, exponent, viscous = (
+            float(each.value) for each in (self.static, self.kinetic, self.exponent, self.viscous)
+        )
+        fallen: Floats = np.exp(-((speed / self.speed.si) ** exponent))
+        return kinetic + (static - kinetic) * fallen + viscous * speed
 
 
 class BuckinghamFriction(FrictionLaw):
@@ -204,12 +165,24 @@ class BuckinghamFriction(FrictionLaw):
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at pitch-line speeds [m/s], computed by `buckingham`."""
-        return buckingham(speed)
+        """Return the coefficient of friction at pitch-line speeds [m/s], docs/shapes.md (17).
+
+        mu = c2 exp(-c1 sqrt v) + c3 sqrt v, where v is the speed in ft/min.
+        """
+        import numpy as np
+
+        c1, c2, c3 = buckingham_constants()
+        root_of = np.sqrt(np.asarray(speed) / FOOT_A_MINUTE)
+        found: Floats = c2 * np.exp(-c1 * root_of) + c3 * root_of
+        return found
 
 
 class DokosFriction(FrictionLaw):
     """Friction of dry steel on dry steel as a function of the sliding speed.
+
+    The coefficient falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, and is constant below and above
+    these speeds. Smith prints only both end values and the ratio of speeds ("gradually"). Linear interpolation in log
+    v is an assumption, and so is any value of `slowest`.
 
     Examples
     --------
@@ -225,8 +198,15 @@ class DokosFriction(FrictionLaw):
     )
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at sliding speeds [m/s], computed by `dokos`."""
-        return dokos(speed, self.slowest.si)
+        """Return the coefficient of friction at sliding speeds [m/s]."""
+        import numpy as np
+
+        first, last, factor = DOKOS
+        # the logarithm is -inf at rest, which the clip below maps to the first coefficient
+        with np.errstate(divide="ignore"):
+            decades = np.log(np.asarray(speed) / self.slowest.si) / log(factor)
+        found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
+        return found
 
 
 class TabulatedFriction(FrictionLaw):
@@ -250,11 +230,13 @@ class TabulatedFriction(FrictionLaw):
     def _check_table(self) -> TabulatedFriction:
         speeds = [speed.base for speed in self.speeds]
         if len(speeds) != len(self.coefficients) or len(speeds) < 2:
-            raise _invalid(
-                "speeds and coefficients do not form a table", "give as many coefficients as speeds, two or more"
+            raise bad(
+                "friction",
+                "speeds and coefficients do not form a table",
+                "give as many coefficients as speeds, two or more",
             )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise _invalid("the speeds are not in rising order from 0 or more", "give them in rising order")
+            raise bad("friction", "the speeds are not in rising order from 0 or more", "give them in rising order")
         return self
 
     @property

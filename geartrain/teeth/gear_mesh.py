@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
-from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
+from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, PairSize
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
-    from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.teeth.tooth_form import ToothForm
+    from geartrain.teeth.transmission import ToothTransmission, TransmissionFunction
 
 
 @dataclass(frozen=True)
@@ -42,11 +43,11 @@ class GearMesh(Shown, ABC):
 
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
-    tooth_form: NamedForm
+    tooth_form: ToothForm
     """Tooth form of the pair."""
     who: MeshDriver
     """Name of the driving wheel, and how the driver was determined."""
-    transmission: TransmissionFunction
+    transmission: ToothTransmission
     """Transmission function of the pair while the driving wheel turns forwards.
 
     `coast` is the transmission function of the coast flanks, and `reversed` the transmission function with the other
@@ -138,15 +139,15 @@ class GearMesh(Shown, ABC):
         """Transmission function of the coast flanks, which are in contact while the driver turns backwards."""
         return self.transmission.reversed_motion()
 
-    @property
-    @abstractmethod
-    def reversed(self) -> TransmissionFunction:
+    @cached_property
+    def reversed(self) -> ToothTransmission:
         """Transmission function with the other wheel driving."""
+        return self.transmission.reversed
 
     @property
-    @abstractmethod
     def verdict(self) -> PairVerdict:
         """Verdict on whether these teeth can run."""
+        return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
         """Yield all faults of these teeth. The texts do not mention the pair or its file."""

@@ -11,13 +11,14 @@ from pydantic import Field, model_validator
 from geartrain.numerics.quantity import Angle
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, refused
+from geartrain.teeth.tooth_form import TwoFigures, bad, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair, InvoluteWheel
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _MOST_MODULES = 1_000_000  # larger than any wheel; squares of much larger lengths overflow
@@ -89,14 +90,7 @@ class Involute(ConjugateToothForm):
     @model_validator(mode="after")
     def _check_parameters(self) -> Involute:
         check_angle("pressure_angle", self.pressure_angle)
-        for name in ("addendum", "dedendum"):
-            for height in getattr(self, name):
-                if height.value <= 0:
-                    raise bad(
-                        "height",
-                        f"{name} must be greater than 0, not {height.text}",
-                        "give a number of modules above 0",
-                    )
+        check_above_0(self, "height", "addendum", "dedendum")
         for name in ("shift", "addendum", "dedendum"):
             for length in getattr(self, name):
                 if abs(length.value) > _MOST_MODULES:
@@ -144,14 +138,11 @@ class Involute(ConjugateToothForm):
         ConjugatePair
             Pair with equal tooth thicknesses and without backlash.
         """
-        from geartrain.teeth.conjugate import optimal_sides as forms
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch, psi = wheels.pitch, cls.declared(given).pressure_angle.si
         first, last = (arc * pitch.p for arc in arcs)
-        approach, recess = (forms.involute(max(X, 0.0), psi) for X in (first, last))
-        return ConjugatePair(PathOfContact(pitch, approach, recess, (first, last)), (pitch.p / 4, pitch.p / 4))
+        return ConjugatePair(_straight_path(pitch, psi, (first, last)), (pitch.p / 4, pitch.p / 4))
 
     def slant_pressure(self, wheels: WheelPair) -> float:
         """Return the ratio of the normal force on helical teeth to its transverse component, 1 or more.
@@ -254,23 +245,18 @@ class Involute(ConjugateToothForm):
         return InvoluteWheel(z, psi, shift, add, ded, min(mate, ded), ring)
 
     def _spur(self, wheels: WheelPair) -> ConjugatePair:
-        from geartrain.teeth.conjugate import optimal_sides as forms
         from geartrain.teeth.conjugate.admissibility import involute_faults
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         found = self.involutes(wheels)
-        approach, recess = (forms.involute(max(X, 0.0), found.psi) for X in found.arcs)
-        path = PathOfContact(found.pitch, approach, recess, found.arcs)
+        path = _straight_path(found.pitch, found.psi, found.arcs)
         return ConjugatePair(path, found.halves, involute_faults(found, path))
 
     # ----------------------------------------------------------------------------------------------- axes that meet
 
     def _bevel(self, wheels: WheelPair) -> ConjugatePair:
-        from geartrain.teeth.conjugate import optimal_sides as forms
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
         from geartrain.teeth.conjugate.involute_geometry import base_cone, cone_height, spherical_arc
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         if sum(figure.value for figure in self.shift):
             raise refused(
@@ -298,10 +284,7 @@ class Involute(ConjugateToothForm):
                 "the tips of one wheel leave the line of action before the tips of the other wheel reach it",
                 "give larger addenda, or smaller shifts",
             )
-        approach, recess = (forms.involute(max(X, 0.0), psi) for X in arcs)
-        return ConjugatePair(
-            PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels)
-        )
+        return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
 
     def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Return half the tooth thickness of both wheels as arcs X on the pitch cones [rad on the unit sphere].
@@ -313,3 +296,12 @@ class Involute(ConjugateToothForm):
             pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift
         )
         return first, second
+
+
+def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
+    """Return the path of constant pressure angle `psi` [rad] with these arcs X of approach and recess."""
+    from geartrain.teeth.conjugate.optimal_sides import involute
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+
+    approach, recess = (involute(max(X, 0.0), psi) for X in arcs)
+    return PathOfContact(pitch, approach, recess, arcs)

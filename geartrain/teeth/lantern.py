@@ -11,7 +11,7 @@ from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Figure, Length
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs, conjugate_pair_of
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, refused
+from geartrain.teeth.tooth_form import TwoFigures, check_above_0, check_one_of, number_of_wheel, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,11 +24,6 @@ if TYPE_CHECKING:
 _CUT_MARGIN = (
     1 + 1e-8
 )  # safety factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
-
-
-def _first_or_second(raw: object) -> object:
-    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
-    return int(raw) if raw in ("1", "2") else raw
 
 
 class Lantern(ConjugateToothForm):
@@ -51,7 +46,7 @@ class Lantern(ConjugateToothForm):
     matched: ClassVar[str] = "for a lantern the sum in recess only, beyond the part that its pins cut off"
 
     form: Literal["lantern"] = Field(description="Name of the tooth form")
-    pins: Annotated[Literal[1, 2], BeforeValidator(_first_or_second)] = Field(
+    pins: Annotated[Literal[1, 2], BeforeValidator(number_of_wheel)] = Field(
         2, description="Number of the wheel that is the lantern"
     )
     pin_diameter: Length = Field(
@@ -72,14 +67,8 @@ class Lantern(ConjugateToothForm):
 
     @model_validator(mode="after")
     def _check_parameters(self) -> Lantern:
-        lengths = {"pin_diameter": self.pin_diameter, "pin_radius": self.pin_radius, "addendum": self.addendum}
-        for name, length in lengths.items():
-            if length is not None and length.value <= 0:
-                raise bad("length", f"{name} must be greater than 0, not {length.text}", "give a length above 0")
-        if self.arcs is not None and self.addendum is not None:
-            raise bad(
-                "arcs", "arcs and addendum are both given", "remove `arcs` or `addendum`: each determines the other"
-            )
+        check_above_0(self, "length", "pin_diameter", "pin_radius", "addendum")
+        check_one_of(self, "arcs", "arcs", "addendum")
         if self.arcs is not None:
             check_arcs(self.arcs)
         return self

@@ -12,11 +12,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Length, Quantity
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
+from geartrain.teeth.tooth_form import bad, check_above_0
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
@@ -29,11 +29,8 @@ def _integer(raw: object) -> object:
 
 def _not_negative(length: Quantity) -> Quantity:
     if length.value < 0:
-        raise PydanticCustomError(
-            "pin",
-            "a clearance of {text} is negative",
-            {"text": length.text, "fix": "give 0 or more: a slot is as wide as its pin or wider"},
-        )
+        fix = "give 0 or more: a slot is as wide as its pin or wider"
+        raise bad("pin", f"a clearance of {length.text} is negative", fix)
     return length
 
 
@@ -107,16 +104,10 @@ class _ParallelCoupling(_Coupling):
     @model_validator(mode="after")
     def _has_no_friction(self) -> _ParallelCoupling:
         if self.friction is not None:
-            raise PydanticCustomError(
-                "pin",
-                "friction of a {kind} coupling is not modelled",
-                {"kind": self.kind, "fix": "declare its loss as the `efficiency` of the gear pair of its disc"},  # type: ignore[attr-defined]
-            )
-        for name in ("pin_radius", "offset", "pin_diameter"):
-            length = getattr(self, name, None)
-            if length is not None and length.value <= 0:
-                said = {"name": name, "text": length.text, "fix": "give a length above 0"}
-                raise PydanticCustomError("pin", "{name} must be greater than 0, not {text}", said)
+            what = f"friction of a {self.kind} coupling is not modelled"  # type: ignore[attr-defined]
+            raise bad("pin", what, "declare its loss as the `efficiency` of the gear pair of its disc")
+        lengths = ("pin_radius", "offset", "pin_diameter")
+        check_above_0(self, "pin", *(name for name in lengths if name in type(self).model_fields))
         return self
 
     @property
@@ -155,8 +146,8 @@ class Parallel(_ParallelCoupling):
     @model_validator(mode="after")
     def _has_no_pin(self) -> Parallel:
         if self.pin_radius is not None or self.clearance is not None:
-            said = {"fix": "remove `pin_radius` and `clearance`, or give `kind: pins_in_holes`"}
-            raise PydanticCustomError("pin", "a coupling of kind parallel has no pin", said)
+            fix = "remove `pin_radius` and `clearance`, or give `kind: pins_in_holes`"
+            raise bad("pin", "a coupling of kind parallel has no pin", fix)
         return self
 
 
@@ -173,57 +164,30 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
     if radius is None or offset is None:
         return
     if radius.value <= 0 or offset.value < 0:
-        raise PydanticCustomError(
-            "pin",
-            "pin_radius {radius} or offset {offset} is out of range",
-            {
-                "radius": radius.text,
-                "offset": offset.text,
-                "fix": "give a pin_radius above 0 and an offset of 0 or more",
-            },
-        )
+        what = f"pin_radius {radius.text} or offset {offset.text} is out of range"
+        raise bad("pin", what, "give a pin_radius above 0 and an offset of 0 or more")
     # an offset of 0 needs no unit
     if offset.value and (radius.unit is None) != (offset.unit is None):
-        raise PydanticCustomError(
-            "pin",
-            "pin_radius {radius} and offset {offset} mix a number without a unit and a length with a unit",
-            {"radius": radius.text, "offset": offset.text, "fix": "give both with a unit, or both without"},
-        )
+        mixed = "mix a number without a unit and a length with a unit"
+        what = f"pin_radius {radius.text} and offset {offset.text} {mixed}"
+        raise bad("pin", what, "give both with a unit, or both without")
     r, e = radius.base, offset.base
     # the slot would reverse its direction at that moment
     if r == e:
-        raise PydanticCustomError(
+        raise bad(
             "pin",
-            "pin_radius {radius} equals the offset: the pin would pass through the slot's axis",
-            {
-                "radius": radius.text,
-                "fix": "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
-            },
+            f"pin_radius {radius.text} equals the offset: the pin would pass through the slot's axis",
+            "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
         )
     if (r > e) != bool(winding):
         other = "pin_follower" if winding else "pin_and_slot"
-        raise PydanticCustomError(
-            "pin",
-            "a {kind} with pin_radius {radius} and offset {offset} is a {other}",
-            {
-                "kind": coupling.kind,
-                "radius": radius.text,
-                "offset": offset.text,
-                "other": other,
-                "fix": f"give `kind: {other}`, or correct the dimensions",
-            },
-        )
+        what = f"a {coupling.kind} with pin_radius {radius.text} and offset {offset.text} is a {other}"
+        raise bad("pin", what, f"give `kind: {other}`, or correct the dimensions")
     # the pin passes the axis of the slot at the minimum distance |r - e|
     slack = coupling.clearance
     if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
-        raise PydanticCustomError(
-            "pin",
-            "with a clearance of {clearance} the pin passes the slot's axis without touching the slot",
-            {
-                "clearance": slack.text,
-                "fix": "give a clearance below twice the difference of pin_radius and offset",
-            },
-        )
+        what = f"with a clearance of {slack.text} the pin passes the slot's axis without touching the slot"
+        raise bad("pin", what, "give a clearance below twice the difference of pin_radius and offset")
 
 
 def pin_transmission(

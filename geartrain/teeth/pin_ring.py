@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import Length, Quantity
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, check_above_0, in_modules, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.cycloidal_disc import CycloidalDisc, DiscTransmission
@@ -39,6 +39,7 @@ class PinRing(ToothForm):
     """
 
     ringed: ClassVar[bool] = True
+    own_play: ClassVar[tuple[str, ...]] = ("clearance",)
 
     form: Literal["pin_ring"] = Field(description="Name of the tooth form")
     pin_circle: Length | None = Field(
@@ -65,10 +66,7 @@ class PinRing(ToothForm):
 
     @model_validator(mode="after")
     def _check_lengths(self) -> PinRing:
-        for name in ("pin_circle", "pin_diameter", "deflection"):
-            length = getattr(self, name)
-            if length is not None and length.value <= 0:
-                raise bad("length", f"{name} must be greater than 0, not {length.text}", "give a length above 0")
+        check_above_0(self, "length", "pin_circle", "pin_diameter", "deflection")
         if self.clearance.value < 0:
             raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "give 0 or more")
         return self
@@ -138,16 +136,7 @@ class PinRing(ToothForm):
         return CycloidalDisc(lobes, circle, pin, back, yielding)
 
     def _modules(self, name: str, module: float | None) -> float:
-        length: Quantity = getattr(self, name)
-        if length.unit is None or not length.value:
-            return float(length.value)
-        if module is None:
-            raise refused(
-                f"the {name} {length.text} cannot be converted to modules",
-                "the wheels declare no module with a unit",
-                f"declare the `module` of both wheels with a unit, or give the {name} as a number of modules",
-            )
-        return length.si / module
+        return in_modules(getattr(self, name), module, name)
 
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, module: float | None = None
@@ -208,23 +197,8 @@ class PinRing(ToothForm):
         return DiscMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
-
-        A declared clearance takes precedence over the backlash of the manufacturing options.
-
-        Returns
-        -------
-        Problem or None
-            None if no clearance is declared.
-        """
-        if not self.clearance.value:
-            return None
-        why = f"the declared clearance of {self.clearance.text} takes precedence over --backlash"
-        return Problem(
-            f"pair '{pair}' declares its own clearance",
-            why,
-            "omit --backlash, or remove `clearance` from the file",
-        )
+        """Return the reason why the backlash of the manufacturing options does not apply: a clearance above 0."""
+        return super().own_backlash(pair) if self.clearance.value else None
 
     def thinned(self, backlash: Quantity) -> PinRing:
         """Return a copy with the clearance between lobes and pins that gives the required backlash.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from itertools import pairwise
 from math import inf, nan
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,7 +22,6 @@ _GAUSS = np.polynomial.legendre.leggauss(16)  # nodes and weights on [-1, 1]
 _ROUNDING = 1e-12  # periods: tolerance of the integral over an interval
 _MAXIMUM_DEPTH = 40  # bisections: a coefficient may fall within a small fraction of the sliding speeds
 _END = 1e-9  # of an interval: distance from its ends at which the efficiency is evaluated for its minimum
-_NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 
 
 class _Nodes(NamedTuple):
@@ -122,13 +120,6 @@ class RubbedTransmission(DerivedTransmission):
         return self.transmission.locking_friction < inf and bool(np.isnan(self._period_nodes.efficiency).any())
 
     @cached_property
-    def _smooth_intervals(self) -> list[tuple[float, float]]:
-        """Intervals of driver angle in one period in which the transmission function is smooth [rad]."""
-        cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()} or {0.0})
-        edges = pairwise([*cuts, cuts[0] + self.period])
-        return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
-
-    @cached_property
     def _period_nodes(self) -> _Nodes:
         """Quadrature nodes of one period with contact; their weights sum to 1."""
         if (given := self.transmission.rubbing_nodes()) is not None:
@@ -137,7 +128,7 @@ class RubbedTransmission(DerivedTransmission):
         else:
             parts = [
                 part
-                for low, high in self._smooth_intervals
+                for low, high in self.smooth_intervals()
                 for part in self._adaptive_nodes(self._nodes(low, high), low, high)
             ]
         S, weights, efficiency, coefficient = (np.concatenate(column) for column in zip(*parts, strict=True))
@@ -189,7 +180,7 @@ class RubbedTransmission(DerivedTransmission):
             return float(self._period_nodes.efficiency.min())
         # at the end itself another tooth pair may be in contact, or the contact be on the other side of the pitch point
         ends = np.array(
-            [low + share * (high - low) for low, high in self._smooth_intervals for share in (_END, 1 - _END)]
+            [low + share * (high - low) for low, high in self.smooth_intervals() for share in (_END, 1 - _END)]
         )
         return float(min(np.nanmin(self.efficiency(ends)), self._period_nodes.efficiency.min()))
 

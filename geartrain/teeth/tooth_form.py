@@ -29,6 +29,11 @@ def twice(raw: object) -> object:
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
+def number_of_wheel(raw: object) -> object:
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
+    return int(raw) if raw in ("1", "2") else raw
+
+
 def _schema(kind: str) -> WithJsonSchema:
     one = {"type": ["number", "string"]} if kind == "number" else {"type": ["string", "number"]}
     return WithJsonSchema({"anyOf": [one, {"type": "array", "items": one, "minItems": 2, "maxItems": 2}]})
@@ -65,6 +70,9 @@ class ToothForm(BaseModel, ABC):
 
     ringed: ClassVar[bool] = False
     """True for teeth whose second wheel is a ring gear."""
+
+    own_play: ClassVar[tuple[str, ...]] = ()
+    """Fields that determine the backlash if they are declared."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
     """Fields that do not affect the shape: stiffness and damping of the teeth in dynamic simulations."""
@@ -184,7 +192,13 @@ class ToothForm(BaseModel, ABC):
         Problem or None
             None if the backlash can be applied.
         """
-        del pair
+        for name in self.own_play:
+            given = getattr(self, name) if name in self.model_fields_set else None
+            if given is not None:
+                text = " and ".join(each.text for each in given) if isinstance(given, tuple) else given.text
+                why = f"its declared {name} {text} takes precedence over --backlash"
+                fix = f"omit --backlash, or remove `{name}` from the file"
+                return Problem(f"pair '{pair}' declares its own {name}", why, fix)
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
@@ -200,13 +214,46 @@ class ToothForm(BaseModel, ABC):
         ToothForm
             A copy with this backlash.
         """
-        del backlash
-        return self
+        return self.model_copy(update={"backlash": backlash}) if "backlash" in self.own_play else self
 
 
 def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
     """Return a validation error for a declaration, with its fix."""
     return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
+
+
+def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
+    """Raise a validation error of this kind if a value of these fields is given and is not greater than 0."""
+    for name in names:
+        given = getattr(form, name)
+        for value in given if isinstance(given, tuple) else (given,):
+            if value is not None and value.value <= 0:
+                raise bad(kind, f"{name} must be greater than 0, not {value.text}", "give a value above 0")
+
+
+def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
+    """Raise a validation error of this kind if both fields are given."""
+    if all(name in form.model_fields_set and getattr(form, name) is not None for name in (first, second)):
+        raise bad(
+            kind, f"{first} and {second} are both given", f"remove `{first}` or `{second}`: each determines the other"
+        )
+
+
+def in_modules(length: Quantity, module: float | None, name: str) -> float:
+    """Convert a declared length to modules; a number without a unit is a number of modules.
+
+    `name` is the name of the field, for the error message. Raises `GearTrainError` if the length has a unit and the
+    module [m] is unknown.
+    """
+    if length.unit is None or not length.value:
+        return float(length.value)
+    if module is None:
+        raise refused(
+            f"the {name} {length.text} cannot be converted to modules",
+            "the wheels declare no module with a unit",
+            f"give the `module` of both wheels (option --module), or the {name} as a number of modules",
+        )
+    return length.si / module
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:

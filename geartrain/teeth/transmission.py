@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
+from itertools import pairwise
 from math import degrees, inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.pair_results import PairVerdict
+
+
+_NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 
 
 def check_friction(friction: float) -> float:
@@ -220,6 +225,14 @@ class TransmissionFunction(Shown, ABC):
         """
         return []
 
+    def smooth_intervals(self) -> list[tuple[float, float]]:
+        """Return the intervals of driver angle between the kinks of one period [rad]; shorter ones than 1e-13 periods
+        are rounding.
+        """
+        cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
+        edges = pairwise([*cuts, cuts[0] + self.period])
+        return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
+
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
         """Return all upward steps of the speed ratio within one pitch, at which the teeth impact; None if the steps are
         not computed.
@@ -292,6 +305,36 @@ class TransmissionFunction(Shown, ABC):
         return angle
 
 
+class ToothTransmission(TransmissionFunction):
+    """Transmission function of a pair of toothed wheels with either wheel driving, forwards or backwards.
+
+    If the driver turns backwards, the coast flanks drive. Angles keep their sign convention, so they decrease.
+    """
+
+    driver: int
+    """Number of the driving wheel, 1 or 2."""
+    direction: int
+    """Direction of rotation, 1 or -1."""
+
+    @property
+    @abstractmethod
+    def verdict(self) -> PairVerdict:
+        """Verdict on whether the pair can run."""
+
+    @abstractmethod
+    def _driven(self, driver: int, direction: int) -> Self:
+        """Return the transmission function of the same pair with another driver or direction."""
+
+    @property
+    def reversed(self) -> Self:
+        """Transmission function with the other wheel driving."""
+        return self._driven(3 - self.driver, self.direction)
+
+    def reversed_motion(self) -> Self:
+        """Return the transmission function of the coast flanks, for the reverse direction of rotation."""
+        return self._driven(self.driver, -self.direction)
+
+
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
     """Write S modulo the period into `out`, twice as fast as numpy.mod.
 
@@ -310,14 +353,17 @@ def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
 
 
 class ExactRatio(TransmissionFunction):
-    """Transmission function without error or loss: the speed ratio is constant."""
+    """Transmission function with a constant speed ratio and without loss.
 
-    def __init__(self, ratio: Fraction, period: float) -> None:
-        self.ratio, self.period = ratio, period
+    Its transmission error is the constant `lag` [rad of the driven side], by default 0.
+    """
+
+    def __init__(self, ratio: Fraction, period: float, lag: float = 0.0) -> None:
+        self.ratio, self.period, self.lag = ratio, period, lag
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error at driver angles S, which is 0."""
-        return self._constant(S, 0.0)
+        """Return the transmission error at driver angles S, which is constant [rad of the driven side]."""
+        return self._constant(S, self.lag)
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at driver angles S, which is constant."""
@@ -332,12 +378,12 @@ class ExactRatio(TransmissionFunction):
         return float(self.ratio), float(self.ratio)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error, which are 0."""
-        return 0.0, 0.0
+        """Return the minimum and the maximum transmission error, which are equal [rad of the driven side]."""
+        return self.lag, self.lag
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation, which are 0."""
-        return 0.0, 0.0
+        """Return the mean of the transmission error [rad of the driven side] and its rms deviation, which is 0."""
+        return self.lag, 0.0
 
     def efficiency_mean(self) -> float:
         """Return the mean efficiency, which is 1."""
@@ -398,28 +444,3 @@ class DerivedTransmission(TransmissionFunction):
     def locking_friction(self) -> float:
         """Minimum coefficient of friction that locks the underlying function."""
         return self.transmission.locking_friction
-
-
-class ConstantLag(ExactRatio):
-    """Transmission function with a constant ratio and a constant transmission error `mean` [rad]."""
-
-    def __init__(self, ratio: Fraction, period: float, mean: float) -> None:
-        super().__init__(ratio, period)
-        self.mean = mean
-
-    @classmethod
-    def at(cls, transmission: TransmissionFunction, S: float) -> ConstantLag:
-        """Return a constant lag equal to the transmission error of another function at the driver angle S [rad]."""
-        return cls(transmission.ratio, transmission.period, float(transmission.error(S)))
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error at driver angles S [rad], which is constant."""
-        return self._constant(S, self.mean)
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which are equal."""
-        return self.mean, self.mean
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error [rad] and its rms deviation, which is 0."""
-        return self.mean, 0.0

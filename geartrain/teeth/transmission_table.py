@@ -21,18 +21,16 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from geartrain.numerics.kernels import kernel
-from geartrain.teeth.transmission import DerivedTransmission, TransmissionFunction, behind
+from geartrain.teeth.transmission import DerivedTransmission, TransmissionFunction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from geartrain.numerics.arrays import Floats, Indices, Ints
+    from geartrain.numerics.arrays import Floats, Ints
 
-    Flags = NDArray[np.bool_]
 
 # each degree costs 10 % more time per angle; below 4, tables of wheels with few teeth do not fit into the caches
 DEGREE = 4
-_BLOCK = 8192  # angles evaluated at once: their arrays and the table fit into a cache
 _FEWEST, _MOST = 32, 1 << 16  # minimum and maximum number of cells
 _PATIENCE = 8  # an error not halved by this factor of cells is rounding error
 _THIN = 1e-12  # periods: in narrower cells the table is constant
@@ -110,34 +108,19 @@ class CellTable:
     def __call__(self, S: ArrayLike) -> Floats:
         """Return the function at driver angles S [rad] of any shape."""
         S = np.asarray(S, dtype=float)
-        flat = S.ravel()
-        found = np.empty_like(flat)
-        size = min(_BLOCK, len(flat))
-        scratch = np.empty(size), np.empty(size), np.empty(size, np.intp), np.empty(size, bool)
         with np.errstate(invalid="ignore"):
-            for start in range(0, len(flat), _BLOCK):
-                self._block(flat[start : start + _BLOCK], found[start : start + _BLOCK], *scratch)
-        return found.reshape(S.shape)
-
-    def _block(self, S: Floats, found: Floats, u: Floats, other: Floats, cell: Indices, passed: Flags) -> None:
-        """Write the function at S into `found`; the other arrays are work space."""
-        u, other, cell, passed = u[: len(S)], other[: len(S)], cell[: len(S)], passed[: len(S)]
-        behind(S, self.period, u, other)
-        np.multiply(u, self.cells / self.period, out=other)
-        np.copyto(cell, other, casting="unsafe")
-        # every kink below the angle adds a cell to the count of uniform cells
-        for kink in self.kinks:
-            np.greater_equal(u, kink, out=passed)
-            np.add(cell, passed, out=cell)
-        # clipped, since rounding may lead past the last cell and NaN anywhere; mode `raise` would fill `out` via a copy
-        np.take(self.middles, cell, out=other, mode="clip")
-        np.subtract(u, other, out=u)
-        # Horner's method
-        np.take(self.coefficients[-1], cell, out=found, mode="clip")
-        for coefficients in self.coefficients[-2::-1]:
-            np.multiply(found, u, out=found)
-            np.take(coefficients, cell, out=other, mode="clip")
-            np.add(found, other, out=found)
+            u = np.mod(S, self.period)
+            # every kink below the angle adds a cell to the count of uniform cells
+            cell = np.asarray(u * (self.cells / self.period)).astype(np.intp)
+            for kink in self.kinks:
+                cell = cell + (u >= kink)
+            # clipped, since rounding may lead past the last cell and NaN anywhere
+            u = u - self.middles.take(cell, mode="clip")
+            found = self.coefficients[-1].take(cell, mode="clip")
+            # Horner's method
+            for coefficients in self.coefficients[-2::-1]:
+                found = found * u + coefficients.take(cell, mode="clip")
+        return np.asarray(found)
 
 
 def folded_kinks(transmission: HasKinks) -> Floats:

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 from geartrain.numerics.quantity import Angle, Figure, Quantity
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, refused
+from geartrain.teeth.tooth_form import TwoFigures, bad, check_above_0, check_one_of, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -67,11 +67,9 @@ class UniformTemperature(ConjugateToothForm):
 
     @model_validator(mode="after")
     def _check_parameters(self) -> UniformTemperature:
-        if self.heat is not None and self.depth is not None:
-            raise bad("heat", "heat and depth are both given", "remove `heat` or `depth`: each determines the other")
-        for name, figure in (("heat", self.heat), ("depth", self.depth)):
-            if figure is not None and figure.value <= 0:
-                raise bad(name, f"{name} must be greater than 0, not {figure.text}", "give a number above 0")
+        check_one_of(self, "heat", "heat", "depth")
+        for name in ("heat", "depth"):
+            check_above_0(self, name, name)
         if self.minimum_angle is not None:
             if self.reading != "c":
                 raise bad(

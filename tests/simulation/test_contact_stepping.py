@@ -38,7 +38,7 @@ from geartrain.simulation.steps.contact_solution import (
 )
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, empty_equations, simulate, start_state
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
-from geartrain.teeth.transmission import ConstantLag, ExactRatio
+from geartrain.teeth.transmission import ExactRatio
 
 TURN = 2 * pi
 EVEN = tabled_angle(ExactRatio(Fraction(1), TURN))
@@ -46,7 +46,7 @@ EVEN = tabled_angle(ExactRatio(Fraction(1), TURN))
 
 def ahead(backlash: float) -> TabledFunction:
     """The coast flank of even teeth with some play."""
-    return tabled_angle(ConstantLag(Fraction(1), TURN, backlash))
+    return tabled_angle(ExactRatio(Fraction(1), TURN, backlash))
 
 
 def pair(

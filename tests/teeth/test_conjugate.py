@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from functools import cache
+from functools import cache, partial
 from math import asin, cos, degrees, inf, log, pi, radians, sin, tan
 from typing import Any
 
@@ -135,7 +135,7 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
     contact = found.at(X)
     assert close(float(contact.d[0]), row[2], 2)
     assert close(float(np.degrees(contact.psi[0])), row[3], 2)
-    for points, printed in ((found.flank1(X), row[4]), (found.flank2(X), row[5])):
+    for points, printed in ((found.flank(1, X), row[4]), (found.flank(2, X), row[5])):
         for value, text in zip(points[0], printed.split(","), strict=False):
             assert close(float(value), text.strip(), 2)
     for value, text in ((contact.k1[0], row[6]), (contact.k2[0], row[7])):
@@ -179,7 +179,7 @@ def test_every_path_obeys_the_fundamental_law_and_euler_savary(
     c1, c2 = (np.arctan2(1, c.k1), np.arctan2(1, -c.k2)) if bevel else (1 / c.k1, -1 / c.k2)
     savary = 1 / np.tan(c1 - c.d) + 1 / np.tan(c2 + c.d) if bevel else 1 / (c1 - c.d) + 1 / (c2 + c.d)
     np.testing.assert_allclose(savary, (A + B) / c.sin_psi, rtol=1e-6)
-    for flank, speed in ((found.flank1, c.U1), (found.flank2, c.U2)):
+    for flank, speed in ((partial(found.flank, 1), c.U1), (partial(found.flank, 2), c.U2)):
         moved = np.linalg.norm(flank(at + step) - flank(at - step), axis=-1) / (2 * step)
         np.testing.assert_allclose(moved, np.abs(speed), rtol=1e-5)
 

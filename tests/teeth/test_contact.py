@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from math import acos, atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt, tan
 from typing import Any
@@ -73,8 +74,8 @@ def conjugate(path: PathOfContact, other: PathOfContact | None = None) -> tuple[
         change = in_body(pitch, gear)
         return tuple(OutlineCurve(lambda X: change(flank(X)), *ends) for ends in ((-approach, -1e-300), (0.0, recess)))
 
-    one = ToothFlanks.symmetric(side(path.flank1, 1), -pi / pitch.z1 / 2)
-    two = ToothFlanks.symmetric(side((other or path).flank2, 2), pi / pitch.z2 / 2)
+    one = ToothFlanks.symmetric(side(partial(path.flank, 1), 1), -pi / pitch.z1 / 2)
+    two = ToothFlanks.symmetric(side(partial((other or path).flank, 2), 2), pi / pitch.z2 / 2)
     second = GearOutline((ToothFlanks(two.behind, two.ahead),), pitch.z2, ring=pitch.R2 < 0)
     return GearOutline((one,), pitch.z1), second, abs(pitch.R1 + pitch.R2)
 

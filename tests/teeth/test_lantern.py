@@ -40,7 +40,7 @@ def test_the_mate_of_the_table_has_the_points_of_the_table() -> None:
         assert float(c.d[0]) == pytest.approx(d, abs=2e-12)
         assert float(np.degrees(c.psi[0])) == pytest.approx(psi, abs=2e-11)
         # the table turns the mate from the pin on the line of centres, the path from the pitch point
-        turned = np.exp(1j * FIRST / 12) * (path.flank1(at)[0] @ np.array([1, 1j]) + 12j)
+        turned = np.exp(1j * FIRST / 12) * (path.flank(1, at)[0] @ np.array([1, 1j]) + 12j)
         assert (turned.real, turned.imag - 12) == (pytest.approx(x, abs=3e-12), pytest.approx(y, abs=3e-12))
 
 
@@ -82,7 +82,7 @@ def test_the_mate_is_the_envelope_of_the_drawn_pins(
     path, lost = transmission.path, max(-transmission.pair.arcs[0 if pins == 2 else 1], 0.0)
     arc = path.arcs[0 if pins == 1 else 1]
     X = lost + np.linspace(1e-6, 1, 6) * (arc - lost)
-    points = path.flank2(-X) if pins == 1 else path.flank1(X)
+    points = path.flank(2, -X) if pins == 1 else path.flank(1, X)
     c = path.at(-X if pins == 1 else X)
     assume(min(c.U1.min(), c.U2.min()) > 0)  # pins outside their pitch circle undercut the mate at once
     # centre of the pin in the mate's frame as the pair turns; the mate's centre below, the pins' above, or mirrored
@@ -108,7 +108,7 @@ def test_pins_are_round_and_their_mate_bends_as_the_closed_form_says() -> None:
     np.testing.assert_allclose(c.k2, -1 / B, rtol=1e-9)
     c1 = 4 * R2 * (R1 + R2) / (R1 + 2 * R2) * c.sin_psi - B
     np.testing.assert_allclose(c.k1, 1 / c1, rtol=1e-9)
-    x, y = path.flank2(X).T
+    x, y = path.flank(2, X).T
     start = asin(B / (2 * R2)) * 2
     centre = 18 * np.sin(start), 18 * (1 - np.cos(start))
     np.testing.assert_allclose(np.hypot(x - centre[0], y - centre[1]), B, rtol=1e-12)
@@ -193,7 +193,7 @@ def test_the_mates_addendum_ends_its_flank() -> None:
     for z1, z2, pins, internal, tip in ((24, 36, 2, False, 13.1), (10, 60, 1, False, 31.1), (10, 60, 1, True, 28.9)):
         path = lantern(pins=pins, addendum="1.1").path(z1, z2, internal=internal)
         X = np.array([path.arcs[1] if pins == 2 else -path.arcs[0]])
-        x, y = (path.flank1 if pins == 2 else path.flank2)(X)[0]
+        x, y = path.flank(3 - pins, X)[0]
         assert hypot(x, y - (-12 if pins == 2 else path.pitch.R2)) == pytest.approx(tip, rel=1e-12)
 
 

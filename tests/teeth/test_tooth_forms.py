@@ -178,8 +178,8 @@ def test_a_ring_and_its_pinion_touch_where_two_drawn_involutes_first_do() -> Non
         ring = inv(alpha) - (np.tan(t := np.arccos(rb2 / at[used])) - t)
         # pushed forwards, the ring stands where the farthest point of the pinion's flank lets it
         assert np.max(around[used] - ring) == pytest.approx(turned * z1 / z2, abs=2e-9)
-    for flank, centre, base, X in ((path.flank1, -z1 / 2, rb1, 0.4), (path.flank2, -z2 / 2, rb2, 0.4)):
-        x, y = flank(np.array([X, -X])).T
+    for gear, centre, base in ((1, -z1 / 2, rb1), (2, -z2 / 2, rb2)):
+        x, y = path.flank(gear, np.array([0.4, -0.4])).T
         radius = np.hypot(x, y - centre)
         drawn = inv(alpha) - (np.tan(t := np.arccos(base / radius)) - t)
         np.testing.assert_allclose(np.arctan2(x, y - centre), drawn, atol=1e-13)
@@ -290,9 +290,9 @@ def test_a_misfit_of_involute_wheels_has_a_name_and_a_remedy(given: dict[str, st
 def test_radial_flanks_come_from_rolling_circles_of_half_the_pitch_circle() -> None:
     path = shape("cycloidal").path(8, 60)
     X = np.linspace(0, path.arcs[1], 9)[1:]
-    x, y = path.flank2(X).T
+    x, y = path.flank(2, X).T
     np.testing.assert_allclose(np.arctan2(x, 30 - y), 0, atol=1e-14)
-    x, y = path.flank1(-X[:4]).T
+    x, y = path.flank(1, -X[:4]).T
     np.testing.assert_allclose(np.arctan2(x, 4 + y), 0, atol=1e-14)
 
 
@@ -303,7 +303,7 @@ def test_the_addendum_of_a_cycloid_is_traced_by_a_point_of_the_rolling_circle() 
     t = X / R  # the rolling circle's centre has gone back by t while the wheel stands still
     centre = (R + rho) * 1j * np.exp(1j * t)
     traced = centre - rho * 1j * np.exp(1j * (t + X / rho))
-    x, y = path.flank1(X).T
+    x, y = path.flank(1, X).T
     np.testing.assert_allclose(x, traced.real, atol=1e-13)
     np.testing.assert_allclose(y + R, traced.imag, atol=1e-13)
 
@@ -313,7 +313,7 @@ def test_an_addendum_ends_the_flank_at_its_height(angle: float | None) -> None:
     for form in (shape("cycloidal", addendum=[0.5, 0.4]), shape("involute", addendum=[0.5, 0.4])):
         path = form.path(24, 36, shaft_angle=angle)
         pitch = path.pitch
-        first, second = path.flank1(np.array([path.arcs[1]]))[0], path.flank2(np.array([-path.arcs[0]]))[0]
+        first, second = path.flank(1, np.array([path.arcs[1]]))[0], path.flank(2, np.array([-path.arcs[0]]))[0]
         if angle is None:
             assert hypot(first[0], first[1] + 12) == pytest.approx(12.5, rel=1e-13)
             assert hypot(second[0], second[1] - 18) == pytest.approx(18.4, rel=1e-13)
@@ -336,8 +336,8 @@ def test_the_rolling_cone_of_a_bevel_cycloid_keeps_its_contact_on_one_small_circ
     pole = np.array([0, sin(rho), cos(rho)])
     np.testing.assert_allclose(points @ pole, cos(rho), rtol=1e-14)
     step = 1e-6 * path.arcs[1]
-    for flank, speed in ((path.flank1, c.U1), (path.flank2, c.U2)):
-        moved = np.linalg.norm(flank(X + step) - flank(X - step), axis=-1) / (2 * step)
+    for gear, speed in ((1, c.U1), (2, c.U2)):
+        moved = np.linalg.norm(path.flank(gear, X + step) - path.flank(gear, X - step), axis=-1) / (2 * step)
         np.testing.assert_allclose(moved, np.abs(speed), rtol=1e-6)
 
 
@@ -358,8 +358,8 @@ def test_the_literal_extremal_is_that_of_the_table(row: str) -> None:
     c = path.at(at)
     assert float(c.d[0]) == pytest.approx(d, abs=2e-12)
     assert degrees(float(c.psi[0])) == pytest.approx(psi, abs=1e-10)
-    np.testing.assert_allclose(path.flank1(at)[0], (x1, y1), atol=2e-12)
-    np.testing.assert_allclose(path.flank2(at)[0], (x2, y2), atol=2e-12)
+    np.testing.assert_allclose(path.flank(1, at)[0], (x1, y1), atol=2e-12)
+    np.testing.assert_allclose(path.flank(2, at)[0], (x2, y2), atol=2e-12)
     assert (float(c.U1[0]), float(c.U2[0])) == (pytest.approx(U1, abs=2e-10), pytest.approx(U2, abs=2e-10))
 
 
@@ -441,8 +441,8 @@ def torque_balance(path: PathOfContact, X: float, friction: float, driver: int) 
     ends = np.array([X - step, X, X + step])
     bodies = []
     for flank, reach, R in (
-        (path.flank1(ends), -pitch.reach, -pitch.R1),
-        (path.flank2(ends), pitch.reach2, pitch.R2),
+        (path.flank(1, ends), -pitch.reach, -pitch.R1),
+        (path.flank(2, ends), pitch.reach2, pitch.R2),
     ):
         three = np.zeros((3, 3))
         if pitch.bevel:

@@ -36,7 +36,7 @@ def test_equal_thickness_is_half_the_backlash_each() -> None:
     ("given", "words"),
     [
         ({"thickness": "1.2", "backlash": "0.1"}, "both given"),
-        ({"thickness": ["1.2", "0"]}, "a thickness must be greater than 0, not 0"),
+        ({"thickness": ["1.2", "0"]}, "thickness must be greater than 0, not 0"),
         ({"thickness": ["1.7", "1.5"]}, "exceed the pitch"),
     ],
 )

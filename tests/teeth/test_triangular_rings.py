@@ -247,7 +247,7 @@ def test_the_inverse_pair_undoes_the_pair() -> None:
         for x in np.linspace(-0.8, 0.8, 5) * drawn.reach1:
             y = tooth_pair.contact(float(x))
             assert -inverse.contact(-y) == pytest.approx(x, abs=1e-13)
-            phase = "approach" if tooth_pair.approach_angle(x) <= tooth_pair.recess_angle(x) else "recess"
+            phase = "approach" if tooth_pair.angle("approach", x) <= tooth_pair.angle("recess", x) else "recess"
             back = "recess" if phase == "approach" else "approach"
             assert tooth_pair.speed(phase, x) * inverse.speed(back, -y) == pytest.approx(1, abs=1e-11)
             there, here = inverse.efficiency(back, -y, 0.15), tooth_pair.efficiency(phase, x, -0.15)
@@ -371,6 +371,7 @@ def test_a_planetary_set_has_the_reference_motion_and_efficiency(name: str) -> N
         ({"window": "0.5", "radii": "equal_depth"}, (20, 60), ["no clearance", "pitch_true"]),
         ({"window": "0.5"}, (60, 60), ["a ring of 60 teeth cannot contain a wheel of 60 teeth"]),
         ({"excess": "0.9", "radii": "0.9"}, (20, 21), ["overlap at every angle"]),
+        ({"backlash": "0.05", "radii": ["18", "10"]}, (20, 60), ["overlap at every angle"]),
     ],
 )
 def test_what_no_ring_can_have_is_refused_by_name(

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import pairwise
 from math import degrees, pi, radians, tan
 from random import Random
 
 import numpy as np
 import pytest
-from sorge import RECESS, Pair, drawn, first_of_all, integral, mp
+from sorge import Pair, drawn, first_of_all, integral, mp
 
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth
@@ -188,26 +187,6 @@ def test_the_mean_of_the_transmission_is_the_ratio_of_teeth() -> None:
             )
 
 
-def test_the_transmission_repeats_at_every_pitch() -> None:
-    for sizes, transmission, random in transmissions(36, 20, 1e4):
-        S = np.array([random.uniform(-1, 1) * transmission.period for _ in range(50)])
-        for pitches in (1, -7, 1000):
-            again = transmission.error(S + pitches * transmission.period)
-            assert np.abs(again - transmission.error(S)).max() < 1e-12 * sizes.p2, sizes
-
-
-def test_the_mean_speed_over_a_pitch_is_the_ratio() -> None:
-    for sizes, transmission, _ in transmissions(37, 12, 1e3):
-        points, weights = np.polynomial.legendre.leggauss(40)
-        edges = sorted({0.0, transmission.period, *(float(kink) % transmission.period for kink in kinks(transmission))})
-        mean = sum(
-            (high - low) / 2 * float(weights @ transmission.speed((low + high) / 2 + (high - low) / 2 * points))
-            for low, high in pairwise(edges)
-            if high - low > 1e-13 * transmission.period
-        )
-        assert mean / transmission.period == pytest.approx(float(transmission.ratio), rel=1e-10), sizes
-
-
 def kinks(transmission: TriangularTransmission) -> list[float]:
     return [end * -1.0 for interval in transmission.intervals for end in (interval.start, interval.end)]
 
@@ -273,12 +252,6 @@ def test_collisions_share_the_work_of_the_driver() -> None:
             assert dissipated > 0
 
 
-def test_in_every_collision_the_driven_wheel_is_the_slower() -> None:
-    for _, transmission, _ in transmissions(41, 25, 1e4):
-        assert transmission.jumps
-        assert all(0 < jump.value < 1 for jump in transmission.jumps)
-
-
 def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
     for sizes, transmission, _ in transmissions(42, 15, 300):
         S = np.linspace(0, transmission.period, 20001)
@@ -310,12 +283,3 @@ def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:
         assert sum(interval.width for interval in transmission.intervals) == pytest.approx(
             transmission.period, rel=1e-12
         )
-
-
-def test_astride_the_efficiency_is_the_highest_of_the_source() -> None:
-    means = [
-        TriangularTransmission(equally_deep(z1, z2, excess), 0.2).efficiency_mean()
-        for z1, z2, excess, *_ in MORE_DIGITS
-    ]
-    assert max(means) == means[-1]
-    assert [interval.phase for interval in TriangularTransmission(equally_deep(48, 96, 0.01)).intervals] == [RECESS]

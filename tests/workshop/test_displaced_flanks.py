@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from math import cos, pi, radians, sin
 
 import numpy as np
@@ -189,7 +189,7 @@ def on_sphere(pair: object, gear: int, moved: np.ndarray) -> GearOutline:
     pitch, (approach, recess) = path.pitch, path.arcs
     R = -pitch.R1 if gear == 1 else pitch.R2
     axis, out = np.array([0.0, sin(R), cos(R)]), np.sign(R) * np.array([0.0, -cos(R), sin(R)])
-    flank = path.flank1 if gear == 1 else path.flank2
+    flank = partial(path.flank, gear)
     half = pair.halves[gear - 1] / (pitch.reach if gear == 1 else pitch.reach2)  # type: ignore[attr-defined]
     z = pitch.z1 if gear == 1 else pitch.z2
 

@@ -233,7 +233,7 @@ def pins() -> float:
     made = PathOfContact(pitch, nothing, side)
     start = closed_form_sides.pin_angle(R2, A, B) * R2
     X = np.linspace(0.1, 0.9, 30) * pitch.p
-    contact, points = made.at(X), made.flank1(X)
+    contact, points = made.at(X), made.flank(1, X)
     turn = (X + start) / R2
     C = np.sqrt(A**2 + R2**2 - 2 * A * R2 * np.cos(turn)) - B  # (12)
     x, y = C / (C + B) * A * np.sin(turn), C / (C + B) * (R2 - A * np.cos(turn))  # (13), mirrored
@@ -264,7 +264,7 @@ def same_flank(shape: str) -> Finding:
         made = PathOfContact(pitch, one, other)
         first, last = made.arcs
         at = np.linspace(0.2 if shape == "friction" else -0.9 * first, 0.9 * last, 25)
-        flanks.append(made.flank1(at))
+        flanks.append(made.flank(1, at))
     apart = float(np.abs(flanks[0] - flanks[1]).max())
     text = "the same flank to 1e-10" if apart < 1e-10 else f"flanks up to {apart:.4f} modules apart"
     return Finding(apart < 1e-10, f"24 teeth with 36 and 60: {text}")

@@ -93,7 +93,7 @@ def seen(path: PathOfContact, recess: bool = True, first: float = 0.15, last: fl
     pitch = path.pitch
     arc = path.arcs[1] if recess else -path.arcs[0]
     X = arc * (first + (last - first) * (chebyshev(nodes) + 1) / 2)
-    points = path.flank1(X), path.flank2(X)
+    points = path.flank(1, X), path.flank(2, X)
     frames = [_polar(points[k], (pitch.R1, pitch.R2)[k], k == 1, pitch.bevel) for k in (0, 1)]
     angles = [X / pitch.reach, X / pitch.reach2]
     placed = [

@@ -83,8 +83,8 @@ def matched() -> Finding:
     angles, jumps = [], []
     for pair in figures().values():
         s, tooth_pair = pair.sizes, pair.contact.path.tooth_pair
-        angles.append(abs(tooth_pair.approach_angle(s.matching) + s.matching))
-        jumps.append(tooth_pair.recess_speed(s.matching) / tooth_pair.approach_speed(s.matching) - 1)
+        angles.append(abs(tooth_pair.angle("approach", s.matching) + s.matching))
+        jumps.append(tooth_pair.speed("recess", s.matching) / tooth_pair.speed("approach", s.matching) - 1)
     return Finding(
         max(angles) < 1e-12 and min(jumps) > 0,
         f"alpha_2 = -alpha_1 to 1e-12; there tau jumps by {100 * min(jumps):.1f} to {100 * max(jumps):.1f} %",
@@ -199,7 +199,7 @@ def eq_17() -> float:
         s = sizes.at(sizes.maximum_excess / 2)
         x = np.linspace(s.exit, s.entry, 101)[1:-1]
         tooth_pair = ToothPair(s)
-        c = Contact(z1, z2, s.R1, s.R2, s.D, s.beta1, R, x, tooth_pair.recess_angle(x, np), x, x)
+        c = Contact(z1, z2, s.R1, s.R2, s.D, s.beta1, R, x, tooth_pair.angle("recess", x, np), x, x)
         worst = max(worst, float(np.abs(note.quotient_17(c, note.eq_16(c, -1.0)) - c.y).max()))
     return worst
 
@@ -265,7 +265,7 @@ def concave_upward() -> Finding:
     for pair in figures().values():
         s, tooth_pair = pair.sizes, pair.contact.path.tooth_pair
         late, early = np.linspace(-s.reach1, s.matching, 500), np.linspace(s.matching, s.reach1, 500)
-        minimum += [tooth_pair.recess_slope(late, np).min(), tooth_pair.approach_slope(early, np).min()]
+        minimum += [tooth_pair.slope("recess", late, np).min(), tooth_pair.slope("approach", early, np).min()]
     return Finding(min(minimum) > 0, f"d tau/d alpha_1 at least {min(minimum):.2f} on all six ideal paths")
 
 

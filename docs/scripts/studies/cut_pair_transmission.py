@@ -121,7 +121,7 @@ class ContactEnvelope:
         tooth_pairs = self.pair.tooth_pairs(k)
         held = x < -reach
         inside = np.where(held, -reach, x)
-        approach, recess = tooth_pairs.approach_angle(inside, np), tooth_pairs.recess_angle(inside, np)
+        approach, recess = tooth_pairs.angle("approach", inside, np), tooth_pairs.angle("recess", inside, np)
         y = np.where(held, tooth_pairs.exit_angle, np.minimum(approach, recess))
         kind = np.where(held, LEFT, (approach < recess).astype(np.int64))
         return self.lag_of(k, x, y), kind

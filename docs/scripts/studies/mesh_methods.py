@@ -48,6 +48,9 @@ def lowest_of_all(sizes: TriangularSizes, t: Floats) -> Floats:
     for k in range(ceil((-reach - t.max()) / sizes.p1), int((reach - t.min()) // sizes.p1) + 1):
         x = t + k * sizes.p1
         inside = np.flatnonzero(np.abs(x) <= reach)
-        y = np.fmin(tooth_pair.approach_angle(x[inside], np), tooth_pair.recess_angle(x[inside], np)) - k * sizes.p2
+        y = (
+            np.fmin(tooth_pair.angle("approach", x[inside], np), tooth_pair.angle("recess", x[inside], np))
+            - k * sizes.p2
+        )
         lowest[inside] = np.minimum(lowest[inside], y)
     return lowest

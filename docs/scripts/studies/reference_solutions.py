@@ -96,7 +96,7 @@ class TriangularDefinition:
         )
         x = np.clip(numbers * self.sizes.p1 - S, -self.sizes.reach1, self.sizes.reach1)
         y = (
-            np.fmin(self.tooth_pair.approach_angle(x, np), self.tooth_pair.recess_angle(x, np))
+            np.fmin(self.tooth_pair.angle("approach", x, np), self.tooth_pair.angle("recess", x, np))
             - numbers * self.sizes.p2
         )
         return [int(k) for k in numbers[y < y.min() + 1e-3 * self.sizes.p2]]

@@ -48,18 +48,12 @@ __all__ = [
 ]
 
 _PLACES = {
-    "ConjugatePair": "conjugate_transmission",
+    **dict.fromkeys(("ConjugatePair", "ConjugateTransmission"), "conjugate_transmission"),
     "ConjugateToothForm": "conjugate_form",
-    "ConjugateTransmission": "conjugate_transmission",
-    "OffDesignTransmission": "displaced_contact",
-    "PathContact": "path_of_contact",
-    "PathLosses": "path_losses",
-    "PathMeasures": "path_losses",
-    "PathOfContact": "path_of_contact",
+    **dict.fromkeys(("OffDesignTransmission", "pair_outlines"), "displaced_contact"),
+    **dict.fromkeys(("PathContact", "PathOfContact"), "path_of_contact"),
+    **dict.fromkeys(("PathLosses", "PathMeasures", "efficiency", "measure"), "path_losses"),
     "WheelPair": "wheel_pair",
-    "efficiency": "path_losses",
-    "measure": "path_losses",
-    "pair_outlines": "displaced_contact",
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

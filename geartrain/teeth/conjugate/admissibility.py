@@ -168,8 +168,8 @@ def tip_gap(path: PathOfContact) -> float:
         return inf
     a = -pitch.R2 - pitch.R1
     (r1, start1), (r2, start2) = (
-        _polar(flank(np.array([X]))[0], R)
-        for flank, X, R in ((path.flank1, path.arcs[1], -pitch.R1), (path.flank2, -path.arcs[0], pitch.R2))
+        _polar(path.flank(gear, np.array([X]))[0], R)
+        for gear, X, R in ((1, path.arcs[1], -pitch.R1), (2, -path.arcs[0], pitch.R2))
     )
     # coaxial wheels (a = 0) have concentric tip circles, which do not intersect
     cosine = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1) if a > 0 else 2.0

@@ -8,14 +8,14 @@ from __future__ import annotations
 from abc import abstractmethod
 from functools import lru_cache
 from math import pi, tau
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import Field, model_validator
 
-from geartrain.errors import Problem, RangeError
-from geartrain.numerics.quantity import Angle, Figure, Length, Quantity
+from geartrain.errors import RangeError
+from geartrain.numerics.quantity import Angle, Figure, Length
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,6 +41,7 @@ class ConjugateToothForm(ToothForm):
     """
 
     conjugate: ClassVar[bool] = True
+    own_play: ClassVar[tuple[str, ...]] = ("backlash",)
     matched: ClassVar[str] = ""
     """Description of the quantities, besides the arcs of contact, that a comparison makes equal for all tooth forms."""
 
@@ -55,7 +56,9 @@ class ConjugateToothForm(ToothForm):
 
     @model_validator(mode="after")
     def _lengths_are_lengths(self) -> ConjugateToothForm:
-        check_lengths(self.backlash, self.centre_distance)
+        if self.backlash.value < 0:
+            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
+        check_above_0(self, "length", "centre_distance")
         return self
 
     @classmethod
@@ -94,30 +97,6 @@ class ConjugateToothForm(ToothForm):
         if not mesh.rigid:
             _ = mesh.faults  # raises if the teeth are too far apart to touch, where the pair is named in the message
         return mesh
-
-    def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
-
-        Returns
-        -------
-        Problem or None
-            None if no backlash is declared.
-        """
-        if "backlash" not in self.model_fields_set:
-            return None
-        why = f"its declared backlash {self.backlash.text} takes precedence over --backlash"
-        fix = "omit --backlash, or remove `backlash` from the file"
-        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
-
-    def thinned(self, backlash: Quantity) -> Self:
-        """Return a copy of the form with the given backlash.
-
-        Returns
-        -------
-        ConjugateToothForm
-            Copy with the backlash replaced.
-        """
-        return self.model_copy(update={"backlash": backlash})
 
     def slant_pressure(self, wheels: WheelPair) -> float:
         """Return the ratio of the normal force on helical teeth to its transverse component, 1 or more.
@@ -381,16 +360,6 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
         )
 
 
-def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
-    """Raise a validation error if the backlash is below 0 or the centre distance is not greater than 0."""
-    if backlash.value < 0:
-        raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
-    if centre_distance is not None and centre_distance.value <= 0:
-        raise bad(
-            "length", f"centre_distance must be greater than 0, not {centre_distance.text}", "give a distance above 0"
-        )
-
-
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
     """Raise a validation error if a pressure angle is not between 0 and `below` turns (0.25 by default)."""
     turns = angle.si / tau
@@ -423,18 +392,13 @@ def _refusal(kinds: tuple[str, str]) -> str:
     return ""
 
 
-def wheel_specific_parameters(form: ToothForm) -> list[str]:
-    """Return the names of parameters whose values differ between the two wheels."""
-    given = {name: getattr(form, name) for name in type(form).model_fields}
-    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
-    return uneven + [name for name in ("pins",) if name in form.model_fields_set]
-
-
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
     """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear
     first.
     """
-    if uneven := wheel_specific_parameters(form):
+    given = {name: getattr(form, name) for name in type(form).model_fields}
+    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
+    if uneven := uneven + [name for name in ("pins",) if name in form.model_fields_set]:
         ring, pinion = pair
         raise refused(
             f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",

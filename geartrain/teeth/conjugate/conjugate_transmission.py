@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
 from math import inf, nan, pi
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.admissibility import faults, ring_tips
 from geartrain.teeth.conjugate.path_losses import efficiency, locking_friction, powers
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
 
 # 8 nodes give 1e-11 and 16 give rounding on usual teeth; twice as many for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(32)
-_NARROW = 1e-13  # of a period: shorter intervals are rounding
 _TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding
 
 
@@ -74,7 +72,7 @@ class ConjugatePair(Shown):
         return found if abs(found) > _TOUCH * p else 0.0
 
 
-class ConjugateTransmission(ExactRatio):
+class ConjugateTransmission(ExactRatio, ToothTransmission):
     """Transmission function of a conjugate gear pair at its design distance.
 
     The speed ratio is constant. Tooth pairs in contact at the same time are assumed to share the driver's torque
@@ -103,10 +101,10 @@ class ConjugateTransmission(ExactRatio):
         self.friction = check_friction(friction)
         pitch = pair.path.pitch
         z1, z2 = int(pitch.teeth_of(driver)), int(pitch.teeth_of(3 - driver))
-        super().__init__(Fraction(z1, z2), 2 * pi / z1)
-        self._reach = pitch.reach_of(driver)
         self._backlash = pair.backlash / pitch.reach_of(3 - driver)
-        self._advance = self._backlash if direction < 0 else 0.0
+        # the coast flanks are ahead by the backlash
+        super().__init__(Fraction(z1, z2), 2 * pi / z1, self._backlash if direction < 0 else 0.0)
+        self._reach = pitch.reach_of(driver)
         self._half_tooth = pair.halves[driver - 1]
 
     @cached_property
@@ -119,33 +117,10 @@ class ConjugateTransmission(ExactRatio):
         """Design centre distance [module]; meaningless for bevel pairs."""
         return abs(self.path.pitch.R1 + self.path.pitch.R2)
 
-    @property
-    def reversed(self) -> ConjugateTransmission:
-        """Transmission function with the other wheel driving."""
-        return ConjugateTransmission(self.pair, self.friction, 3 - self.driver, self.direction)
+    def _driven(self, driver: int, direction: int) -> ConjugateTransmission:
+        return ConjugateTransmission(self.pair, self.friction, driver, direction)
 
-    def reversed_motion(self) -> ConjugateTransmission:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
-
-        Angles keep their sign convention, so they decrease.
-        """
-        return ConjugateTransmission(self.pair, self.friction, self.driver, -self.direction)
-
-    # ---------------------------------------------------------------------------------------------------- kinematics
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error at driver angles S [rad]: 0, or the backlash if the coast flanks drive."""
-        return self._constant(S, self._advance)
-
-    def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum of the transmission error [rad]. They are equal, because the speed ratio
-        is constant.
-        """
-        return self._advance, self._advance
-
-    def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error [rad] and its standard deviation, which is 0."""
-        return self._advance, 0.0
+    # ------------------------------------------------------------------------------------------------------- contacts
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
@@ -228,20 +203,13 @@ class ConjugateTransmission(ExactRatio):
         return locking_friction(self.path, self.driver)
 
     @cached_property
-    def _stretches(self) -> list[tuple[float, float]]:
-        """Smooth intervals of one period, in driver angle (rad)."""
-        cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()})
-        edges = pairwise([*cuts, cuts[0] + self.period])
-        return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
-
-    @cached_property
     def _sampled(self) -> tuple[Floats, Floats]:
         """Efficiency at the Gauss-Legendre nodes of one period and their normalised weights; gaps in contact are
         omitted.
         """
         x, w = _GAUSS
-        S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in self._stretches])
-        weights = np.concatenate([(high - low) / 2 * w for low, high in self._stretches])
+        S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in self.smooth_intervals()])
+        weights = np.concatenate([(high - low) / 2 * w for low, high in self.smooth_intervals()])
         found = self.efficiency(S)
         touching = ~np.isnan(found)
         return found[touching], weights[touching] / weights[touching].sum()
@@ -274,5 +242,5 @@ class ConjugateTransmission(ExactRatio):
             return nan
         # the ends belong also to the next tooth pair or to the other side of the pitch point
         inside = np.linspace(1e-9, 1 - 1e-9, 201)
-        S = np.concatenate([low + (high - low) * inside for low, high in self._stretches])
+        S = np.concatenate([low + (high - low) * inside for low, high in self.smooth_intervals()])
         return float(np.nanmin(self.efficiency(S)))

@@ -106,7 +106,7 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
     middle = np.zeros((len(X), 3 if pitch.bevel else 2))
     if pitch.bevel:
         middle[:, 2] = 1.0
-    P0 = (pitch.on_gear1 if gear == 1 else pitch.on_gear2)(middle, -X)
+    P0 = pitch.on_gear(gear, middle, -X)
     # P is on the normal (bevel: P x n is the pole of its great circle), so the values at the pitch point apply
     return np.asarray(P0[:, 1] * at.cos_psi - P0[:, 0] * at.sin_psi)
 
@@ -324,17 +324,8 @@ class OffDesignTransmission(OutlineTransmission):
         self.pair, self.path = pair, pair.path
         super().__init__(_outline_gears(pair, distance), friction, driver, direction)
 
-    @property
-    def reversed(self) -> OffDesignTransmission:
-        """Transmission function with the other wheel driving."""
-        return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
-
-    def reversed_motion(self) -> OffDesignTransmission:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
-
-        Angles keep their sign convention, so they decrease.
-        """
-        return OffDesignTransmission(self.pair, self.distance, self.friction, self.driver, -self.direction)
+    def _driven(self, driver: int, direction: int) -> OffDesignTransmission:
+        return OffDesignTransmission(self.pair, self.distance, self.friction, driver, direction)
 
 
 @lru_cache(maxsize=64)

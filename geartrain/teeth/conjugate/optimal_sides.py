@@ -49,10 +49,7 @@ _CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and 
 _NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
 # 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
-_TRIES, _CUTS = 20, 4  # maximum number of solved ends, and of end corrections on one series
-_BEYOND = 1e-7  # of a series' length: extrapolation by this is still accurate
-_CONVERGED = 1e-9  # of the end: from here one more Newton step on the piece's own series is exact
-_FARTHER, _REACH = 0.1, 8.0  # a series predicts the next end within min(0.1, (8 / nodes)^2) beyond its own
+_TRIES = 60  # maximum number of solved ends
 _GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
 
 
@@ -97,70 +94,38 @@ def _piece_over_arc(
     start: float = 0.0,
     piece_maker: PieceMaker | None = None,
 ) -> PathPiece:
-    """Solve S v' + f = 0 for the piece that ends at the arc X.
+    """Solve S v' + f = 0 for the piece that ends at the arc X, by Newton's method for its end d.
 
-    The solution does not depend on the end. It is therefore solved up to a guessed end, and again only if the true end
-    lies beyond. If the guess cannot be reached, the end is bisected towards the last one that could.
+    If an end cannot be reached, it is bisected towards the last one that could, whose solution is a better start.
     """
     piece_maker = piece_maker or _sine_piece
     v: ChebyshevSeries | None = None
-    low, end = start, guess
+    low, end, last = start, guess, inf
     for _ in range(_TRIES):
         try:
             v = solved(pitch, f, first, end, start, v)
         except RangeError:
-            # no solution so far out: approach it from the last solved end, which is a better start
             if end - low < _GIVEN_UP * end:
                 raise
             end = (low + end) / 2
             continue
-        low, end, piece = end, *_piece_to_arc(partial(piece_maker, pitch, f, v), X, v)
-        if piece is not None:
+        piece = piece_maker(pitch, f, v, end)
+        step = _end_step(piece, X)
+        if _at_rounding(step, last, end):
             return piece
+        low, end, last = end, end - step, abs(step)
     raise unreachable_end(end)
 
 
-def _piece_to_arc(
-    piece_maker: Callable[[float], PathPiece], X: float, v: ChebyshevSeries
-) -> tuple[float, PathPiece | None]:
-    """Return the distance d at which the arc X is reached, and the piece that ends there.
-
-    The piece is None if the series must first be solved up to that distance.
-    """
-    end = v.end
-    for _ in range(_CUTS):
-        piece = piece_maker(end)
-        found = _corrected_end(piece, X, v)
-        if found > v.end + _BEYOND * (v.end - v.start) or (v.tail > FALLEN and found < v.end * (1 - _BEYOND)):
-            return found, None
-        if abs(found - end) <= _CONVERGED * end:
-            return found, piece if found == end else piece_maker(found)
-        end = found
-    return end, piece_maker(end)
+def _end_step(piece: PathPiece, X: float) -> float:
+    """Return Newton's step of the end of a piece towards the arc X: the derivative of the arc is 1 / cos psi."""
+    end = np.array(piece.end)
+    return (float(piece.travel(end)) - X) * sqrt(1 - float(piece.sin_psi(end)) ** 2)
 
 
-def _corrected_end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
-    """Return the end d at which the piece has the arc X, by Newton's method on the series of the piece.
-
-    Return one Newton step if further steps would leave the range of the series.
-    """
-    most = piece.end + min(_FARTHER, (_REACH / len(v.coefficients)) ** 2) * (piece.end - v.start)
-    end, last, first = piece.end, inf, 0.0
-    for _ in range(30):
-        sine = float(piece.sin_psi(np.array(end)))
-        if abs(sine) >= 1:
-            return (piece.end + end) / 2
-        step = (float(piece.travel(np.array(end))) - X) * sqrt(1 - sine * sine)
-        # the first step is the result if later ones would leave the range of the series
-        first = first or step
-        if not v.start < end - step <= most:
-            return piece.end - first
-        end -= step
-        # stop at rounding, or near it once steps no longer decrease
-        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
-            break
-        last = abs(step)
-    return end
+def _at_rounding(step: float, last: float, end: float) -> bool:
+    """Return True for a step at rounding, or near it once steps no longer decrease."""
+    return abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last)
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
@@ -184,19 +149,14 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
 
 
 def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
-    """Return the piece that ends at the arc X, by Newton's method: the derivative of the arc at the end is 1 / cos
-    psi.
-    """
+    """Return the piece that ends at the arc X, by Newton's method for its end."""
     end, last = guess, inf
-    piece = piece_maker(end)
     for _ in range(30):
-        at = np.array(end)
-        step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
-        # stop at rounding, or near it once steps no longer decrease
-        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
+        piece = piece_maker(end)
+        step = _end_step(piece, X)
+        if _at_rounding(step, last, end):
             break
         end, last = end - step, abs(step)
-        piece = piece_maker(end)
     return piece
 
 
@@ -275,17 +235,17 @@ def least_friction(
     loss = pitch.S if weight is None else weight
     longest = ray_end(psi, X)
 
-    def second_piece(first: float) -> tuple[Callable[[Floats], Floats], float]:
-        sine = _second_sine(pitch, b, u, first, psi)
-        return sine, _second_end(sine, first, X - first / cos(psi), psi)
+    def second_piece(first: float) -> PathPiece:
+        rest = X - first / cos(psi)
+        made = partial(SteadySpeedPiece, pitch, b, u, first, sin(psi))
+        return _ended_at_arc(made, first + rest * cos(psi), rest)
 
     def variation(first: float) -> float:
-        sine, end = second_piece(first)
-        return _first_variation(pitch, sine, first, end, loss)
+        return _first_variation(pitch, second_piece(first), loss)
 
     def above(first: float) -> float:
-        sine, end = second_piece(first)
-        return float(sine(np.array(end))) - sin(psi)
+        piece = second_piece(first)
+        return float(piece.sin_psi(np.array(piece.end))) - sin(psi)
 
     # a path below psi does not end before a ray does; the lowest one, eta = u d + b (integral of S), is tested there
     if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
@@ -300,10 +260,8 @@ def least_friction(
             raise _too_long_error(pitch, X, psi, u)
         first = root(above, minimum, first, above(minimum), above(first))
     elif weight is not None:
-        check_pieces(pitch, *second_piece(first), first, weight)
-    rest = X - first / cos(psi)
-    piece = _ended_at_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), second_piece(first)[1], rest)
-    return PathSide((RayPiece(psi, first), piece))
+        check_pieces(pitch, second_piece(first), weight)
+    return PathSide((RayPiece(psi, first), second_piece(first)))
 
 
 def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
@@ -317,47 +275,14 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
     )
 
 
-def _second_sine(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
-    """Return a function for sin psi of the second piece, as `SteadySpeedPiece` but without its series of X."""
-    eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
-
-    def sine(d: Floats) -> Floats:
-        found: Floats = (eta + u * (d - first) + b * (pitch.S_integral(d) - below)) / pitch.S(d)
-        return found
-
-    return sine
-
-
-def _second_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
-    """Return the end d at which the second piece has the arc `rest`.
-
-    The method is Newton's, with the arc by Gauss-Legendre quadrature.
-    """
-    x, weights = _GAUSS
-    end, last = first + rest * cos(psi), inf
-    for _ in range(30):
-        travelled = (
-            float(weights @ (1 / np.sqrt(1 - sine(first + (end - first) * (x + 1) / 2) ** 2))) * (end - first) / 2
-        )
-        step = (travelled - rest) * sqrt(1 - float(sine(np.array(end))) ** 2)
-        end -= step
-        # stop at rounding, or near it once steps no longer decrease
-        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
-            break
-        last = abs(step)
-    return end
-
-
-def _first_variation(
-    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float, loss: Weight
-) -> float:
-    """Return the first variation, docs/shapes.md (13) or (19).
+def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
+    """Return the first variation of the piece, docs/shapes.md (13) or (19).
 
     It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi).
     """
     x, weights = _GAUSS
-    d = first + (end - first) * (x + 1) / 2
-    return float(weights @ variation_integrand(pitch, sine_of, d, end, loss))
+    d = piece.start + (piece.end - piece.start) * (x + 1) / 2
+    return float(weights @ variation_integrand(pitch, piece, d, loss))
 
 
 # ------------------------------------------------------------------------------------------------ Chebyshev collocation
@@ -462,31 +387,25 @@ def unreachable_end(end: float) -> RangeError:
 # ------------------------------------------------------------------------------------------- conditions of minimum loss
 
 
-def variation_integrand(
-    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight
-) -> Floats:
+def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss: Weight) -> Floats:
     """Return the integrand of the first variation: loss of a higher path at d minus the loss saved by its longer
     arc.
     """
-    S, sine = pitch.S(d), sine_of(d)
+    S, sine = pitch.S(d), piece.sin_psi(d)
     cosine = np.sqrt(1 - sine**2)
-    last = np.array(end)
-    won = float(loss(last)) / sqrt(1 - float(sine_of(last)) ** 2)
+    last = np.array(piece.end)
+    won = float(loss(last)) / sqrt(1 - float(piece.sin_psi(last)) ** 2)
     found: Floats = sine / (S * cosine) * (2 * loss(d) / cosine**3 - won / cosine**2)
     return found
 
 
-def check_pieces(
-    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], end: float, first: float, weight: Weight
-) -> None:
-    """Raise `RangeError` if a ray and one piece of minimum speed are not optimal (conditions in docs/shapes.md, section
-    15).
+def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None:
+    """Raise `RangeError` if a ray and this piece of minimum speed are not optimal (conditions in docs/shapes.md,
+    section 15).
     """
-    d = np.linspace(0.0, end, _CHECKED)
-    if (np.diff(weight(d)) < 0).any():
+    if (np.diff(weight(np.linspace(0.0, piece.end, _CHECKED))) < 0).any():
         raise other_shape_error("the friction loss of a contact decreases there with increasing sliding velocity")
-    d = np.linspace(first, end, _CHECKED)
-    each = variation_integrand(pitch, sine_of, d, end, weight)
+    each = variation_integrand(pitch, piece, np.linspace(piece.start, piece.end, _CHECKED), weight)
     below = np.cumsum((each[1:] + each[:-1]) / 2)
     if below.max() > _SLACK * np.abs(each).sum():
         raise other_shape_error("a path whose pressure angle rises again before its end would have less loss")

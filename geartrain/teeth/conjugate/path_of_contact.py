@@ -449,33 +449,6 @@ class PathOfContact(Shown):
             flash = kr**0.25 / cosine**0.75 * np.abs(np.sqrt(U1) - np.sqrt(U2))
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
-    def flank1(self, X: ArrayLike) -> Floats:
-        """Return the points of gear 1's profile that are in contact at the arcs X, in the gear's position at X = 0.
-
-        Parameters
-        ----------
-        X : array_like
-            Pitch-line displacements at which the points are in contact.
-
-        Returns
-        -------
-        ndarray
-            Points (..., 2) relative to the pitch point, or (..., 3) on the unit sphere for bevel gears.
-        """
-        X = np.asarray(X, dtype=float)
-        return self.pitch.on_gear1(self._points(X), X)
-
-    def flank2(self, X: ArrayLike) -> Floats:
-        """Return the points of gear 2's profile that are in contact at the arcs X, in the gear's position at X = 0.
-
-        Parameters
-        ----------
-        X : array_like
-            Pitch-line displacements at which the points are in contact.
-        """
-        X = np.asarray(X, dtype=float)
-        return self.pitch.on_gear2(self._points(X), X)
-
     def flank(self, gear: int, X: ArrayLike) -> Floats:
         """Return the points of one gear's profile that are in contact at the arcs X, in the gear's position at X = 0.
 
@@ -485,9 +458,12 @@ class PathOfContact(Shown):
             Number of the gear.
         X : array_like
             Pitch-line displacements at which the points are in contact.
-        """
-        return self.flank1(X) if gear == 1 else self.flank2(X)
 
-    def _points(self, X: Floats) -> Floats:
+        Returns
+        -------
+        ndarray
+            Points (..., 2) relative to the pitch point, or (..., 3) on the unit sphere for bevel gears.
+        """
+        X = np.asarray(X, dtype=float)
         contact = self.at(X)
-        return self.pitch.point(contact.d, contact.sin_psi, contact.cos_psi)
+        return self.pitch.on_gear(gear, self.pitch.point(contact.d, contact.sin_psi, contact.cos_psi), X)

@@ -117,15 +117,12 @@ class PitchSurfaces:
             return np.stack([S * cos_psi, S * sin_psi], axis=-1)
         return np.stack([S * cos_psi, S * sin_psi, np.cos(d)], axis=-1)
 
-    def on_gear1(self, points: Floats, X: Floats) -> Floats:
-        """Transform points of the fixed frame to the frame of gear 1 at X = 0: rotation by X / reach about its axle."""
-        return self._turned(points, X / self.reach, -self.R1)
+    def on_gear(self, gear: int, points: Floats, X: Floats) -> Floats:
+        """Transform points of the fixed frame to the frame of a gear at X = 0: rotation about its axle.
 
-    def on_gear2(self, points: Floats, X: Floats) -> Floats:
-        """Transform points of the fixed frame to the frame of gear 2 at X = 0: rotation by -X / reach2 about its
-        axle.
+        The angle is X / reach for gear 1 and -X / reach2 for gear 2.
         """
-        return self._turned(points, -X / self.reach2, self.R2)
+        return self._turned(points, X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear))
 
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
         """Return radii and azimuths [rad] of points of the fixed frame about the axle of a gear.

@@ -7,7 +7,7 @@ from math import cos, degrees, pi
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.results import Shown
-from geartrain.teeth.tooth_form import refused
+from geartrain.teeth.tooth_form import in_modules, refused
 
 if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
@@ -145,12 +145,5 @@ class WheelPair(Shown):
         GearTrainError
             If the length has a unit and no module is known.
         """
-        if length.unit is None:
-            return float(length.value) * cos(self.helix)
-        if self.module is None:
-            raise refused(
-                f"the {name} {length.text} cannot be converted to modules",
-                "the wheels declare no module with a unit",
-                f"give the `module` of both wheels (option --module), or the {name} as a number of modules",
-            )
-        return length.si / self.module
+        # a number without a unit is in normal modules, which the helix makes smaller than transverse ones
+        return in_modules(length, self.module, name) * (cos(self.helix) if length.unit is None else 1.0)

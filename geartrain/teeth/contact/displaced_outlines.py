@@ -31,7 +31,6 @@ _SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its c
 _FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
 _NO_CORNER = 1e-9  # rad of the driver
 _AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
-_ROUGH = 1e-4  # rad: touches within this margin of the first one are refined
 _BLUNT = radians(10)  # lower bound of the half aperture
 
 
@@ -70,15 +69,13 @@ class ToothPairSearch:
         count, none = len(x), np.zeros(len(x), int)
         touch_search = self.pair.touch_search
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
-        touches = touch_search.touch(
-            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), _ROUGH)
-        )
+        touches = touch_search.touch(tooth_pairs, touch_search.segments(tooth_pairs))
         # the touch of maximum angle of each pair is sorted last
         order = np.lexsort((touches.angle, touches.tooth_pair))
         last = order[np.flatnonzero(np.diff(touches.tooth_pair[order], append=count))]
         where = touches.tooth_pair[last]
         corner = np.full(count, -1)
-        corner[where] = self._corners(touches.piece1[last], touches.u[last], touches.piece2[last], touches.v[last])
+        corner[where] = self.pair.kinds(touches)[last]
         angle, point, normal = np.full(count, np.nan), np.full((2, count), np.nan), np.full((2, count), np.nan)
         angle[where] = touches.angle[last]
         r, dr = value(touch_search.first.radius, touches.piece1[last], touches.u[last])
@@ -89,14 +86,6 @@ class ToothPairSearch:
         normal[:, where] = self._normals(point[:, where], along, touches.speed[last])
         ratio = self.first.z / self.second.z
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
-
-    def _corners(self, piece1: Indices, u: Floats, piece2: Indices, v: Floats) -> Indices:
-        touch_search, found = self.pair.touch_search, np.zeros(len(u), int)
-        for at, (table, piece, end) in enumerate(
-            ((touch_search.first, piece1, u), (touch_search.second, piece2, v)), 1
-        ):
-            found += at * ((end == -1) & table.corners[0][piece] | (end == 1) & table.corners[1][piece])
-        return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
         """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of

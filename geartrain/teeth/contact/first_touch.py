@@ -42,14 +42,6 @@ class AxlePlacement:
     bevel: bool = False
     ring: Literal[0, 1, 2] = 0
 
-    def frame(self, r: Floats, b: Floats) -> DrivenFrame:
-        """Return the polar coordinates about the second axle of points at radii r and azimuths b about the first axle
-        [rad].
-
-        For bevels r is the polar angle [rad].
-        """
-        return DrivenFrame(self, r, b)
-
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
         """Return the maximum |azimuth| [rad] at which a point can be within the range of radii about the second axle.
 
@@ -115,17 +107,13 @@ class DrivenFrame:
             return radius, (self.along * side - self.side * along) / (h * h)
         # on the sphere, both differentials also change the height along the inclined second axle
         far = sin(self.axles.distance)
-        fall = -self._sine() * dr
+        fall = -np.hypot(self.side, self.across) * dr
         along = along + e * far * fall
         up = self.tilt * fall - s * e * far * across
         h = np.hypot(self.side, self.along)
         return (self.up * (self.side * side + self.along * along) / h - h * up), (
             self.along * side - self.side * along
         ) / (h * h)
-
-    def _sine(self) -> Floats:
-        found: Floats = np.hypot(self.side, self.across)
-        return found
 
 
 # ----------------------------------------------------------------------------------------- segments of the driving side
@@ -162,9 +150,25 @@ class FlankSegments(NamedTuple):
     """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
 
 
+class FirstTouches(NamedTuple):
+    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
+    axles.
+    """
+
+    angle: Floats
+    speed: Floats
+    piece1: Indices
+    u: Floats
+    piece2: Indices
+    v: Floats
+    radius1: Floats
+    radius2: Floats
+    tooth_pair: Indices
+
+
 @dataclass(frozen=True)
-class FlankSegmentation:
-    """Division of the flanks of two wheels at given axles into smooth segments."""
+class FirstTouchSearch:
+    """Search for the points of the driver's flanks that determine the driven angle, at given axles."""
 
     first: FlankTable
     second: FlankTable
@@ -196,7 +200,7 @@ class FlankSegmentation:
             nodes[2][tooth_pairs.tooth1, :-1],
         )
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
-        view = self.axles.frame(r, a + tooth_pairs.x[:, None])
+        view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
         # an extreme of the distance inside a cell exceeds the ends by less than the slopes there would give
@@ -245,7 +249,7 @@ class FlankSegmentation:
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
                 r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
-                return self.axles.frame(r, a + x[these]).radius - goal[these]
+                return DrivenFrame(self.axles, r, a + x[these]).radius - goal[these]
 
             u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.polar2[0][:, which] - goal))
             polar2[:, side, which] = self._driven_polar(x, piece, u[side, which])
@@ -265,49 +269,7 @@ class FlankSegmentation:
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
-        return self.axles.frame(r, a + x), dr, da
-
-
-# -------------------------------------------------------------------------------------------------------------- touches
-
-
-class FirstTouches(NamedTuple):
-    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
-    axles.
-    """
-
-    angle: Floats
-    speed: Floats
-    piece1: Indices
-    u: Floats
-    piece2: Indices
-    v: Floats
-    radius1: Floats
-    radius2: Floats
-    tooth_pair: Indices
-
-
-class FirstTouchSearch(FlankSegmentation):
-    """Search for the points of the driver's flanks that determine the driven angle."""
-
-    # --------------------------------------------------------------------------------------------- relevant segments
-
-    def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
-        """Return the segments that can contain the maximum of G of their position, within `margin` [rad]."""
-        ends, slopes = self._estimates(segments)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            width = segments.u[1] - segments.u[0]
-            # intersection of the tangents at both ends: bounds G if it is concave, and is doubled in case it is not
-            meets = (ends[1] - ends[0] - slopes[1] * width) / (slopes[0] - slopes[1])
-            rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
-        unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
-        rise = np.where(unknown, np.inf, np.maximum(rise, 0.0))
-        place = tooth_pairs.place[segments.tooth_pair]
-        position = tooth_pairs.position[segments.tooth_pair]
-        best = np.full(int(tooth_pairs.position.max()) + 1 if len(tooth_pairs.position) else 0, -np.inf)
-        # `maximum.at`, because many segments share a position and an assignment would keep only the last
-        np.maximum.at(best, position, ends.max(axis=0) - place)
-        return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
+        return DrivenFrame(self.axles, r, a + x), dr, da
 
     def _stalled(self, segments: FlankSegments) -> Bools:
         """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;
@@ -317,26 +279,6 @@ class FirstTouchSearch(FlankSegmentation):
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
         found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         return found
-
-    def _estimates(self, segments: FlankSegments) -> tuple[Floats, Floats]:
-        """Return estimates of G and its slope at both ends, shape (2, n) each, from an inversion that is not
-        refined.
-        """
-        piece = np.broadcast_to(segments.piece2, segments.u.shape)
-        low, high = self.second.ends[:, segments.piece2]
-        r = np.clip(segments.polar2[0], low, high)
-        within = np.isnan(segments.v)
-        v = np.where(within, self.second.guess(piece, r)[0], segments.v)
-        # where the piece is stationary a single Newton step is not reliable
-        stationary = within & self.second.near_stall(piece, v)
-        v[stationary] = self.second.inverse(piece[stationary], r[stationary])
-        radius, rise = value(self.second.radius, piece, v)
-        azimuth, turn = value(self.second.azimuth, piece, v)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            slant = turn / rise
-            # elsewhere one Newton step replaces the inversion; at an end of the piece no correction is needed
-            correction = np.where(within & ~stationary, slant * (r - radius), 0.0)
-            return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
     # ------------------------------------------------------------------------------------------------ exact contact
 

@@ -10,17 +10,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.polynomial_pieces import COUNT, ends, value, value_alone
+from geartrain.numerics.polynomial_pieces import COUNT, ends, value
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _CELLS = 8  # minimum number of search cells of a side
 _CLOSER, _CLOSE = 0.75, 30  # geometric steps towards a stationary end: an extreme may be at any distance from it
-_BINS = 64  # of a piece: initial brackets for the inversion of the radius
-_STALLED = 1e-3  # of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
 _MOST = 80  # maximum number of steps of an inversion
 _NEAR = 1e-10  # a Newton step of this length ends at the root, as the next would be about its square
+_STALLED = 1e-3  # of its mean slope: below it a piece is stationary, as a cycloid is on its pitch circle
 
 
 @dataclass(frozen=True)
@@ -122,72 +121,26 @@ class FlankTable:
 
     # -------------------------------------------------------------------------------------- flanks of a driven wheel
 
-    @cached_property
-    def _bins(self) -> tuple[Floats, Floats]:
-        """Radii at uniform u, shape (pieces, bins + 1), and the same scaled to one increasing row for a single
-        search.
-        """
-        pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
-        radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
-        low, high = self.ends[:, :, None]
-        share = np.maximum.accumulate(np.clip((radii - low) / np.where(high > low, high - low, 1.0), 0, 1), axis=1)
-        share[:, -1] = 1.0
-        # offset by 2, so that one search in one row serves all pieces; `accumulate` removes decreases by rounding
-        return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
-
-    def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return an estimate of the parameter u at which pieces have radius r, and a bracket of it.
-
-        r must be within the pieces.
-        """
-        radii, row = self._bins
-        low, high = self.ends[0].take(piece), self.ends[1].take(piece)
-        key = 2.0 * piece + np.clip((r - low) / (high - low), 0, 1)
-        at = np.clip(np.searchsorted(row, key, side="right") - 1 - piece * (_BINS + 1), 0, _BINS - 1)
-        below, above = radii[piece, at], radii[piece, at + 1]
-        left = at * (2 / _BINS) - 1
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = np.where(above > below, np.clip((r - below) / (above - below), 0, 1), 0.5)
-        return left + share * (2 / _BINS), left, left + 2 / _BINS
-
-    def near_stall(self, piece: Indices, u: Floats) -> Bools:
-        """Return whether u is in the last bin before a stationary end of its piece."""
-        edge = 1 - 2 / _BINS
-        found: Bools = self.stalls[0][piece] & (u < -edge) | self.stalls[1][piece] & (u > edge)
-        return found
-
     def inverse(self, piece: Indices, r: Floats) -> Floats:
         """Return the parameter u at which pieces have radius r, by bracketed Newton iteration.
 
         r must be within the pieces.
         """
-        u, low, high = self.guess(piece, r)
-        return self._newton(piece, r, u, low, high)
-
-    def _newton(self, piece: Indices, r: Floats, u: Floats, low: Floats, high: Floats) -> Floats:
-        found = u
-        # indices are gathered only after some iterations have ended and others have not
-        which: Indices | None = None
-        for _ in range(_MOST):
-            here, slope = value(self.radius, piece, u)
-            off = here - r
-            low, high = np.where(off < 0, u, low), np.where(off > 0, u, high)
-            with np.errstate(invalid="ignore", divide="ignore"):
-                step = u - off / slope
-            # NaN, from a slope of 0, also fails the test, and the bracket is bisected
-            step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-            left = np.abs(step - u) > _NEAR
-            u = step
-            if which is None:
-                found = u
-            else:
-                found[which] = u
-            if not left.any():
-                break
-            if which is None:
-                which = np.flatnonzero(left)
-                found = found.copy()
-            else:
-                which = which[left]
-            piece, r, low, high, u = piece[left], r[left], low[left], high[left], u[left]
-        return found
+        first, last = self.ends[:, piece]
+        low, high, which = np.full(len(r), -1.0), np.ones(len(r)), np.arange(len(r))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            u = np.where(last > first, 2 * (r - first) / (last - first) - 1, 0.0)
+            for _ in range(_MOST):
+                at = u[which]
+                here, slope = value(self.radius, piece[which], at)
+                off = here - r[which]
+                below = np.where(off < 0, at, low[which])
+                above = np.where(off > 0, at, high[which])
+                step = at - off / slope
+                # NaN, from a slope of 0, also fails the test, and the bracket is bisected
+                step = np.where((step >= below) & (step <= above), step, (below + above) / 2)
+                low[which], high[which], u[which] = below, above, step
+                which = which[np.abs(step - at) > _NEAR]
+                if not len(which):
+                    break
+        return u

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
 
 _BLOCK = 60_000  # nodes per block, which limits the memory of long arrays of angles
-_MARGIN = 1e-5  # of a driven pitch: maximum error of estimated angles
 _TIE = 4e-15  # rad: among touches within this the later tooth pair, and a flank before a corner, is reported
 KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
@@ -113,15 +112,12 @@ class OutlinePair:
         touch_search, count = self.touch_search, len(rest)
         if not len(j):
             return _no_contact(count)
-        margin = _MARGIN * self.second.pitch + within
-        found = touch_search.touch(
-            tooth_pairs, touch_search.furthest(tooth_pairs, touch_search.segments(tooth_pairs), margin)
-        )
+        found = touch_search.touch(tooth_pairs, touch_search.segments(tooth_pairs))
         position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
         sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
-        kind = self._kind(found)
+        kind = self.kinds(found)
         # order of ties: later tooth pair, then flank before corner, then maximum angle
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
         order = ties[np.lexsort((found.angle[ties], kind[ties] == 0, j[found.tooth_pair[ties]], position[ties]))]
@@ -137,7 +133,7 @@ class OutlinePair:
         )
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
-    def _kind(self, found: FirstTouches) -> Indices:
+    def kinds(self, found: FirstTouches) -> Indices:
         """Return the kind of each touch: 0 for two flanks, 1 for a corner of the first wheel, 2 of the second, 3 of
         both.
         """

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from math import degrees, pi
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.contact.outline_transmission import OutlineTransmission
     from geartrain.teeth.outlines.wheel_requirement import FixedTooth
-    from geartrain.teeth.pair_results import PairAccount, PairVerdict
+    from geartrain.teeth.pair_results import PairAccount
 
 _WORDS = (
     "Teeth whose motion follows from the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
@@ -37,16 +36,6 @@ class OutlineMesh(GearMesh):
 
     transmission: OutlineTransmission
     teeth: tuple[FixedTooth, FixedTooth]
-
-    @cached_property
-    def reversed(self) -> OutlineTransmission:
-        """Transmission function with the other wheel driving."""
-        return self.transmission.reversed
-
-    @property
-    def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can turn."""
-        return self.transmission.verdict
 
     @property
     def tooth_phase(self) -> float:

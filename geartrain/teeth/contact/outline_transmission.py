@@ -18,7 +18,7 @@ import numpy as np
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, check_friction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -55,7 +55,7 @@ class OutlineGears:
         return (self.first, self.second) if driver == 1 else (self.second, self.first)
 
 
-class OutlineTransmission(TransmissionFunction):
+class OutlineTransmission(ToothTransmission):
     """Transmission function of two outlines.
 
     `driver` is the driving wheel, 1 or 2; `direction` -1 reverses the motion. At S = 0 a driver's tooth is on the
@@ -78,17 +78,8 @@ class OutlineTransmission(TransmissionFunction):
         """Driven angle as piecewise polynomials of the driver angle, with the front flanks driving."""
         return _tabulated(self.gears, self.driver)
 
-    @property
-    def reversed(self) -> OutlineTransmission:
-        """Transmission function with the other wheel driving."""
-        return OutlineTransmission(self.gears, self.friction, 3 - self.driver, self.direction)
-
-    def reversed_motion(self) -> OutlineTransmission:
-        """Return the transmission function of the opposite flanks for motion in the reverse direction.
-
-        Angles keep their sign convention, so they decrease.
-        """
-        return OutlineTransmission(self.gears, self.friction, self.driver, -self.direction)
+    def _driven(self, driver: int, direction: int) -> OutlineTransmission:
+        return OutlineTransmission(self.gears, self.friction, driver, direction)
 
     @cached_property
     def verdict(self) -> PairVerdict:
@@ -154,10 +145,8 @@ class OutlineTransmission(TransmissionFunction):
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""
-        S, weights = self._nodes
-        error = self._in_direction(self.table.error(S))
-        mean = float(weights @ error)
-        return mean, float(weights @ (error - mean) ** 2) ** 0.5
+        mean, rms = self.table.moments()
+        return float(self._in_direction(mean)), rms
 
     # ------------------------------------------------------------------------------------------------------- friction
 

@@ -64,7 +64,7 @@ def escape_tooth(z: int, sense: int) -> FixedTooth:
     tooth = tuple(_vertices(pitch, radius, root, face))
     if sense < 0:  # mirrored and in reverse order, so the bulge of an edge belongs to its other end
         tooth = tuple((x, -y, tooth[at - 1][2]) for at, (x, y, _) in reversed([*enumerate(tooth)]))
-    return FixedTooth(radius, root, tooth)
+    return FixedTooth("external", radius, root, tooth)
 
 
 def _vertices(pitch: float, radius: float, root: float, face: float) -> Iterator[Vertex]:
@@ -104,7 +104,7 @@ def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
         (tip_x, high, 0.0),
         (x, low, tan((pitch - 2 * foot) / 4)),
     )
-    return FixedTooth(tip, root, tooth, "ring" if ring else "external")
+    return FixedTooth("ring" if ring else "external", tip, root, tooth)
 
 
 def wall(radius: float) -> float:

@@ -241,11 +241,7 @@ def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: 
     r, angle = _inner_polyline(path, gear, X, outward)
     along, across = _tangents(path, gear, X[:1], outward)
     tangent = float(along[0]), float(across[0])
-    return FlankCurve(r, angle, np.stack(_polar(path, gear, dense)), tangent, abs(_R(path, gear)), outward)
-
-
-def _R(path: PathOfContact, gear: int) -> float:
-    return path.pitch.R1 if gear == 1 else path.pitch.R2
+    return FlankCurve(r, angle, np.stack(_polar(path, gear, dense)), tangent, abs(pitch.axle_of(gear)), outward)
 
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:

@@ -28,23 +28,6 @@ _MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves betw
 
 
 @dataclass(frozen=True, slots=True)
-class MateTooth:
-    """Outline of a tooth or pin of a mating wheel, with the position of that wheel."""
-
-    span: Floats
-    """Radii [module] and azimuths [rad] of its points, shape (2, n), rotated by half the backlash so that one flank
-    touches.
-    """
-    z: float
-    """Tooth number of the mate."""
-    distance: float
-    """Centre distance [module], negative for a wheel in a ring gear."""
-    internal: bool
-    """True if one of the two wheels is a ring gear; `ring` is True if the mate is."""
-    ring: bool
-
-
-@dataclass(frozen=True, slots=True)
 class MatePassage:
     """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel."""
 
@@ -53,19 +36,6 @@ class MatePassage:
     [rad].
     """
     aside: Floats
-
-
-def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
-    """Return the positions of a mate's tooth in the tooth spaces of a wheel of z teeth; lengths in modules."""
-    turn = _positions(tip, outward, mate)[:, None]
-    r, angle = mate.span
-    place = mate.distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
-    radius = np.abs(place)
-    inside = (radius - tip) * outward <= 0
-    own = turn * mate.z / z * (1 if mate.internal else -1)
-    pitch = 2 * pi / z
-    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a tooth space faces the mate's tooth
-    return MatePassage(radius[inside], aside[inside])
 
 
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
@@ -81,23 +51,6 @@ def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     below = (tooth.root - mate.radius) * s
     on_fillet = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
     return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
-
-
-def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
-    """Return the angles of the mate at which its tooth may be within the wheel's tip circle [rad]."""
-    distance = mate.distance
-    far = float(mate.span[0].min() if mate.ring else mate.span[0].max())
-    if not distance:
-        reach = pi
-    else:
-        cosine = (tip**2 - distance**2 - far**2) / (2 * distance * far)
-        cosine = cosine if outward < 0 else -cosine
-        if mate.ring:
-            cosine = (distance**2 + far**2 - tip**2) / (2 * abs(distance) * far)
-        reach = acos(min(max(cosine, -1.0), 1.0))
-    # margin for the width of the tooth itself
-    reach = min(reach + 1.5 * pi / mate.z, pi)
-    return np.linspace(-reach, reach, 2 * int(reach * mate.z * _STEPS / (2 * pi)) + 1)
 
 
 CLEARANCE = 0.25  # modules
@@ -204,9 +157,22 @@ class ToothRequirement(WheelRequirement):
             span = np.concatenate((flanks, land), axis=1)
         # both wheels are symmetric, so one side of the backlash is sufficient
         touching = span + np.array([[0.0], [self.pair.backlash / 2 / found.R]])
-        distance = own.R - found.R if self.internal else own.R + found.R
-        mate = MateTooth(touching, other.z, distance, self.internal, found.outward < 0)
-        return passage(self.z, float(own.r[-1]), own.outward, mate)
+        distance = own.R - found.R if self.internal else own.R + found.R  # negative for a wheel in a ring gear
+        # angles of the mate at which its tooth may be within the wheel's tip circle, by the law of cosines
+        tip, outward = float(own.r[-1]), own.outward
+        far = float(touching[0].min() if found.outward < 0 else touching[0].max())
+        cosine = outward * (distance**2 + far**2 - tip**2) / (2 * abs(distance) * far) if distance else -1.0
+        # margin for the width of the tooth itself
+        reach = min(acos(min(max(cosine, -1.0), 1.0)) + 1.5 * pi / other.z, pi)
+        turn = np.linspace(-reach, reach, 2 * int(reach * other.z * _STEPS / (2 * pi)) + 1)[:, None]
+        r, angle = touching
+        place = distance + r * np.exp(1j * (angle + turn + (0 if self.internal else pi)))
+        radius = np.abs(place)
+        inside = (radius - tip) * outward <= 0
+        turned = turn * other.z / self.z * (1 if self.internal else -1)
+        pitch = 2 * pi / self.z
+        aside = np.abs((np.angle(place) - turned) % pitch - pitch / 2)  # a tooth space faces the mate's tooth
+        return MatePassage(radius[inside], aside[inside])
 
 
 @lru_cache(maxsize=4096)

@@ -129,10 +129,6 @@ class WheelOutline(Result):
 # ------------------------------------------------------------------------------------------ wheels with conjugate teeth
 
 
-OutlineSizes = tuple[float, float, float, float, float]
-"""Radii of pitch, tip and root circle, tooth thickness and fillet radius [module]."""
-
-
 def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
     """Return the outline of one wheel of a pair with conjugate teeth.
 
@@ -170,62 +166,37 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     (26.0, 60.0)
     """
     check_flat(pair)
-    both = _PairOutlines(pair, cut, pins)
-    if pins is not None and gear == pins.gear:
-        return both.lantern(pins)
-    return both.toothed(gear)
-
-
-class _PairOutlines:
-    """Builder of the outlines of both wheels of a pair."""
-
-    def __init__(self, pair: ConjugatePair, cut: BlankSizes, pins: LanternPins | None) -> None:
-        self.pair, self.cut = pair, cut
-        clearance = CLEARANCE if cut.clearance is None else cut.clearance / cut.module
-        self.demand = ToothRequirement(pair, 1, cut.tolerance / cut.module, clearance, pins)
-
-    def toothed(self, gear: int) -> WheelOutline:
-        """Return the outline of a wheel with teeth, or of a ring gear."""
-        wanted = None if self.cut.fillet is None else self.cut.fillet / self.cut.module
-        tooth, relief = cut_tooth([self._of(gear)], wanted)
-        if self.cut.fillet is not None and wanted is not None and tooth.fillet.radius < wanted:
-            raise _fillet_too_large(gear, self.cut.fillet, tooth.fillet.radius * self.cut.module)
-        sizes = (tooth.flank.R, tooth.tip, tooth.root, 2 * self.pair.halves[gear - 1], tooth.fillet.radius)
-        kind = "ring" if tooth.flank.outward < 0 else "external"
-        return self._wheel(gear, kind, _contours(tooth, self.cut), sizes, relief)
-
-    def lantern(self, pins: LanternPins) -> WheelOutline:
-        """Return the outline of a lantern: a disc with a round hole for each pin."""
-        scale = self.cut.module
-        inner, outer = pins.circle - pins.radius, pins.circle + pins.radius
-        rim = 2 * pins.radius * scale if self.cut.rim is None else self.cut.rim
-        contours = [*lantern(pins, int(self._of(pins.gear).z), scale, rim), *bore(self.cut, inner * scale)]
-        sizes = (self._of(pins.gear).flank.R, outer, inner, 2 * self.pair.halves[pins.gear - 1], 0.0)
-        return self._wheel(pins.gear, "pins", contours, sizes, 0.0)
-
-    def _of(self, gear: int) -> ToothRequirement:
-        return self.demand if gear == 1 else self.demand.other
-
-    def _wheel(self, gear: int, kind: str, contours: list[Contour], sizes: OutlineSizes, relief: float) -> WheelOutline:
-        scale = self.cut.module
-        pitch, tip, root, thickness, fillet = (size * scale for size in sizes)
-        return WheelOutline(
-            gear=gear,
-            z=int(self._of(gear).z),
-            kind=kind,
-            contours=tuple(contours),
-            module=scale,
-            pitch_radius=pitch,
-            tip_radius=tip,
-            root_radius=root,
-            thickness=thickness,
-            fillet=fillet,
-            relief=relief,
-            clearance=self.demand.clearance * scale,
-            backlash=self.pair.backlash * scale,
-            centre_distance=self.demand.distance * scale,
-            tolerance=self.cut.tolerance,
-        )
+    scale = cut.module
+    clearance = CLEARANCE if cut.clearance is None else cut.clearance / scale
+    demand = ToothRequirement(pair, gear, cut.tolerance / scale, clearance, pins)
+    if pins is not None and demand.has_pins:
+        kind, root, fillet, relief = "pins", pins.circle - pins.radius, 0.0, 0.0
+        rim = 2 * pins.radius * scale if cut.rim is None else cut.rim
+        contours = [*lantern(pins, int(demand.z), scale, rim), *bore(cut, root * scale)]
+    else:
+        wanted = None if cut.fillet is None else cut.fillet / scale
+        tooth, relief = cut_tooth([demand], wanted)
+        kind, root, fillet = "ring" if tooth.flank.outward < 0 else "external", tooth.root, tooth.fillet.radius
+        if cut.fillet is not None and wanted is not None and fillet < wanted:
+            raise _fillet_too_large(gear, cut.fillet, fillet * scale)
+        contours = _contours(tooth, cut)
+    return WheelOutline(
+        gear=gear,
+        z=int(demand.z),
+        kind=kind,
+        contours=tuple(contours),
+        module=scale,
+        pitch_radius=demand.flank.R * scale,
+        tip_radius=demand.tip * scale,
+        root_radius=root * scale,
+        thickness=2 * pair.halves[gear - 1] * scale,
+        fillet=fillet * scale,
+        relief=relief,
+        clearance=clearance * scale,
+        backlash=pair.backlash * scale,
+        centre_distance=demand.distance * scale,
+        tolerance=cut.tolerance,
+    )
 
 
 def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) -> list[Contour]:

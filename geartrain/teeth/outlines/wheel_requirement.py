@@ -59,20 +59,9 @@ class WheelRequirement(ABC):
         """
 
 
-@dataclass(frozen=True)
-class FixedTooth(WheelRequirement):
-    """Tooth that its form defines completely, independent of the mate; fields as in `CutTooth`, lengths in modules."""
-
-    tip_radius: float
-    root_radius: float
-    tooth: tuple[Vertex, ...]
-    kind: str = "external"
-    pins: LanternPins | None = None
-
-    @property
-    def tip(self) -> float:
-        """Radius of the tip circle [module]."""
-        return self.tip_radius
+@dataclass(frozen=True, slots=True)
+class FixedTooth(CutTooth, WheelRequirement):
+    """Tooth that its form defines completely, independent of the mate."""
 
     def agrees(self, other: WheelRequirement) -> bool:
         """Return True if both teeth have the same kind and the same vertices."""
@@ -84,7 +73,7 @@ class FixedTooth(WheelRequirement):
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
         """Return the tooth itself; `others` must agree with it."""
         del others
-        return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth, self.pins)
+        return self
 
 
 @dataclass(frozen=True)

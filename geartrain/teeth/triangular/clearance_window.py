@@ -28,16 +28,6 @@ class TriangularContact:
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
         self.path = RealPath(sizes)
-        self._means: dict[tuple[str, float], float] = {}
-
-    def mean(self, of: tuple[str, float], make: Callable[[], float]) -> float:
-        """Return a cached mean over the contact, computed by `make` if the key `of` (kind, friction) is new.
-
-        All transmission functions of the pair share the cache.
-        """
-        if of not in self._means:
-            self._means[of] = make()
-        return self._means[of]
 
     @cached_property
     def dragged(self) -> DraggedPath:

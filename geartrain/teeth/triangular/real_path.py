@@ -19,6 +19,8 @@ from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
 
+import numpy as np
+
 from geartrain.numerics.results import Result
 from geartrain.numerics.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
@@ -168,28 +170,11 @@ class RealPath:
         minimum = inf
         for piece in self.pieces:
             first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
-            for k in self._candidates(piece, t, first, last):
-                if k != besides:
-                    minimum = min(minimum, self.g(piece.phase, t + k * self.pitch))
+            at = np.array([k for k in range(first, last + 1) if k != besides])
+            if len(at):
+                x = t + at * self.pitch
+                minimum = min(minimum, float(np.min(self.tooth_pair.angle(piece.phase, x, np) - self.ratio * x)))
         return minimum
-
-    def _candidates(self, piece: MonotonePiece, t: float, first: int, last: int) -> set[int]:
-        if last - first < 4 or not piece.convex:
-            return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
-        # two tooth pairs on either side of the minimum instead of one, as rounding may shift it
-        nearest = round((self._minimiser(piece) - t) / self.pitch)
-        return {k for k in range(nearest - 2, nearest + 3) if first <= k <= last} | {first, last}
-
-    def _minimiser(self, piece: MonotonePiece) -> float:
-        """Return the angle alpha_1 at which g is minimal in a convex piece [rad]."""
-        low, high = piece.low, piece.high
-        if self.slope(piece.phase, low) >= 0:
-            return low
-        if self.slope(piece.phase, high) <= 0:
-            return high
-        return bracketed_root(
-            lambda x: self.slope(piece.phase, x), lambda x: self.tooth_pair.slope(piece.phase, x), low, high
-        )
 
     # ------------------------------------------------------------------------------------------------- the envelope
 

@@ -27,7 +27,7 @@ overhanging driver flank. Both limit the backlash. The driven wheel would turn b
 """
 
 FlankLine: TypeAlias = tuple[Any, Any, Any, Any, Any, Any]
-"""Values u, sin psi, cos psi, c, s, q of a contact in approach.
+"""Values u = sin(x/2), sin psi, cos psi, s, q, sin y of a contact in approach.
 
 psi = x + beta1 is the direction of the driver's flank; s and q are sine and cosine of psi + y.
 """
@@ -49,7 +49,7 @@ class ToothPair:
         self.sin2, self.cos2 = self.mirror * math.sin(sizes.beta2), math.cos(sizes.beta2)
         self.entry, self.leans = math.sin(sizes.reach1 / 2), sizes.lean[0]
 
-    # ------------------------------------------------------------------------------------------------------- approach
+    # -------------------------------------------------------------------------------------------- geometry of a contact
 
     def _flank_line(self, x: Any, m: ModuleType) -> FlankLine:
         # half angles: 1 - cos x would cancel near the line of centres
@@ -60,16 +60,9 @@ class ToothPair:
         c = (2 * self.R1 * u * (self.cos1 * w - self.sin1 * u) - self.delta * sin_psi) / self.R2
         s = sin_psi + c
         # a flank tangent to the tip circle has s = 1 up to rounding
-        return u, sin_psi, cos_psi, c, s, m.sqrt(abs((1 - s) * (1 + s)))
-
-    def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 in approach [rad], Eq. (7)."""
-        return self._angle_on_flank(self._flank_line(x, m), m)
-
-    def _angle_on_flank(self, line: FlankLine, m: ModuleType) -> Any:
-        _, sin_psi, cos_psi, c, s, q = line
+        q = m.sqrt(abs((1 - s) * (1 + s)))
         # sin(alpha_2) = s cos psi - q sin psi as a product with c = s - sin psi: the difference cancels at large z
-        return self.side * m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
+        return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
         """Return R1 cos(beta1) - v with v of Eq. (9): distance along the flank from the foot of O1 to the contact."""
@@ -78,51 +71,6 @@ class ToothPair:
             return self.D * cos_psi - self.R2 * q
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
-
-    def approach_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances of both centres from the common normal in approach; the second is O2C cos(psi) of
-        Eq. (11).
-        """
-        return self._arms_on_flank(self._flank_line(x, m))
-
-    def _arms_on_flank(self, line: FlankLine) -> tuple[Any, Any]:
-        u, _, cos_psi, _, _, q = line
-        return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
-
-    def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau in approach, Eq. (12)."""
-        return self._speed_on_flank(self._flank_line(x, m))
-
-    def _speed_on_flank(self, line: FlankLine) -> Any:
-        first, second = self._arms_on_flank(line)
-        return first / second
-
-    def approach_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """Return d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
-        u, sin_psi, cos_psi, _, s, q = self._flank_line(x, m)
-        more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
-        return self.side * more * (more * s / q - sin_psi / cos_psi)
-
-    def approach_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres (sign of alpha_2) and the tangents tan2, tan1 of Eq. (32).
-
-        The efficiency with wheel 1 driving is eta = (1 - f side tan2) / (1 - f side tan1).
-        """
-        u, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
-        side = self.side * m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
-        mirror = self.mirror
-        return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
-
-    def approach_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity in approach divided by the driver's angular speed, in the common length unit.
-
-        It is R2 |sin y| / cos psi, the distance from C, times 1 + tau.
-        """
-        _, sin_psi, cos_psi, c, s, q = self._flank_line(x, m)
-        # (1 + tau) / cos psi is D divided by the distance of the driven axis from the normal
-        return abs(self.D) * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
-
-    # --------------------------------------------------------------------------------------------------------- recess
 
     def _driven_apex(self, x: Any, m: ModuleType) -> DrivenApex:
         u = m.sin(x / 2)
@@ -139,128 +87,95 @@ class ToothPair:
         square = self.R2 * self.R2 - W
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
-    def recess_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 in recess [rad], Eq. (17), in the correct quadrant."""
-        *_, sin_y, cos_y = self._driven_apex(x, m)
-        return self.side * m.atan2(sin_y, cos_y)
-
-    def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
+    def _apex_directions(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
         """Return arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, and sine of x."""
-        sine, cosine, arm, sin_y, cos_y = apex
+        sine, cosine, arm, sin_y, cos_y = self._driven_apex(x, m)
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
         return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
 
-    def recess_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances of both centres from the common normal in recess; the first is O1C cos(psi2) of Eq.
-        (18).
-        """
-        return self._arms_at_apex(self._driven_apex(x, m))
+    # -------------------------------------------------------------------------------------------- motion and friction
 
-    def _arms_at_apex(self, apex: DrivenApex) -> tuple[Any, Any]:
-        arm, q, *_ = self._apex_directions(apex)
+    def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """Return alpha_2 [rad] at alpha_1 = x [rad] in a phase: Eq. (7) in approach, Eq. (17) in recess and slip.
+
+        In the return phase it is the second root of Eq. (7).
+        """
+        if phase == RETURN:
+            _, sin_psi, cos_psi, s, _, _ = self._flank_line(-x, m)
+            return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
+        if phase == APPROACH:
+            *_, sin_y = self._flank_line(x, m)
+            return self.side * m.asin(sin_y)
+        *_, sin_y, cos_y = self._driven_apex(x, m)
+        return self.side * m.atan2(sin_y, cos_y)
+
+    def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
+        """Return the distances n1, n2 of both centres from the common normal, with tau = n1/n2.
+
+        The second is O2C cos(psi) of Eq. (11) in approach, the first is O1C cos(psi2) of Eq. (18) in recess.
+        """
+        if phase == APPROACH:
+            u, _, cos_psi, _, q, _ = self._flank_line(x, m)
+            return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
+        arm, q, *_ = self._apex_directions(x, m)
         return self.mirror * self.R1 * q, self.sign2 * arm
 
-    def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau in recess, Eq. (19)."""
-        return self._speed_at_apex(self._driven_apex(x, m))
-
-    def _speed_at_apex(self, apex: DrivenApex) -> Any:
-        first, second = self._arms_at_apex(apex)
+    def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """Return the speed ratio tau = d alpha_2 / d alpha_1, Eqs. (12) and (19); negative in the return phase."""
+        if phase == RETURN:
+            _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
+            return -1 - self.D * cos_psi / (self.R2 * q)
+        first, second = self.normal_arms(phase, x, m)
         return first / second
 
-    def recess_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """Return d tau / d alpha_1 in recess: tau (1 + tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)].
+    def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """Return the derivative d tau / d alpha_1 [1/rad].
 
-        In reversed motion the driven wheel meets the driver in approach at the ratio 1/tau. The result is the slope of
-        that motion times tau cubed.
+        In approach it is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi], in recess tau (1 + tau) [(1 + tau)
+        tan(beta2 - x - y) - tau tan(beta2 - y)]: in reversed motion the driven wheel meets the driver in approach at
+        the ratio 1/tau, and the slope of that motion is multiplied by tau cubed.
         """
-        arm, q, s, sin_psi, cos_psi, _ = self._apex_directions(self._driven_apex(x, m))
+        if phase == RETURN:
+            _, sin_psi, cos_psi, s, q, _ = self._flank_line(-x, m)
+            more = self.D * cos_psi / (self.R2 * q)
+            return more * (more * s / q - sin_psi / cos_psi)
+        if phase == APPROACH:
+            u, sin_psi, cos_psi, s, q, _ = self._flank_line(x, m)
+            more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
+            return self.side * more * (more * s / q - sin_psi / cos_psi)
+        arm, q, s, sin_psi, cos_psi, _ = self._apex_directions(x, m)
         tau = self.R1 * q / arm
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
-    def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres (sign of alpha_1) and the tangents tan2, tan1 of Eq. (33)."""
-        arm, q, s, _, _, sine = self._apex_directions(self._driven_apex(x, m))
-        mirror = self.mirror
-        return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
-
-    def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity in recess divided by the driver's angular speed: R1 |sin x| (1 + tau) / cos
-        psi2.
-        """
-        sine, _, arm, _, _ = self._driven_apex(x, m)
-        return abs(self.D * self.R1 * sine / arm)
-
-    # ---------------------------------------------------------------------------------------------------- return phase
-
-    def return_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 where the driven apex leaves the driver's overhanging flank beyond the exit [rad]: the second
-        root.
-        """
-        _, sin_psi, cos_psi, _, s, _ = self._flank_line(-x, m)
-        return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
-
-    def return_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """Return d alpha_2 / d alpha_1 in the return phase, which is negative."""
-        _, _, cos_psi, _, _, q = self._flank_line(-x, m)
-        return -1 - self.D * cos_psi / (self.R2 * q)
-
-    def return_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the second derivative of alpha_2 with respect to alpha_1 in the return phase [1/rad]."""
-        _, sin_psi, cos_psi, _, s, q = self._flank_line(-x, m)
-        more = self.D * cos_psi / (self.R2 * q)
-        return more * (more * s / q - sin_psi / cos_psi)
-
-    # -------------------------------------------------------------------------------------------- approach and recess
-
-    def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 [rad] at alpha_1 = x [rad] in a phase."""
-        if phase == RETURN:
-            return self.return_angle(x, m)
-        return self.approach_angle(x, m) if phase == APPROACH else self.recess_angle(x, m)
-
-    def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1."""
-        if phase == RETURN:
-            return self.return_speed(x, m)
-        return self.approach_speed(x, m) if phase == APPROACH else self.recess_speed(x, m)
-
-    def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return alpha_2 [rad] and tau, computed from common intermediate values."""
-        if phase == RETURN:
-            return self.return_angle(x, m), self.return_speed(x, m)
-        if phase == APPROACH:
-            line = self._flank_line(x, m)
-            return self._angle_on_flank(line, m), self._speed_on_flank(line)
-        apex = self._driven_apex(x, m)
-        *_, sin_y, cos_y = apex
-        return self.side * m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
-
-    def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the derivative d tau / d alpha_1 [1/rad]."""
-        if phase == RETURN:
-            return self.return_slope(x, m)
-        return self.approach_slope(x, m) if phase == APPROACH else self.recess_slope(x, m)
-
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres (1 or -1) and the tangents tan2, tan1 of the friction efficiency.
+        """Return the side of the line of centres (1 or -1) and the tangents tan2, tan1 of Eqs. (32) and (33).
 
-        eta = (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
+        The efficiency with wheel 1 driving is eta = (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
         """
-        return self.approach_friction(x, m) if phase == APPROACH else self.recess_friction(x, m)
+        mirror = self.mirror
+        if phase == APPROACH:
+            u, _, cos_psi, s, q, sin_y = self._flank_line(x, m)
+            side = self.side * m.copysign(1.0, sin_y)
+            return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
+        arm, q, s, _, _, sine = self._apex_directions(x, m)
+        return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
         """Return the sliding efficiency at the friction coefficient f, Eqs. (32) and (33), corrected."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
 
-    def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances n1, n2 of both centres from the common normal, with tau = n1/n2."""
-        return self.approach_normal_arms(x, m) if phase == APPROACH else self.recess_normal_arms(x, m)
-
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14)."""
-        return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
+        """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14).
+
+        In approach it is R2 |sin y| / cos psi, the distance from C, times 1 + tau; in recess R1 |sin x| (1 + tau) /
+        cos psi2. (1 + tau) over the cosine is D divided by the distance of the driven axis from the normal.
+        """
+        if phase == APPROACH:
+            *_, q, sin_y = self._flank_line(x, m)
+            return abs(self.D) * abs(sin_y) / q
+        sine, _, arm, _, _ = self._driven_apex(x, m)
+        return abs(self.D * self.R1 * sine / arm)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
         """Return the distances b1, b2 of both centres from the line of force at the friction coefficient f, Eqs. (28)
@@ -286,4 +201,4 @@ class ToothPair:
         """Return f(x) = min(approach, recess) for |x| up to alpha_1max: the angle alpha_2 of the first phase to touch
         [rad].
         """
-        return float(min(self.approach_angle(x), self.recess_angle(x)))
+        return float(min(self.angle(APPROACH, x), self.angle(RECESS, x)))

@@ -7,11 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused, twice
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -89,22 +88,12 @@ class Triangular(ToothForm):
             turns = angle.si / RADIANS_PER_TURN
             if not _THINNEST <= turns < 0.25:
                 within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "too small for a tooth to be cut"
-                raise PydanticCustomError(
-                    "half_angle",
-                    "half_angle {angle} is {within}",
-                    {
-                        "angle": angle.text,
-                        "within": within,
-                        "fix": "give a half aperture angle between 0 and 90 deg, at least 0.001 deg",
-                    },
-                )
+                fix = "give a half aperture angle between 0 and 90 deg, at least 0.001 deg"
+                raise bad("half_angle", f"half_angle {angle.text} is {within}", fix)
         given = [name for name in CLEARANCES if getattr(self, name) is not None]
         if len(given) != 1:
-            raise PydanticCustomError(
-                "clearance",
-                "the clearance is given {count} times",
-                {"count": len(given), "fix": f"give exactly one of: {', '.join(CLEARANCES)}"},
-            )
+            fix = f"give exactly one of: {', '.join(CLEARANCES)}"
+            raise bad("clearance", f"the clearance is given {len(given)} times", fix)
         self._check_clearance()
         self._check_lengths()
         return self
@@ -121,36 +110,21 @@ class Triangular(ToothForm):
             inside = figure.value > low if high is None else low <= figure.value <= high
             if not inside:
                 name = next(name for name in CLEARANCES if getattr(self, name) is figure)
-                raise PydanticCustomError(
-                    "clearance", "{name} {text} is out of range", {"name": name, "text": figure.text, "fix": fix}
-                )
+                raise bad("clearance", f"{name} {figure.text} is out of range", fix)
 
     def _check_lengths(self) -> None:
         if isinstance(self.radii, Figure) and not 1 / _MAXIMUM_QUOTIENT <= self.radii.value <= _MAXIMUM_QUOTIENT:
-            raise PydanticCustomError(
-                "radii",
-                "a ratio of radii of {text} is out of range",
-                {
-                    "text": self.radii.text,
-                    "fix": "give the ratio of the radii divided by the ratio of the tooth numbers, near 1",
-                },
-            )
+            fix = "give the ratio of the radii divided by the ratio of the tooth numbers, near 1"
+            raise bad("radii", f"a ratio of radii of {self.radii.text} is out of range", fix)
         lengths = {"backlash": self.backlash, "centre_distance": self.centre_distance}
         lengths |= dict(zip(("first radius", "second radius"), self._given_radii, strict=False))
         given = {name: length for name, length in lengths.items() if length is not None}
         for name, length in given.items():
             if length.value < 0 or (name != "backlash" and length.value == 0):
-                raise PydanticCustomError(
-                    "length",
-                    "{name} {text} is out of range",
-                    {"name": name, "text": length.text, "fix": "give a length above 0"},
-                )
+                raise bad("length", f"{name} {length.text} is out of range", "give a length above 0")
         if len({length.unit is None for length in given.values()}) > 1:
-            raise PydanticCustomError(
-                "length",
-                "{names} mix numbers without a unit and lengths with a unit",
-                {"names": ", ".join(given), "fix": "give all with a unit, or all without"},
-            )
+            what = f"{', '.join(given)} mix numbers without a unit and lengths with a unit"
+            raise bad("length", what, "give all with a unit, or all without")
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
@@ -257,7 +231,9 @@ class Triangular(ToothForm):
         if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
             what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
             raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
-        sizes = self._sizes_at_clearance(self._sizes_at_deepest(z1, z2, ring), pitch_distance)
+        sizes = self._sizes_at_deepest(z1, z2, ring)
+        # less distance only makes an overlap worse, and the backlash of such teeth is undefined
+        sizes = sizes if sizes.surrounds else self._sizes_at_clearance(sizes, pitch_distance)
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, pi, sin
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.meshing_wheels import NamedForm, PairSize
-from geartrain.teeth.outlines.wheel_requirement import SAME_SIZE, CutTooth, WheelRequirement
+from geartrain.teeth.meshing_wheels import PairSize
+from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
@@ -22,6 +22,7 @@ from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump
 
 if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
+    from geartrain.teeth.triangular.triangular_form import Triangular
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 OTHER_SHAPES = (
@@ -45,66 +46,11 @@ _SIZES = (
 
 
 @dataclass(frozen=True)
-class TriangularTooth(WheelRequirement):
-    """Triangular tooth: tooth number, tip radius [module] and half aperture angle [rad]."""
-
-    z: int
-    tip_radius: float
-    half_angle: float
-    ring: bool = False
-
-    @property
-    def tip(self) -> float:
-        """Radius of the tip circle [module]."""
-        return self.tip_radius
-
-    def agrees(self, other: WheelRequirement) -> bool:
-        """Return True for triangular teeth with the same tip radius and half aperture angle."""
-        if not isinstance(other, TriangularTooth):
-            return False
-        pairs = (self.tip_radius, other.tip_radius), (self.half_angle, other.half_angle)
-        return all(abs(a - b) <= SAME_SIZE * max(a, 1.0) for a, b in pairs)
-
-    def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the outline of one tooth: straight lines from the middle of a space to the tip and to the next
-        space.
-        """
-        from geartrain.teeth.triangular.pair_geometry import depth
-
-        del others
-        tip, half = self.tip_radius, pi / self.z
-        root = tip * (1 - depth(-self.z if self.ring else self.z, self.half_angle))
-        vertices = ((root, -half), (tip, 0.0), (root, half))
-        return CutTooth(
-            "ring" if self.ring else "external",
-            tip,
-            root,
-            tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in vertices),
-        )
-
-
-class TriangularDetails(NamedForm, Protocol):
-    """Methods of a triangular tooth form that its mesh uses."""
-
-    def in_metres(self, module: float | None) -> bool:
-        """Return True if lengths are in metres for wheels of the given module [m]."""
-
-
-@dataclass(frozen=True)
 class TriangularMesh(GearMesh):
     """Gear pair with triangular teeth."""
 
-    tooth_form: TriangularDetails
+    tooth_form: Triangular
     transmission: TriangularTransmission
-
-    @cached_property
-    def reversed(self) -> TriangularTransmission:
-        """Transmission function with the other wheel driving."""
-        from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-
-        return TriangularTransmission(
-            self.transmission.sizes.swapped(), self.transmission.friction, self.transmission.direction
-        )
 
     @cached_property
     def verdict(self) -> PairVerdict:
@@ -157,13 +103,16 @@ class TriangularMesh(GearMesh):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
-    def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
-        """Return the required tooth, with its apex at the tip radius; straight flanks need no tolerance."""
+    def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
+        """Return the required tooth: straight lines from the middle of a space to the apex and to the next space."""
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
-        z, R, beta = (sizes.z1, sizes.z2)[at], sizes.radii[at], sizes.half_angles[at]
-        return TriangularTooth(z, R * scale, beta, sizes.signs[at] < 0)
+        half, tip = pi / (sizes.z1, sizes.z2)[at], sizes.radii[at] * scale
+        sign = sizes.signs[at]  # a ring gear has its roots outside
+        root, kind = tip - sign * sizes.depths[at] * scale, "ring" if sign < 0 else "external"
+        vertices = ((root, -half), (tip, 0.0), (root, half))
+        return FixedTooth(kind, tip, root, tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in vertices))
 
     @cached_property
     def separation(self) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
@@ -15,7 +15,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, behind, check_friction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
 
 _USUAL = 5  # rows for each interval of the real path
-_BLOCK = 16384  # samples per block, so that intermediate arrays fit the cache
 _GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights for each smooth stretch
 _ROUNDING = 1e-14  # of the mean of tau: quadrature tolerance of a stretch
 _DEEPEST = 40  # maximum number of bisections of a stretch
@@ -41,7 +40,7 @@ def _contact(sizes: TriangularSizes) -> TriangularContact:
     return TriangularContact(sizes)
 
 
-class TriangularTransmission(TransmissionFunction):
+class TriangularTransmission(ToothTransmission):
     """Transmission function of a pair of wheels with triangular teeth.
 
     The function includes the dwells of the driven wheel, if any. If the pair jams or clashes, the function describes
@@ -70,6 +69,8 @@ class TriangularTransmission(TransmissionFunction):
     >>> transmission.verdict.kind, transmission.ratio, [round(jump.value, 4) for jump in transmission.jumps]
     ('runs', Fraction(1, 2), [0.1582])
     """
+
+    driver = 1
 
     def __init__(self, sizes: TriangularSizes, friction: float = 0.0, direction: int = 1) -> None:
         self.sizes, self.friction, self.direction = sizes, check_friction(friction), direction
@@ -146,15 +147,13 @@ class TriangularTransmission(TransmissionFunction):
         """Return the transmission error [rad of the driven wheel] and the speed ratio tau, with one search of the path
         for both.
         """
-        lag, tau = self._map_all(S, self._lag_and_tau, 2)
+        lag, tau = self._map_all(S, lambda interval, x: (self._lag(interval, x), self._tau(interval, x)), 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
-    def reversed_motion(self) -> TriangularTransmission:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation.
-
-        Angles keep their sign convention, so they decrease.
-        """
-        return TriangularTransmission(self.sizes, self.friction, -self.direction)
+    def _driven(self, driver: int, direction: int) -> TriangularTransmission:
+        return TriangularTransmission(
+            self.sizes if driver == self.driver else self.sizes.swapped(), self.friction, direction
+        )
 
     def alpha1(self, S: ArrayLike) -> Floats:
         """Return the angle alpha_1 [rad] of the driving tooth pair at driver angles S.
@@ -174,32 +173,18 @@ class TriangularTransmission(TransmissionFunction):
     ) -> list[Floats]:
         """Return `count` functions of interval and alpha_1, evaluated at each driver angle."""
         S = np.asarray(S, dtype=float)
-        flat = S.ravel()
-        found = [np.empty_like(flat) for _ in range(count)]
-        for start in range(0, len(flat), _BLOCK):
-            part = slice(start, start + _BLOCK)
-            self._block(flat[part], what, [each[part] for each in found])
-        return [each.reshape(S.shape) for each in found]
-
-    def _block(
-        self, S: Floats, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], found: Sequence[Floats]
-    ) -> None:
-        edges, gone = self._edges, np.empty_like(S)
-        behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
-        gone += self._start
+        edges = self._edges
+        gone = np.mod(self.direction * S, self.period) + self._start
         # both terms are within one period, so one subtraction is sufficient
         gone -= np.where(gone < self.period, 0.0, self.period)
-        if len(self.intervals) == 1:
-            values = what(self.intervals[0], self.intervals[0].start - gone)
-            for each, value in zip(found, values, strict=True):
-                each[:] = value
-            return
         which = np.searchsorted(edges[1:-1], gone, side="right")
+        found = [np.empty_like(S) for _ in range(count)]
         for at, interval in enumerate(self.intervals):
-            chosen = np.flatnonzero(which == at)
+            chosen = which == at
             x = interval.start - (gone[chosen] - edges[at])
             for each, value in zip(found, what(interval, x), strict=True):
                 each[chosen] = value
+        return found
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
@@ -234,12 +219,6 @@ class TriangularTransmission(TransmissionFunction):
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
         return 0.0 if interval.held is not None else self.contact.path.tooth_pair.speed(interval.phase, x, np)
 
-    def _lag_and_tau(self, interval: DriveInterval, x: Any) -> tuple[Any, Any]:
-        if interval.held is not None:
-            return self._lag(interval, x), 0.0
-        alpha2, tau = self.contact.path.tooth_pair.angle_and_speed(interval.phase, x, np)
-        return alpha2 - self.sizes.ratio * x, tau
-
     def _eta(self, interval: DriveInterval, x: Any) -> Any:
         if interval.held is not None:
             return nan
@@ -273,9 +252,8 @@ class TriangularTransmission(TransmissionFunction):
             return 0.0
         tooth_pair = self.contact.path.tooth_pair
         low, high = max(self.sizes.matching, -self.sizes.reach1), self.sizes.reach1
-        if not tooth_pair.approach_angle(low) < 0 < tooth_pair.approach_angle(high):
-            return inf
-        return bracketed_root(tooth_pair.approach_angle, tooth_pair.approach_speed, low, high)
+        angle, speed = (partial(function, APPROACH) for function in (tooth_pair.angle, tooth_pair.speed))
+        return bracketed_root(angle, speed, low, high) if angle(low) < 0 < angle(high) else inf
 
     @cached_property
     def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
@@ -341,7 +319,7 @@ class TriangularTransmission(TransmissionFunction):
         """
         if self.friction >= self.locking_friction:
             return nan
-        return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
+        return self._contact_mean(self._eta)
 
     def efficiency_at_constant_load(self) -> float:
         """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
@@ -349,8 +327,8 @@ class TriangularTransmission(TransmissionFunction):
         """
         if self.friction >= self.locking_friction:
             return nan
-        work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
-        return self.contact.mean(("load", self.friction), lambda: self._contact_mean(self._tau) / work())
+        work = self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
+        return self._contact_mean(self._tau) / work
 
     def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
         """Return the mean of `what` over the driver angles with contact.

@@ -278,11 +278,11 @@ class CutToothPairs(ToothPair):
 
         It is f(x) = min(approach, recess).
         """
-        return np.fmin(self.approach_angle(x, np), self.recess_angle(x, np))  # far out of reach one of them is NaN
+        return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))  # far out of reach one of them is NaN
 
     def approaches(self, x: Any) -> Any:
         """Return a mask of the contacts at x that are in the approach phase."""
-        return self.approach_angle(x, np) < self.recess_angle(x, np)
+        return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
         """Return the speed ratio at x in the given phase; infinite if jamming teeth overlap below the driven flank."""

@@ -139,7 +139,7 @@ def steepest(tooth_pair: CutToothPairs) -> float:
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
-        tau = float(tooth_pair.approach_speed(tooth_pair.reach, np))
+        tau = float(tooth_pair.speed(APPROACH, tooth_pair.reach, np))
     return tau if 0 < tau < inf else inf
 
 

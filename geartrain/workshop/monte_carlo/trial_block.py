@@ -12,7 +12,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.superposition import Superposition
-from geartrain.teeth.transmission import ConstantLag
+from geartrain.teeth.transmission import ExactRatio
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel
@@ -176,7 +176,7 @@ def trial_pointers(
             else source
         )
         even.append(
-            replace(source, transmission=ConstantLag(transmission.ratio, transmission.pitches[0], pair.even))
+            replace(source, transmission=ExactRatio(transmission.ratio, transmission.pitches[0], pair.even))
             if pair and transmission
             else source
         )

@@ -167,12 +167,15 @@ def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
     """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
-    return front if front.flat else ProjectedScene(scene, posed, _screen(np.array(_OBLIQUE)))
+    return front if front.flat else ProjectedScene(scene, posed, screen_of(np.array(_OBLIQUE)))
 
 
-def _screen(view: Floats) -> Floats:
+def screen_of(view: Floats) -> Floats:
+    """Return the directions right, up and towards the reader as rows (3, 3), from the direction towards the reader."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
+    if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
+        right = np.array([1.0, 0.0, 0.0])
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(towards, right), towards])
 

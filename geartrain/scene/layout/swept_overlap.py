@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,22 +20,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.scene.layout.wheel_modules import WheelSize
 
     Flags = NDArray[np.bool_]
+    Disc: TypeAlias = "WheelBlock | WheelSize"
 
 _SLACK = 1e-9  # relative to a radius: touching discs must not overlap by rounding errors
-
-
-class Disc(Protocol):
-    """Wheel in plan."""
-
-    @property
-    def inner(self) -> float:
-        """Radius of the free space inside a ring (mm); 0 for other wheels."""
-
-    @property
-    def outer(self) -> float:
-        """Outer radius, including clearance (mm)."""
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:

@@ -275,13 +275,12 @@ def find_profiles(stage: SceneContext) -> ToothProfiles:
     Wheels that cannot be cut get nominal teeth.
     """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
-    profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
+    cut = {**toothed.approximations, **toothed.wheels}
+    profiles = {
+        wheel: _section(cut[wheel]) if wheel in cut else _approximation(stage, toothed, wheel)
+        for wheel in stage.train.declaration.wheels
+    }
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
-
-
-def _profile(stage: SceneContext, toothed: TrainTeeth, wheel: str) -> ToothProfile:
-    found = toothed.wheels.get(wheel) or toothed.approximations.get(wheel)
-    return _approximation(stage, toothed, wheel) if found is None else _section(found)
 
 
 def _section(toothing: WheelTeeth) -> ToothProfile:

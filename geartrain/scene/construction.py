@@ -33,14 +33,15 @@ from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers,
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
 from geartrain.scene.movement import MovementStart, find_movement
+from geartrain.scene.scene_run import find_run
 from geartrain.scene.train_scene import Scene
 from geartrain.train import Output
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
-    from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel
+    from geartrain.scene.elements import SceneBody, SceneWheel
     from geartrain.scene.layout import WheelPlace
-    from geartrain.scene.scene_run import SceneRun, TimeRun
+    from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import Pointer
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Train
@@ -467,22 +468,8 @@ def make_scene(
         epoch=find_epoch(stage),
         formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),
-        run=None if run is None else _played(stage, run, moves, moved, wheels, pairs, couplings),
+        run=None if run is None else find_run(stage, run, moves, moved.movement, wheels, pairs, couplings),
     )
-
-
-def _played(
-    stage: SceneContext,
-    run: TimeRun,
-    moves: Mapping[str, str],
-    moved: MovementStart,
-    wheels: Sequence[SceneWheel],
-    pairs: Sequence[ScenePair],
-    couplings: Sequence[SceneCoupling],
-) -> SceneRun:
-    from geartrain.scene.scene_run import find_run  # needs numpy
-
-    return find_run(stage, run, moves, moved.movement, wheels, pairs, couplings)
 
 
 def _sources(train: GearTrain) -> dict[str, dict[str, str]]:

@@ -47,14 +47,14 @@ def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
-    first = _term(circuit.a, f"({i} {minus} {k})", "")
+    first = _term(circuit.a, f"({i} {minus} {k})")
     if not circuit.b:
         return f"{first} = 0"
-    return f"{first} {'-' if circuit.b < 0 else '+'} {_term(abs(circuit.b), f'({j} {minus} {k})', '')} = 0"
+    return f"{first} {'-' if circuit.b < 0 else '+'} {_term(abs(circuit.b), f'({j} {minus} {k})')} = 0"
 
 
-def _term(factor: int, what: str, sign: str) -> str:
-    return f"{sign}{what}" if factor == 1 else f"{sign}{factor} {what}"
+def _term(factor: int, what: str) -> str:
+    return what if factor == 1 else f"{factor} {what}"
 
 
 def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:

@@ -13,7 +13,7 @@
         swept_overlap   distances while carriers turn                SweptDistances, PlanOverlap
         wheel_stacks    local search of the order of levels          StackProblem
                         heights of levels                            WheelStack
-    train_layout        angles at which teeth mesh                   MeshAlignment
+    train_layout        angles at which teeth mesh
                         violated conditions                          notices
 """
 

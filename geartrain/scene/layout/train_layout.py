@@ -10,7 +10,7 @@ could not satisfy are reported as notices.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot, pi, remainder
 from typing import Literal
@@ -177,32 +177,21 @@ class PitchPoint:
         return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
 
 
-@dataclass(frozen=True, slots=True)
-class MeshAlignment:
-    """Angles at which wheels mesh.
-
-    turns    angle of the first tooth of each wheel (rad, from 0 to a pitch)
-    misses   phase errors of pairs that close a loop (pitches)
-    """
-
-    turns: Mapping[str, float]
-    misses: Mapping[str, float]
-
-
 def reference(direction: Vector) -> Vector:
     """Return the unit vector perpendicular to an axis from which angles are measured: x if the axis is z."""
     return frame(direction)[0]
 
 
-def align_meshes(found: Arrangement) -> MeshAlignment:
-    """Return the angles at which the wheels of a train mesh in the layout."""
-    return _aligned([_pitch_point(found, contact) for contact in found.geometry.declared.contacts])
-
-
 def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     declared = found.geometry.declared
     directions = [declared.lines[axis].direction for axis in contact.axes]
-    outs = _parallel_directions(found, contact) if contact.parallel else _seat_directions(found, contact)
+    if contact.parallel:  # opposite, or equal for a pair with a ring
+        apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), directions[0])
+        out = unit(apart) if size(apart) else reference(directions[0])
+        ring, other_ring = (declared.wheel(wheel).internal for wheel in contact.wheels)
+        outs = opposite(out) if other_ring else out, out if ring else opposite(out)
+    else:
+        outs = tuple(found.geometry.seats[contact.name, wheel].out for wheel in contact.wheels)
     first, second = (
         PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
         for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)
@@ -211,24 +200,13 @@ def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     return PitchPoint(contact.name, first, second, contact.worm_sense or (1 if same else -1))
 
 
-def _seat_directions(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Return directions to the pitch point for axes that are not parallel, one for each wheel."""
-    first, second = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
-    return first.out, second.out
+def align_meshes(found: Arrangement) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the angles at which wheels mesh.
 
-
-def _parallel_directions(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Return directions to the pitch point for parallel axes, which are opposite, or equal for a pair with a ring."""
-    declared = found.geometry.declared
-    direction = declared.lines[contact.axes[0]].direction
-    apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), direction)
-    out = unit(apart) if size(apart) else reference(direction)
-    first, second = (declared.wheel(wheel).internal for wheel in contact.wheels)
-    return opposite(out) if second else out, out if first else opposite(out)
-
-
-def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
-    every = list(points)
+    They are the angle of the first tooth of each wheel (rad, from 0 to a pitch), and the phase errors of pairs that
+    close a loop (pitches).
+    """
+    every = [_pitch_point(found, contact) for contact in found.geometry.declared.contacts]
     of: dict[str, list[PitchPoint]] = {}
     for one in every:
         of.setdefault(one.first.wheel, []).append(one)
@@ -248,7 +226,7 @@ def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
                     turns[mate.wheel] = _turn_of_mate(own, mate, one.sense, turns[here])
                     waiting.append(mate.wheel)
     misses = {one.name: _miss(one, turns) for one in every}
-    return MeshAlignment(turns, {name: miss for name, miss in misses.items() if abs(miss) > _TEETH_MEET})
+    return turns, {name: miss for name, miss in misses.items() if abs(miss) > _TEETH_MEET}
 
 
 def _past(side: PitchSide, turn: float) -> float:
@@ -431,12 +409,12 @@ def lay_out(train: GearTrain) -> Layout:
     geometry = size_geometry(read_geometry(train))
     declared = geometry.declared
     found = arrange(geometry)
-    alignment = align_meshes(found)
+    turns, misses = align_meshes(found)
     gaps = pitch_gaps(found)
     return Layout(
         _axis_places(found),
-        _wheel_places(found, alignment.turns),
-        tuple(notices(train, found, gaps, alignment.misses)),
+        _wheel_places(found, turns),
+        tuple(notices(train, found, gaps, misses)),
         declared.front,
         gaps,
     )

@@ -282,6 +282,12 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
     axes.text(x, y, text, **how)
 
 
+def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **how: Any) -> None:
+    """Write text at an offset [pt] from a point of a panel, with a halo; to its left if the offset is negative."""
+    how = {"ha": "left" if offset[0] > 0 else "right", "fontsize": SMALL, "path_effects": HALO, **how}
+    axes.annotate(text, at, xytext=offset, textcoords="offset points", **how)
+
+
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
     """Return a figure whose axes are in inches from its lower left corner, with a title at its top (two lines: 0.5
     inches).

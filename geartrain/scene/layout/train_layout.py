@@ -111,13 +111,10 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
 
 def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
     """Yield notices on wheels that are not drawn as they are declared."""
-    for stray in declared.strays:
-        yield Problem(
-            f"wheel '{stray.wheel}' is drawn only on axis '{declared.axis[stray.wheel]}'",
-            f"pair '{stray.pair}' requires it on axis '{stray.axis}' as well",
-            "declare a separate wheel for each of its meshes",
-            place[stray.pair],
-        )
+    for wheel, pair, axis in declared.strays:
+        what = f"wheel '{wheel}' is drawn only on axis '{declared.axis[wheel]}'"
+        why = f"pair '{pair}' requires it on axis '{axis}' as well"
+        yield Problem(what, why, "declare a separate wheel for each of its meshes", place[pair])
 
 
 def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:

@@ -32,7 +32,6 @@ _LONG = 0.02  # cost of a level that an arbor spans
 _LEVEL = 0.005  # cost of a level
 _PASSES = 8  # maximum number of passes over all stacks
 _RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved or reversed
-_AT_ONCE = 500  # orders evaluated at once: more would not fit into the cache
 _SEARCHED = 80  # maximum number of stacks for the local search
 
 
@@ -153,9 +152,7 @@ class _OrderSearch:
         """Return the best order with one run of levels moved or reversed, and whether it is an improvement."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
-        costs = np.concatenate(
-            [self._costs(ranks[at : at + _AT_ONCE], fixed_cost) for at in range(0, len(ranks), _AT_ONCE)]
-        )
+        costs = self._costs(ranks, fixed_cost)
         # rounded, so that ties are broken alike whatever the order of summation
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))

@@ -144,9 +144,10 @@ class HangingParts:
         way = Fraction(body.speed or 0) * body.sense
         if not way:
             return
-        middle = self.plan.stack.in_space(barrel.at, (barrel.low + barrel.high) / 2)
+        (band,) = barrel.part.bands
+        middle = self.plan.stack.in_space(barrel.part.at, (band.low + band.high) / 2)
         # the side on which the rim of the barrel moves down as it turns forward
-        rate = barrel.radius if way > 0 else -barrel.radius
+        rate = band.radius if way > 0 else -band.radius
         side = plus(middle, cross(down, body.direction), rate)
         lead = material_named(self.declared, "lead").density
         assert lead is not None

@@ -112,7 +112,7 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     first = np.maximum(np.minimum(first, bounds[1] - wide[-1] / 2 - steps[-1]), bounds[0] + wide[0] / 2)
     places = np.zeros(len(order))
     places[order] = first + steps
-    return places.tolist()
+    return list(map(float, places))
 
 
 def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:

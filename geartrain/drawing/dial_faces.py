@@ -19,6 +19,7 @@ from geartrain.drawing.style import (
     Circle,
     Figure,
     Polygon,
+    after_turns,
     series_look,
     sheet,
     title_of,
@@ -115,7 +116,7 @@ def dials_figure(
     ]
     wide = max(_FACE, max(keys) + 0.3) if labels else _FACE
     width = max(wide * columns, 5.0)
-    title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_driving_link(scene)}" if turns else "")
+    title = title_of(scene.name, scene.title) + after_turns(scene, turns)
     figure, axes = sheet(width, _HEAD + sum(tall) + 0.1, title)
     top = sum(tall) + 0.1
     for row, high in zip(rows, tall, strict=True):
@@ -127,10 +128,6 @@ def dials_figure(
                 _draw_key(axes, face, scene, readings, centre)
         top -= high
     return figure
-
-
-def _driving_link(scene: Scene) -> str:
-    return scene.bodies[scene.driving_link].id if scene.driving_link is not None else "nothing"
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:

@@ -46,6 +46,7 @@ from geartrain.drawing.style import (
     Path,
     PathPatch,
     Polygon,
+    after_turns,
     sheet,
     title_of,
     write,
@@ -434,13 +435,8 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
 
 
 def _title(scene: Scene, turns: Fraction) -> str:
-    title = title_of(scene.name, scene.title)
-    if scene.state is not None:
-        title += f" (state {scene.state})"
-    if turns:
-        driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
-        title += f", after {turns} turns of {driver}"
-    return title
+    state = "" if scene.state is None else f" (state {scene.state})"
+    return title_of(scene.name, scene.title) + state + after_turns(scene, turns)
 
 
 def _verdict(scene: Scene, width: float) -> str:

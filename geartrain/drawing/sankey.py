@@ -426,7 +426,7 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
     steps = [one.height + one.below + other.above for one, other in pairwise(column)]
     offsets = np.cumsum([0.0, *steps])
     tops, weights = np.array(wanted).T
-    return (isotonic_regression(tops - offsets, weights=weights).x + offsets).tolist()
+    return list(map(float, isotonic_regression(tops - offsets, weights=weights).x + offsets))
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:

@@ -16,8 +16,11 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem, Questio
 from geartrain.scene.palette import THEMES, ThemeName, series_colour, series_dash
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.scene import Scene
 
 try:
     import numpy as np
@@ -313,6 +316,12 @@ def headed(figure: Figure, title: str) -> Figure:
 def title_of(name: str, title: str) -> str:
     """Return the title above a picture of a train."""
     return f"{name}: {title}" if title else name
+
+
+def after_turns(scene: Scene, turns: Fraction) -> str:
+    """Return the end of the title of a scene after `turns` of its driving link; empty for 0."""
+    driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
+    return f", after {turns} turns of {driver}" if turns else ""
 
 
 def too_many(train: GearTrain, count: int, most: int, what: str) -> None:

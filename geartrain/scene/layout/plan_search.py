@@ -295,7 +295,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
     def misses(moved: Floats) -> Floats:
         found = fitted(moved)
-        return np.hypot(*(found[second] - found[first]).T) - lengths
+        return np.asarray(np.hypot(*(found[second] - found[first]).T) - lengths)
 
     start = points[free].ravel()
     # a distance of 0 defines no scale

@@ -188,7 +188,8 @@ def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
         ring, other_ring = (declared.wheel(wheel).internal for wheel in contact.wheels)
         outs = opposite(out) if other_ring else out, out if ring else opposite(out)
     else:
-        outs = tuple(found.geometry.seats[contact.name, wheel].out for wheel in contact.wheels)
+        first_seat, second_seat = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
+        outs = first_seat.out, second_seat.out
     first, second = (
         PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
         for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)

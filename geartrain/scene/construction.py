@@ -25,13 +25,14 @@ from geartrain.kinematics.formulas import Formula, Formulas, find_formulas
 from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, scaled, size, unit_or_z
+from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, size
 from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
+from geartrain.scene.layout.train_layout import pitch_directions
 from geartrain.scene.movement import MovementStart, find_movement
 from geartrain.scene.scene_run import find_run
 from geartrain.scene.train_scene import Scene
@@ -40,7 +41,6 @@ from geartrain.train import Output
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.scene.elements import SceneBody, SceneWheel
-    from geartrain.scene.layout import WheelPlace
     from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import Pointer
     from geartrain.teeth.gear_mesh import GearMesh
@@ -53,47 +53,24 @@ if TYPE_CHECKING:
 _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are rounding errors
 
 
-@dataclass(frozen=True, slots=True)
-class MeshDirections:
-    """Directions of contact of the two wheels of a pair."""
+def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
+    """Return the directions of contact of a pair; None for skew axes, and for coaxial wheels.
 
-    contact: tuple[Vector, Vector]
-    """Unit vectors from the centres of the wheels to the point of contact, perpendicular to their axes."""
-    same: int
-    """1 if positive rotations of both wheels about their directions move the teeth in contact in the same direction,
-    else -1.
+    They are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their axes, and 1
+    if positive rotations of both wheels move the teeth in contact in the same direction, else -1.
     """
-
-
-def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
-    """Return the directions of contact of a pair; None for skew axes, and for coaxial wheels."""
-    wheels = [stage.train.declaration.wheels[name][1] for name in circuit.wheels]
-    if "worm" in (wheels[0].kind, wheels[1].kind):
-        return None
+    one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
     axes = stage.reference(first.axis), stage.reference(second.axis)
-    if size(cross(*axes)) >= _NONE and any(wheel.is_helical for wheel in wheels):
+    parallel = size(cross(*axes)) < _NONE
+    if "worm" in (one.kind, other.kind) or (not parallel and (one.is_helical or other.is_helical)):
         return None
-    if size(cross(*axes)) < _NONE:  # parallel axes
-        between = across(minus(second.centre, first.centre), axes[0])
-        if size(between) < _NONE:
-            return None
-        n = unit_or_z(between)
-        back = scaled(n, -1.0)
-        # contact with a ring is inside it, on the far side of its mate
-        contact = (back, back) if wheels[1].internal else (n, n) if wheels[0].internal else (n, back)
-    else:
-        contact = _towards(stage, first, second, axes[0]), _towards(stage, second, first, axes[1])
-    ways = [cross(axis, n) for axis, n in zip(axes, contact, strict=True)]
-    return MeshDirections(contact, 1 if dot(*ways) > 0 else -1)
-
-
-def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vector) -> Vector:
-    """Return the unit vector perpendicular to the axis of a bevel wheel towards its mate, on the facing side of the
-    apex.
-    """
-    lies = scaled(stage.along(mate.axis), float(mate.facing)) if mate.facing else minus(mate.centre, own.centre)
-    return unit_or_z(across(lies, axis))
+    if parallel and size(across(minus(second.centre, first.centre), axes[0])) < _NONE:
+        return None
+    ways = stage.along(first.axis), stage.along(second.axis)
+    contact = pitch_directions((first, second), ways, (one.internal, other.internal))
+    ends = [cross(axis, n) for axis, n in zip(axes, contact, strict=True)]
+    return contact, 1 if dot(*ends) > 0 else -1
 
 
 _NEAR = 1e-6  # pitches: smaller phase differences are rounding errors
@@ -123,7 +100,7 @@ class _Mounting:
     def __init__(self, stage: SceneContext, moved: MovementStart) -> None:
         self.stage, self.moved = stage, moved
         self.turns: dict[str, float] = {}
-        self.meetings: dict[str, MeshDirections] = {}
+        self.meetings: dict[str, tuple[tuple[Vector, Vector], int]] = {}
         self.mates: dict[str, list[Circuit]] = {}
         self.off: list[str] = []
         self.meshes: Mapping[str, GearMesh] = {mesh.name: mesh for mesh in stage.meshes}
@@ -239,14 +216,14 @@ class _Mounting:
         place = self.stage.layout.wheels[circuit.wheels[at]]
         axis = self.stage.reference(place.axis)
         rest = self.moved.rest[(circuit.i, circuit.j)[at]] - self.moved.rest[circuit.carrier]
-        return azimuth(self.meetings[circuit.id].contact[at], axis, place.reference) - rest
+        return azimuth(self.meetings[circuit.id][0][at], axis, place.reference) - rest
 
     def _way(self, circuit: Circuit, at: int) -> int:
         """Return 1 if a wheel turns in the positive sense about its body's direction, else -1."""
         driver = self._driver(circuit)
         setting = self.moved.driving.get(circuit.id)
         forward = self._forward((circuit.i, circuit.j)[driver], circuit.carrier) if setting is None else setting.forward
-        return forward if at == driver else forward * self.meetings[circuit.id].same
+        return forward if at == driver else forward * self.meetings[circuit.id][1]
 
     def _forward(self, link: str, carrier: str) -> int:
         own, base = self.stage.speed(link) or 0, self.stage.speed(carrier) or 0

@@ -11,14 +11,14 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import hypot, pi, remainder
 from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
 from geartrain.numerics.results import Shown
-from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, size, unit
+from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, scaled, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
 from geartrain.scene.layout.wheel_modules import Seat, opposite, pitch_distance, size_geometry
@@ -147,6 +147,12 @@ def _listed(words: Sequence[str]) -> str:
 
 
 _TEETH_MEET = 1e-6  # phase error (pitches) below which teeth mesh
+_NONE = 1e-9  # mm: smaller distances are rounding errors
+
+
+def reference(direction: Vector) -> Vector:
+    """Return the unit vector perpendicular to an axis from which angles are measured: x if the axis is z."""
+    return frame(direction)[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,37 +180,48 @@ class PitchPoint:
         return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
 
 
-def reference(direction: Vector) -> Vector:
-    """Return the unit vector perpendicular to an axis from which angles are measured: x if the axis is z."""
-    return frame(direction)[0]
+def pitch_directions(
+    wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
+) -> tuple[Vector, Vector]:
+    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to its axis.
+
+    ways    declared directions of the axes
+    rings   whether each wheel is a ring
+    """
+    first, second = wheels
+    between = minus(second.centre, first.centre)
+    if first.cone or second.cone:  # on the facing side of the apex
+        towards = [scaled(way, float(wheel.facing)) for wheel, way in zip(wheels, ways, strict=True)]
+        towards = [towards[0] if first.facing else opposite(between), towards[1] if second.facing else between]
+        return unit(across(towards[1], ways[0])), unit(across(towards[0], ways[1]))
+    apart = across(between, ways[0])
+    out = unit(apart) if size(apart) > _NONE else reference(ways[0])
+    # contact with a ring is inside it, on the far side of its mate
+    return opposite(out) if rings[1] else out, out if rings[0] else opposite(out)
 
 
-def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
-    declared = found.geometry.declared
-    directions = [declared.lines[axis].direction for axis in contact.axes]
-    if contact.parallel:  # opposite, or equal for a pair with a ring
-        apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), directions[0])
-        out = unit(apart) if size(apart) else reference(directions[0])
-        ring, other_ring = (declared.wheel(wheel).internal for wheel in contact.wheels)
-        outs = opposite(out) if other_ring else out, out if ring else opposite(out)
-    else:
-        first_seat, second_seat = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
-        outs = first_seat.out, second_seat.out
-    first, second = (
-        PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
-        for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)
+def _pitch_point(declared: DeclaredGeometry, places: Mapping[str, WheelPlace], contact: PitchContact) -> PitchPoint:
+    first_way, second_way = ways = tuple(declared.lines[axis].direction for axis in contact.axes)
+    first, second = contact.wheels
+    rings = declared.wheel(first).internal, declared.wheel(second).internal
+    outs = pitch_directions((places[first], places[second]), (first_way, second_way), rings)
+    sides = (
+        PitchSide(wheel, declared.count(wheel), azimuth(out, way, reference(way)))
+        for wheel, way, out in zip(contact.wheels, ways, outs, strict=True)
     )
-    same = dot(cross(directions[0], outs[0]), cross(directions[1], outs[1])) > 0
-    return PitchPoint(contact.name, first, second, contact.worm_sense or (1 if same else -1))
+    same = dot(cross(first_way, outs[0]), cross(second_way, outs[1])) > 0
+    return PitchPoint(contact.name, *sides, contact.worm_sense or (1 if same else -1))
 
 
-def align_meshes(found: Arrangement) -> tuple[dict[str, float], dict[str, float]]:
+def align_meshes(
+    declared: DeclaredGeometry, places: Mapping[str, WheelPlace]
+) -> tuple[dict[str, float], dict[str, float]]:
     """Return the angles at which wheels mesh.
 
     They are the angle of the first tooth of each wheel (rad, from 0 to a pitch), and the phase errors of pairs that
     close a loop (pitches).
     """
-    every = [_pitch_point(found, contact) for contact in found.geometry.declared.contacts]
+    every = [_pitch_point(declared, places, contact) for contact in declared.contacts]
     of: dict[str, list[PitchPoint]] = {}
     for one in every:
         of.setdefault(one.first.wheel, []).append(one)
@@ -407,11 +424,12 @@ def lay_out(train: GearTrain) -> Layout:
     geometry = size_geometry(read_geometry(train))
     declared = geometry.declared
     found = arrange(geometry)
-    turns, misses = align_meshes(found)
+    places = _wheel_places(found)
+    turns, misses = align_meshes(declared, places)
     gaps = pitch_gaps(found)
     return Layout(
         _axis_places(found),
-        _wheel_places(found, turns),
+        {name: replace(place, turn=turns.get(name, 0.0)) for name, place in places.items()},
         tuple(notices(train, found, gaps, misses)),
         declared.front,
         gaps,
@@ -429,7 +447,8 @@ def _axis_places(found: Arrangement) -> dict[str, AxisPlace]:
     return places
 
 
-def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, WheelPlace]:
+def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
+    """Return the places of all wheels, not yet rotated so that teeth mesh."""
     geometry, declared = found.geometry, found.geometry.declared
     layers, coned = _layers(found), _coned_seats(found)
     places = {}
@@ -449,7 +468,6 @@ def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, W
             cone=cone,
             facing=kind.facing if cone else 0,
             layer=layers.get(wheel),
-            turn=turns.get(wheel, 0.0),
             reference=reference(direction),
         )
     return places

@@ -11,7 +11,7 @@ give those bounds. The cost of a place is the overlap of wheels of parallel axes
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import combinations
@@ -21,7 +21,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.scene.layout.declared_geometry import Point
-from geartrain.scene.layout.plan_problem import PlanDisc, PlanProblem
+from geartrain.scene.layout.plan_problem import PlanProblem
+from geartrain.scene.layout.wheel_modules import WheelSize
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
@@ -55,11 +56,11 @@ class PlanClearance:
             if pivot in number:
                 ends = number[label], number[pivot]
                 self.still[ends] = self.still[ends[::-1]] = True
-        plain = [[disc for disc in problem.discs.get(label, ()) if not disc.inner] for label in labels]
-        self.radius = np.array([max((disc.outer for disc in discs), default=0.0) for discs in plain])
-        self.need = _minimum_distances(plain, problem.mates)
+        plain = [{name: disc for name, disc in problem.discs[label].items() if not disc.inner} for label in labels]
+        self.radius = np.array([max((disc.outer for disc in discs.values()), default=0.0) for discs in plain])
+        self.need = _minimum_distances(plain, problem)
         self.meet = np.zeros((len(labels), len(labels)), bool)
-        axis = {disc.wheel: at for at, label in enumerate(labels) for disc in problem.discs.get(label, ())}
+        axis = {wheel: at for at, label in enumerate(labels) for wheel in problem.discs[label]}
         for pair in problem.mates:
             both = [axis[wheel] for wheel in pair if wheel in axis]
             if len(both) == 2:
@@ -86,17 +87,17 @@ class PlanClearance:
         return np.asarray(near[np.hypot(away[:, 0], away[:, 1]) < reach])
 
 
-def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], mates: frozenset[frozenset[str]]) -> Floats:
+def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanProblem) -> Floats:
     """Return minimum distances between axes whose wheels share a level and do not mesh; 0 without a requirement."""
     need = np.zeros((len(discs), len(discs)))
-    clusters: dict[int, list[tuple[int, PlanDisc]]] = {}
+    clusters: dict[int, list[tuple[int, str]]] = {}
     for at, own in enumerate(discs):
-        for disc in own:
-            clusters.setdefault(disc.cluster, []).append((at, disc))
+        for wheel in own:
+            clusters.setdefault(problem.cluster[wheel], []).append((at, wheel))
     for members in clusters.values():
         for (a, one), (b, other) in combinations(members, 2):
-            if a != b and frozenset((one.wheel, other.wheel)) not in mates:
-                need[a, b] = need[b, a] = max(need[a, b], one.outer + other.outer)
+            if a != b and frozenset((one, other)) not in problem.mates:
+                need[a, b] = need[b, a] = max(need[a, b], discs[a][one].outer + discs[b][other].outer)
     return need
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
@@ -147,7 +147,10 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         dial = scene.pointers[at].dial
         if dial is not None:
             on.setdefault(dial, []).append(at)
-    faces = [_dial_picture(scene, dial, pointers) for dial, pointers in on.items()]
+    faces = [
+        DialPicture(face.id, face.scale, tuple(pointers), face.title)
+        for face, pointers in ((scene.dials[dial], pointers) for dial, pointers in on.items())
+    ]
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
@@ -163,11 +166,6 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             )
         )
     return faces
-
-
-def _dial_picture(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
-    face = scene.dials[dial]
-    return DialPicture(face.id, face.scale, tuple(pointers), face.title)
 
 
 # -------------------------------------------------------------------------------------------------------------- drawing

@@ -35,7 +35,7 @@ from geartrain.scene.palette import series_colour
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics import ErrorSamples, Motion, TorqueCycle, TorqueExtreme
+    from geartrain.dynamics import ErrorSamples, TorqueCycle, TorqueExtreme
     from geartrain.numerics.arrays import Floats
 
 
@@ -114,32 +114,6 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.driving_link}")
     omitted = _omitted(len(erring), len(found) - len(erring))
     return headed(figure, "; ".join(filter(None, (title, *omitted))))
-
-
-def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
-    """Draw the motion of outputs over some turns of the input with `motion_figure`.
-
-    Parameters
-    ----------
-    motion : Motion
-        Motion of the outputs.
-    turns : float
-        Length of the run from position 0 of the input [turn].
-    samples : int
-        Number of positions, 2 or more, both ends included.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure as drawn by `motion_figure`.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> outputs_figure(geartrain.load("moon-triangular").motion(), turns=0.1, samples=51).axes[-1].get_xlabel()
-    'turns of crank'
-    """
-    return motion_figure(MotionRun(motion, turns, samples))
 
 
 def _omitted(erring: int, exact: int) -> Iterator[str]:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.collections import Collection, PolyCollection
 from matplotlib.colors import Colormap, LinearSegmentedColormap, ListedColormap, to_hex, to_rgba
 from matplotlib.figure import Figure
@@ -92,7 +91,7 @@ class _Painter:
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
                 new = to_hex(themed_colour(to_rgba(old), self.name))
-                self._put(partial(_set_grid, axis), old, new)
+                self._put(lambda colour, axis=axis: axis.set_tick_params(grid_color=colour), old, new)
 
     def _put(self, put: Callable[[Any], object], old: Any, new: Any) -> None:
         self.undo.append((put, old))
@@ -137,10 +136,6 @@ class _Painter:
             self._put(partial(gc.__setitem__, "foreground"), old, to_hex(themed_colour(to_rgba(old), self.name)))
 
 
-def _set_grid(axis: Axis, colour: Any) -> None:
-    axis.set_tick_params(grid_color=colour)
-
-
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
     """Return the fill colour and hatch of a series area in a theme that defines them; otherwise None."""
     areas = THEMES[name].areas
@@ -161,11 +156,8 @@ def _themed_all(colours: Any, name: ThemeName) -> Any:
     """Return one colour, or the rows of a collection's colours, in the theme."""
     if isinstance(colours, np.ndarray) and colours.ndim == 2:
         return [themed_colour(tuple(map(float, row)), name) for row in colours]  # type: ignore[arg-type]
-    return themed_colour(to_rgba(colours), name) if not _none(colours) else colours
-
-
-def _none(colour: Any) -> bool:
-    return isinstance(colour, str) and colour in ("none", "auto")
+    unset = isinstance(colours, str) and colours in ("none", "auto")
+    return colours if unset else themed_colour(to_rgba(colours), name)
 
 
 def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:

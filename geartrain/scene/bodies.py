@@ -310,7 +310,7 @@ def _approximation(stage: SceneContext, toothed: TrainTeeth, name: str) -> Tooth
     _, wheel = stage.train.declaration.wheels[name]
     place, z = stage.layout.wheels[name], wheel.count or 1
     if wheel.kind == "worm":
-        return worm(z, _mate_module(stage, name) / place.radius)
+        return worm(z, stage.layout.wheels[next(_mates(stage, name), name)].module / place.radius)
     shaped = next((toothed.wheels[mate] for mate in _mates(stage, name) if mate in toothed.wheels), None)
     if place.cone and shaped is not None and shaped.form != STANDARD and shaped.pins is None:
         return crown(z, shaped.z, shaped.section())
@@ -319,10 +319,6 @@ def _approximation(stage: SceneContext, toothed: TrainTeeth, name: str) -> Tooth
     mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
     heights = [tooth_height(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
     return (ring if wheel.internal else spur)(z, *([min(heights)] if heights else []))
-
-
-def _mate_module(stage: SceneContext, name: str) -> float:
-    return stage.layout.wheels[next(_mates(stage, name), name)].module
 
 
 def _mates(stage: SceneContext, name: str) -> Iterator[str]:

@@ -130,7 +130,8 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
     towards = unit_or_z(between) if size(between) > _NONE else beside(axis)
     towards = _clear_of_carried(stage, declared, pin_axis, axis, towards)
     pin, hole = pin_and_hole(declared, radius, offset)
-    pin_axis, slot_axis = (_at_height(point, axis, _height(stage, declared, axis)) for point in (pin_axis, slot_axis))
+    height = _height(stage, declared, axis)
+    pin_axis, slot_axis = (plus(point, axis, height - dot(point, axis)) for point in (pin_axis, slot_axis))
     return SceneCoupling(
         id=circuit.id,
         kind=declared.kind,
@@ -234,7 +235,3 @@ def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
         (level[0] for level in levels if level),
         dot(_point(stage, stage.train.kinematics.tree.axis(declared.pin)), axis),
     )
-
-
-def _at_height(point: Vector, axis: Vector, height: float) -> Vector:
-    return plus(point, axis, height - dot(point, axis))

@@ -582,7 +582,7 @@ class Motion(Shown):
         Returns
         -------
         matplotlib.figure.Figure
-            Figure drawn by `geartrain.drawing.outputs_figure`.
+            Figure drawn by `geartrain.drawing.motion_figure`.
 
         Raises
         ------
@@ -598,7 +598,9 @@ class Motion(Shown):
         >>> motion.plot("moon", turns=0.1).axes[-1].get_xlabel()
         'turns of crank'
         """
+        from geartrain.dynamics.motion.motion_run import MotionRun
+
         for name in outputs:
             check_choice("output", name, list(self.outputs))
-        shown = self._of(outputs or tuple(self.outputs))
-        return imported_function("drawing", "outputs_figure")(shown, turns, samples)
+        run = MotionRun(self._of(outputs or tuple(self.outputs)), turns, samples)
+        return imported_function("drawing", "motion_figure")(run)

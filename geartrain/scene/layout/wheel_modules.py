@@ -150,15 +150,6 @@ class WheelModules:
     """Pairs of axes -> required distance (mm), the mean of the requirements of their pairs."""
 
 
-def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
-    """Return the modules of all wheels, exact if the declaration is exact, and the resulting distances between axes.
-
-    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
-    A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
-    """
-    return _ModuleSearch(geometry).found()
-
-
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
     """Return the distance between the axes of a pair [mm], at which pitch circles touch or declared teeth mesh."""
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
@@ -166,7 +157,10 @@ def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], cont
 
 
 class _ModuleSearch:
-    """Search for the modules of the clusters of one train.
+    """Search for the modules of the clusters of one train, exact if the declaration is exact.
+
+    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
+    A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
 
     cluster   number of the cluster of each wheel
     between   gear pairs by their axes, for pairs with a distance: parallel ones, and worms
@@ -425,7 +419,7 @@ class SizedGeometry:
 
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
     """Return modules, sizes and seats of all wheels."""
-    modules = find_wheel_modules(declared)
+    modules = _ModuleSearch(declared).found()
     sizes = {
         wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels
     }

@@ -59,14 +59,8 @@ class StackProblem:
         return 1 + max((block.stack for block in self.blocks), default=-1)
 
 
-def order_stacks(problem: StackProblem) -> Floats:
-    """Return a key for each stack, increasing upwards. Stacks with equal keys share a level."""
-    search = _OrderSearch(problem)
-    return search.first_fit() if problem.count > _SEARCHED else search.local_search()
-
-
 class _OrderSearch:
-    """Search for the order of the stacks of one problem.
+    """Search for the order of the stacks of one problem: a key for each, increasing upwards, equal on one level.
 
     clash     stacks that must not share a level, by stack
     carried   stacks of each arbor, and of the wheel that carries its axis
@@ -330,7 +324,8 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
     """Return the height of each stack (mm), the lowest upright wheel at 0, with a `gap` between levels."""
     if not problem.count:
         return {}
-    keys = order_stacks(problem)
+    search = _OrderSearch(problem)
+    keys = search.first_fit() if problem.count > _SEARCHED else search.local_search()
     known = np.unique(keys)
     level = np.searchsorted(known, keys)
     heights = _level_heights(problem, level, len(known), gap)

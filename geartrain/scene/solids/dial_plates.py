@@ -147,16 +147,14 @@ def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> 
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:
         side = dot(face.normal, stack.normal)
-        axis = next((label for label, column in columns.items() if _same(column.at, stack.flat(face.centre))), None)
+        axis = next(
+            (label for label, column in columns.items() if dist(column.at, stack.flat(face.centre)) < _SAME), None
+        )
         upright = face.look == "scale" and abs(abs(side) - 1) < _SAME
         if scene.bodies[face.body].id == stack.frame and axis is not None and upright:
             groups.setdefault(1 if side > 0 else -1, {}).setdefault(axis, []).append(face)
     found = (_plate(side, by_axis, columns, plan, thickness) for side, by_axis in groups.items())
     return [plate for plate in found if plate is not None]
-
-
-def _same(one: Point, other: Point) -> bool:
-    return dist(one, other) < _SAME
 
 
 def _plate(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.collections import Collection, PolyCollection
 from matplotlib.colors import Colormap, LinearSegmentedColormap, ListedColormap, to_hex, to_rgba
 from matplotlib.figure import Figure
@@ -91,7 +92,7 @@ class _Painter:
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
                 new = to_hex(themed_colour(to_rgba(old), self.name))
-                self._put(lambda colour, axis=axis: axis.set_tick_params(grid_color=colour), old, new)
+                self._put(partial(_set_grid, axis), old, new)
 
     def _put(self, put: Callable[[Any], object], old: Any, new: Any) -> None:
         self.undo.append((put, old))
@@ -134,6 +135,10 @@ class _Painter:
             self._halos.append(gc)
             old = gc["foreground"]
             self._put(partial(gc.__setitem__, "foreground"), old, to_hex(themed_colour(to_rgba(old), self.name)))
+
+
+def _set_grid(axis: Axis, colour: Any) -> None:
+    axis.set_tick_params(grid_color=colour)
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:

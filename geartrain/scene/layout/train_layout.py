@@ -155,31 +155,6 @@ def reference(direction: Vector) -> Vector:
     return frame(direction)[0]
 
 
-@dataclass(frozen=True, slots=True)
-class PitchSide:
-    """Pitch point of a pair from the side of one of its wheels."""
-
-    wheel: str
-    teeth: int
-    angle: float
-    """Angle of the pitch point about the wheel's axis, from the reference of the axis (rad)."""
-
-
-@dataclass(frozen=True, slots=True)
-class PitchPoint:
-    """Pitch point of a pair."""
-
-    name: str
-    first: PitchSide
-    second: PitchSide
-    sense: int
-    """1 if positive angles about both axes move the pitch point in the same direction, -1 if in opposite directions."""
-
-    def seen_from(self, wheel: str) -> tuple[PitchSide, PitchSide]:
-        """Return the side of a wheel of the pair, and the side of its mate."""
-        return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
-
-
 def pitch_directions(
     wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
 ) -> tuple[Vector, Vector]:
@@ -200,19 +175,6 @@ def pitch_directions(
     return opposite(out) if rings[1] else out, out if rings[0] else opposite(out)
 
 
-def _pitch_point(declared: DeclaredGeometry, places: Mapping[str, WheelPlace], contact: PitchContact) -> PitchPoint:
-    first_way, second_way = ways = tuple(declared.lines[axis].direction for axis in contact.axes)
-    first, second = contact.wheels
-    rings = declared.wheel(first).internal, declared.wheel(second).internal
-    outs = pitch_directions((places[first], places[second]), (first_way, second_way), rings)
-    sides = (
-        PitchSide(wheel, declared.count(wheel), azimuth(out, way, reference(way)))
-        for wheel, way, out in zip(contact.wheels, ways, outs, strict=True)
-    )
-    same = dot(cross(first_way, outs[0]), cross(second_way, outs[1])) > 0
-    return PitchPoint(contact.name, *sides, contact.worm_sense or (1 if same else -1))
-
-
 def align_meshes(
     declared: DeclaredGeometry, places: Mapping[str, WheelPlace]
 ) -> tuple[dict[str, float], dict[str, float]]:
@@ -221,44 +183,45 @@ def align_meshes(
     They are the angle of the first tooth of each wheel (rad, from 0 to a pitch), and the phase errors of pairs that
     close a loop (pitches).
     """
-    every = [_pitch_point(declared, places, contact) for contact in declared.contacts]
-    of: dict[str, list[PitchPoint]] = {}
-    for one in every:
-        of.setdefault(one.first.wheel, []).append(one)
-        of.setdefault(one.second.wheel, []).append(one)
+    sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
+    angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel
+    of: dict[str, list[PitchContact]] = {}
+    for contact in declared.contacts:
+        first, second = contact.wheels
+        ways = declared.lines[contact.axes[0]].direction, declared.lines[contact.axes[1]].direction
+        rings = declared.wheel(first).internal, declared.wheel(second).internal
+        outs = pitch_directions((places[first], places[second]), ways, rings)
+        same = dot(cross(ways[0], outs[0]), cross(ways[1], outs[1])) > 0
+        sense[contact.name] = contact.worm_sense or (1 if same else -1)
+        for wheel, way, out in zip(contact.wheels, ways, outs, strict=True):
+            angle[contact.name, wheel] = azimuth(out, way, reference(way))
+            of.setdefault(wheel, []).append(contact)
+
+    def past(contact: PitchContact, wheel: str) -> float:
+        """Return the distance of the first tooth of a wheel past the pitch point [pitches]."""
+        return (turns[wheel] - angle[contact.name, wheel]) * declared.count(wheel) / (2 * pi)
+
     turns: dict[str, float] = {}
     for start in of:
         if start in turns:
             continue
-        own, _ = of[start][0].seen_from(start)
-        turns[start] = own.angle % (2 * pi / own.teeth)
+        turns[start] = angle[of[start][0].name, start] % (2 * pi / declared.count(start))
         waiting = deque([start])
         while waiting:
             here = waiting.popleft()
-            for one in of[here]:
-                own, mate = one.seen_from(here)
-                if mate.wheel not in turns:
-                    turns[mate.wheel] = _turn_of_mate(own, mate, one.sense, turns[here])
-                    waiting.append(mate.wheel)
-    misses = {one.name: _miss(one, turns) for one in every}
+            for contact in of[here]:
+                mate = next(wheel for wheel in contact.wheels if wheel != here)
+                if mate not in turns:
+                    pitch = 2 * pi / declared.count(mate)
+                    # s_2 = 1/2 - s_1 for opposite senses, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
+                    ahead = 0.5 + sense[contact.name] * past(contact, here)
+                    turns[mate] = (angle[contact.name, mate] + ahead * pitch) % pitch
+                    waiting.append(mate)
+    misses = {}
+    for contact in declared.contacts:
+        first, second = contact.wheels
+        misses[contact.name] = remainder(past(contact, first) - sense[contact.name] * past(contact, second) - 0.5, 1.0)
     return turns, {name: miss for name, miss in misses.items() if abs(miss) > _TEETH_MEET}
-
-
-def _past(side: PitchSide, turn: float) -> float:
-    """Return the distance of the first tooth past the pitch point [pitches]."""
-    return (turn - side.angle) * side.teeth / (2 * pi)
-
-
-def _turn_of_mate(own: PitchSide, mate: PitchSide, sense: int, turn: float) -> float:
-    """Return the angle (rad) of the mate of a wheel whose angle is known."""
-    pitch = 2 * pi / mate.teeth
-    # s_2 = 1/2 - s_1 for opposite senses, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
-    return (mate.angle + (0.5 + sense * _past(own, turn)) * pitch) % pitch
-
-
-def _miss(one: PitchPoint, turns: Mapping[str, float]) -> float:
-    first, second = (_past(side, turns[side.wheel]) for side in (one.first, one.second))
-    return remainder(first - one.sense * second - 0.5, 1.0)
 
 
 # --------------------------------------------------------------------------------------------------------- train layout

@@ -260,19 +260,10 @@ def _role(stage: SceneContext, link: str) -> str:
     return "carrier" if link in stage.train.kinematics.tree.top.values() else "arbor"
 
 
-@dataclass(frozen=True, slots=True)
-class ToothProfiles:
-    """Tooth profiles by wheel, names of tooth forms by pair, and notices on wheels that could not be drawn as cut."""
+def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
+    """Return the tooth profile of every wheel, as cut with the declared backlash, and notices.
 
-    profiles: Mapping[str, ToothProfile]
-    forms: Mapping[str, str]
-    notices: tuple[Problem, ...] = ()
-
-
-def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """Return the tooth profile of every wheel, as cut with the declared backlash.
-
-    Wheels that cannot be cut get nominal teeth.
+    Wheels that cannot be cut get nominal teeth. The notices are on wheels that could not be drawn as cut.
     """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {**toothed.approximations, **toothed.wheels}
@@ -280,7 +271,7 @@ def find_profiles(stage: SceneContext) -> ToothProfiles:
         wheel: _section(cut[wheel]) if wheel in cut else _approximation(stage, toothed, wheel)
         for wheel in stage.train.declaration.wheels
     }
-    return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
+    return profiles, tuple(_notices(stage, toothed))
 
 
 def _section(toothing: WheelTeeth) -> ToothProfile:

@@ -14,7 +14,6 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -77,23 +76,17 @@ _NEAR = 1e-6  # pitches: smaller phase differences are rounding errors
 _ROUNDS = 4
 
 
-@dataclass(frozen=True, slots=True)
-class WheelPhases:
-    """Angle of the first tooth of each wheel, about the direction of its body and from its reference [rad]."""
+def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
+    """Return the angle of the first tooth of every wheel at which it meshes with its mates, and notices.
 
-    turns: Mapping[str, float]
-    notices: tuple[Problem, ...] = ()
-
-
-def phase_wheels(stage: SceneContext, moved: MovementStart) -> WheelPhases:
-    """Return the angle of every wheel at which it meshes with its mates; for a wheel without mates, its angle in the
+    Angles (rad) are about the direction of the body, from its reference. A wheel without mates has its angle in the
     layout.
     """
     found = _Mounting(stage, moved)
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
     turns = {wheel: found.turns.get(wheel, as_placed(stage, wheel)) for wheel in stage.layout.wheels}
-    return WheelPhases(turns, tuple(found.notices()))
+    return turns, tuple(found.notices())
 
 
 class _Mounting:
@@ -408,14 +401,14 @@ def make_scene(
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
     moved = find_movement(stage)
-    drawn = find_profiles(stage)
-    mounted = phase_wheels(stage, moved)
-    wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
+    teeth, undrawn = find_profiles(stage)
+    turns, out_of_phase = phase_wheels(stage, moved)
+    wheels, profiles = find_wheels(stage, teeth, turns)
     dials = find_dials(stage)
-    notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
+    notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
     pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
-    pairs, couplings = find_pairs(stage, drawn.forms, faults), find_couplings(stage, moved)
+    pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
         title=declared.title,

@@ -13,7 +13,7 @@ from fractions import Fraction
 from math import cos, floor, pi, sin
 from typing import TYPE_CHECKING, Literal
 
-from geartrain.scene.stroke_letters import CurvedLine, Stroke, curved_text, text_length
+from geartrain.scene.stroke_letters import Stroke, curved_text, text_length
 
 if TYPE_CHECKING:
     from geartrain.train.outputs import Dial, Graduation
@@ -312,7 +312,7 @@ def _written(
 ) -> Iterator[Stroke]:
     """Yield the strokes of a text along a circle; below the centre it may be inverted, to be readable."""
     angle = 2 * pi * float(scale.way * turn)
-    return curved_text(text, height, CurvedLine(radius, angle, turned and cos(angle) < -0.01))
+    return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
 
 def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:

@@ -18,12 +18,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.pin_coupling import Coupling as Declared
 
 
-def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order declared.
-
-    forms    name of the drawn tooth form by pair
-    faults   description of the fault by pair
-    """
+def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
+    """Return all gear pairs in the order declared; `faults` are descriptions of faults by pair."""
+    forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(
             id=circuit.id,

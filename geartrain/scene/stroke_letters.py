@@ -170,23 +170,16 @@ def text_length(text: str) -> float:
     return max(0.0, sum(wide for _, wide in _advances(text)) - _APART / _HIGH)
 
 
-@dataclass(frozen=True, slots=True)
-class CurvedLine:
-    """Circular arc along which text runs, by its radius and its angle clockwise from the top (rad)."""
+def curved_text(text: str, height: float, radius: float, angle: float, inwards: bool = False) -> Iterator[Stroke]:
+    """Yield the strokes of a text along a circular arc, centred at an angle clockwise from the top (rad).
 
-    radius: float
-    angle: float
-    inwards: bool = False
-    """True if the feet of letters point outwards, so that text below the centre is readable."""
-
-
-def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:
-    """Yield the strokes of a text centred on its line."""
-    way = -1.0 if line.inwards else 1.0
+    inwards   True if the feet of letters point outwards, so that text below the centre is readable
+    """
+    way = -1.0 if inwards else 1.0
     along = -text_length(text) * height / 2
     for letter, advance in _advances(text):
         wide = (advance - _APART / _HIGH) * height
-        turned = line.angle + way * (along + wide / 2) / line.radius
+        turned = angle + way * (along + wide / 2) / radius
         along += advance * height
         if letter.isspace():
             continue
@@ -194,8 +187,8 @@ def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:
         for stroke in letter_strokes(letter)[0]:
             yield tuple(
                 (
-                    (line.radius + v) * out[0] + u * right[0],
-                    (line.radius + v) * out[1] + u * right[1],
+                    (radius + v) * out[0] + u * right[0],
+                    (radius + v) * out[1] + u * right[1],
                 )
                 for u, v in ((way * (x * height - wide / 2), way * (y - 0.5) * height) for x, y in stroke)
             )

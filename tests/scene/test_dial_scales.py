@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain.scene.dial_scale import DialScale, Engraving, engrave, roman, scale_of
-from geartrain.scene.stroke_letters import CurvedLine, capitals, curved_text, letter_strokes, text_length
+from geartrain.scene.stroke_letters import capitals, curved_text, letter_strokes, text_length
 from geartrain.train import Dial
 
 METONIC = scale_of(Dial(turns=5, divisions=235, cell="month"))
@@ -203,7 +203,7 @@ def test_small_letters_and_accents_are_engraved_as_capitals() -> None:
 
 def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_requested() -> None:
     for inwards, angle in ((False, 0.0), (True, pi)):
-        strokes = list(curved_text("HH", 0.1, CurvedLine(1000.0, angle, inwards)))
+        strokes = list(curved_text("HH", 0.1, 1000.0, angle, inwards))
         across = [x for stroke in strokes for x, _ in stroke]
         up = [y for stroke in strokes for _, y in stroke]
         assert max(across) - min(across) == pytest.approx(0.1 * text_length("HH"), rel=1e-3)
@@ -213,8 +213,8 @@ def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_requested(
 
 def test_text_below_the_middle_stands_upright_and_is_not_mirrored() -> None:
     """The bar of a T is above its foot, and the foot of an L goes to the right of its stem."""
-    bar, foot = curved_text("T", 0.1, CurvedLine(1.0, pi, inwards=True))
+    bar, foot = curved_text("T", 0.1, 1.0, pi, inwards=True)
     assert bar[0][1] == bar[1][1] > foot[0][1]
-    ((top, corner, end),) = curved_text("L", 0.1, CurvedLine(1.0, pi, inwards=True))
+    ((top, corner, end),) = curved_text("L", 0.1, 1.0, pi, inwards=True)
     assert end[0] > corner[0] + 0.03
     assert top[1] > corner[1] + 0.09

@@ -75,8 +75,8 @@ def build_wheel_stack(
     blocks = builder.blocks()
     arbors = list(dict.fromkeys(block.link for block in blocks if block.link and block.link != parallels.frame))
     plates, pins = _plates(blocks, parallels), list(_pins(blocks, geometry.declared.ties))
-    overlap = find_plan_overlap(blocks, arbors, parallels, places, swept, plates, pins)
-    problem = StackProblem(blocks, overlap, arbors, geometry.declared.dial_ends, plates, pins, parallels.frame)
+    clash, pierce = find_plan_overlap(blocks, arbors, parallels, places, swept, plates, pins)
+    problem = StackProblem(blocks, clash, pierce, arbors, geometry.declared.dial_ends, plates, pins, parallels.frame)
     thickness = [geometry.sizes[block.wheel].thickness for block in blocks]
     gap = _GAP * float(np.median(thickness)) if blocks else 1.0
     return WheelStack(parallels.up, problem, gap, swept, builder.given(known))

@@ -18,12 +18,13 @@ import numpy as np
 
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.declared_geometry import DialEnds
-from geartrain.scene.layout.swept_overlap import PlanOverlap, SweptDistances, WheelBlock
+from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.scene.layout.swept_overlap import Flags
 
 _PIERCED = 1.0  # cost of an arbor that passes through a wheel
 # cost of an arbor that interleaves with fixed wheels, in successive passes: a high initial cost gives worse optima
@@ -40,16 +41,18 @@ class StackProblem:
     """Stacking problem of one group of parallel axes."""
 
     blocks: Sequence[WheelBlock]
-    overlap: PlanOverlap
-    """Overlaps of the blocks in plan."""
+    clash: Flags
+    """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
+    pierce: Flags
+    """Wheels through which an arbor or a pin would pass at their height, shape (links and pins, blocks)."""
     arbors: Sequence[str]
-    """Links that carry wheels, in the order of the rows of `overlap.pierce`."""
+    """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
     """Ends of arbors that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
     """Arbor -> wheel that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheels with a pin and with its slot, in the order of the rows of `overlap.pierce` after those of arbors."""
+    """Wheels with a pin and with its slot, in the order of the rows of `pierce` after those of arbors."""
     still: str = ""
     """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
@@ -70,7 +73,7 @@ class _OrderSearch:
     def __init__(self, problem: StackProblem) -> None:
         self.problem, self.count = problem, problem.count
         self.stacks = np.array([block.stack for block in problem.blocks])
-        rows, columns = np.nonzero(problem.overlap.clash)
+        rows, columns = np.nonzero(problem.clash)
         clash = np.unique(np.stack([self.stacks[rows], self.stacks[columns]]), axis=1)
         ends = np.searchsorted(clash[0], np.arange(self.count + 1))
         self.clash = [clash[1, low:high] for low, high in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
@@ -264,7 +267,7 @@ class _OrderSearch:
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
         """Arbors, stacks through which they pass at the same height, and the number of wheels of each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
-        rows, blocks = np.nonzero(self.problem.overlap.pierce)
+        rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
         times[np.arange(len(self.carried)), self._stack_table] = 0
         arbor, stack = np.nonzero(times)
@@ -348,7 +351,7 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
     for at in range(1, count):
         mine, below = np.nonzero(level_of == at)[0], np.nonzero(level_of < at)[0]
         need = heights[level_of[below]][:, None] + top[below][:, None] + gap - bottom[mine][None, :]
-        need = np.where(problem.overlap.clash[np.ix_(below, mine)], need, -np.inf)
+        need = np.where(problem.clash[np.ix_(below, mine)], need, -np.inf)
         last = below[upright[below] & (level_of[below] == at - 1)]
         flat = heights[at - 1] + gap + _thickest(blocks, last) / 2 + _thickest(blocks, mine[upright[mine]]) / 2
         heights[at] = max(float(need.max(initial=-np.inf)), flat)
@@ -422,7 +425,7 @@ class WheelStack:
             own = spans.get(arbor, [])
             if len(own) < 2:
                 continue
-            for at in np.nonzero(self.problem.overlap.pierce[row])[0].tolist():
+            for at in np.nonzero(self.problem.pierce[row])[0].tolist():
                 block = self.problem.blocks[at]
                 if frozenset((ends.get(arbor, ""), block.wheel)) in tied:
                     continue

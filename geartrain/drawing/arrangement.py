@@ -37,7 +37,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     The sum of the distances within pairs is reduced by a local search that moves one item at a time. The result is
     deterministic.
     """
-    order = _breadth_first(items, pairs)
+    order = breadth_first(items, pairs)
     at = {item: position for position, item in enumerate(order)}
     ends = [(at[one], at[other]) for one, other in pairs if one != other and one in at and other in at]
     sequence = list(range(len(order)))
@@ -51,7 +51,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     return [order[item] for item in sequence]
 
 
-def _breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
+def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
     """Return the items in breadth-first order, starting at the first item of each connected component."""
     mates = neighbours(items, pairs)
     seen: dict[str, None] = {}

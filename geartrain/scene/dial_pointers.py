@@ -346,7 +346,7 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     signs = stage.train.kinematics.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
     # viewed against its axis, a positive angle is counter-clockwise
-    sense = -1 if dot(stage.declared(of), facing(stage, name)) > 0 else 1
+    sense = -1 if dot(stage.along(stage.train.kinematics.tree.axis(of)), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
     circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]
     order = {pair: at for at, pair in enumerate(pairs)}

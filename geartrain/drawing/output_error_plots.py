@@ -120,21 +120,14 @@ def _omitted(erring: int, exact: int) -> Iterator[str]:
     """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
         yield "every output moves uniformly"
-        yield from _count_remark(exact, "")
-        return
-    yield from _count_remark(erring, " with smaller deviations")
-    if exact:
+    less = (erring or exact) - _OUTPUTS
+    if less == 1:
+        yield f"1 output{' with a smaller deviation' if erring else ''} is left out: select it with --of"
+    elif less > 1:
+        yield f"{less} outputs{' with smaller deviations' if erring else ''} are left out: select them with --of"
+    if erring and exact:
         moves = "1 output that moves uniformly is" if exact == 1 else f"{exact} outputs that move uniformly are"
         yield f"{moves} not drawn"
-
-
-def _count_remark(outputs: int, which: str) -> Iterator[str]:
-    """Yield a remark on outputs that exceed the maximum number of drawn outputs."""
-    less = outputs - _OUTPUTS
-    if less == 1:
-        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --of"
-    elif less > 1:
-        yield f"{less} outputs{which} are left out: select them with --of"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:

@@ -355,7 +355,7 @@ def lay_out(train: GearTrain) -> Layout:
 
     Declared positions, modules and offsets of pins are always kept. All other sizes are chosen so that pitch circles
     touch, wheels on one level do not overlap and the plan is compact. Every valid train has a layout. The computing
-    time is a quarter of a second for 70 wheels and a second for 1000 axes.
+    time is less than a second for 70 wheels, and for a chain of 1000 axes.
 
     Parameters
     ----------

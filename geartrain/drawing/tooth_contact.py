@@ -310,15 +310,10 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
     )
     if ring:  # draws the line of its teeth without the rim
         axes.plot(*outline[: len(outline) // 2].T, color=BLACK, linewidth=1.3)
-    centre = tuple(here.place(which, 0.0, 0.0))
+    x, y = here.place(which, 0.0, 0.0)
     pitch = sizes.D * z / sizes.pitch_sum
     for radius, style, width in ((tip, "-", 0.7), (pitch, "--", 1.1)):
-        axes.add_patch(_circle(centre, radius, style, width))
-
-
-def _circle(centre: tuple[float, ...], radius: float, style: str, width: float) -> Circle:
-    x, y = centre
-    return Circle((x, y), radius, fill=False, edgecolor=GREY, linestyle=style, linewidth=width)
+        axes.add_patch(Circle((x, y), radius, fill=False, edgecolor=GREY, linestyle=style, linewidth=width))
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:

@@ -36,7 +36,7 @@ from geartrain.scene.palette import series_colour
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics import ErrorSamples, TorqueCycle, TorqueExtreme
+    from geartrain.dynamics import ErrorSamples, TorqueCycle
     from geartrain.numerics.arrays import Floats
 
 

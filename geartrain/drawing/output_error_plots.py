@@ -256,18 +256,13 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
     turns, values = trace.turns, whole
     room = 6 if panel.get_gridspec().ncols == 1 else 3
     if np.abs(np.diff(whole)).sum() > room * _TURNING_POINTS * np.ptp(whole):
-        turning = _turning(first)
+        turning = np.flatnonzero(np.diff(np.sign(np.diff(first))) != 0)
         end = turning[_TURNING_POINTS] if len(turning) > _TURNING_POINTS else len(first)
         turns, values = trace.first[0][:end], first[:end]
         for bound in (whole.min(), whole.max()):
             panel.axhline(bound, color=GREY, linewidth=0.8, linestyle=":")
     panel.plot(turns, values, color=BLUE, linewidth=0.8)
     return turns, values
-
-
-def _turning(values: Floats) -> NDArray[np.intp]:
-    """Return the indices of the turning points of a curve."""
-    return np.flatnonzero(np.diff(np.sign(np.diff(values))) != 0)
 
 
 # --------------------------------------------------------------------------------------------------- torque over a turn

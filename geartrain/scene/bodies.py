@@ -16,7 +16,6 @@ from math import acos, atan2, ceil, cos, pi, sqrt, tan
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.train_teeth import STANDARD, TrainTeeth, find_train_teeth
-from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector, across, minus, size, unit_or_z
 from geartrain.scene.context import SceneContext, exact, rounded
@@ -266,16 +265,15 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
     Wheels that cannot be cut get nominal teeth. The notices are on wheels that could not be drawn as cut.
     """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
-    cut = {**toothed.approximations, **toothed.wheels}
+    cut = {
+        wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
+        for wheel, each in {**toothed.approximations, **toothed.wheels}.items()
+    }
     profiles = {
-        wheel: _section(cut[wheel]) if wheel in cut else _approximation(stage, toothed, wheel)
+        wheel: cut[wheel] if wheel in cut else _approximation(stage, toothed, wheel)
         for wheel in stage.train.declaration.wheels
     }
     return profiles, tuple(_notices(stage, toothed))
-
-
-def _section(toothing: WheelTeeth) -> ToothProfile:
-    return ToothProfile(toothing.form, toothing.section(), toothing.kind == "pins")
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:

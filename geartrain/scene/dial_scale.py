@@ -265,16 +265,13 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
     yield _lines("rim", [_line(scale, scale.outer, 1)] + ([_line(scale, scale.outer, 1, deep)] if starts else []))
     yield _lines("bold", [_border(scale, scale.outer, _LONG, scale.turn_of(each)) for each in cells if each in at])
     plain = [each for each in cells if each not in at and each not in starts]
-    yield _lines("fine", [_border(scale, scale.outer, _depth(scale, each), scale.turn_of(each)) for each in plain])
+    depths = [_LONG if scale.divisions >= 30 and each % 5 == 0 else _SHORT for each in plain]
+    borders = zip(depths, map(scale.turn_of, plain), strict=True)
+    yield _lines("fine", [_border(scale, scale.outer, depth, turn) for depth, turn in borders])
     yield _lines("bold", [_border(scale, scale.outer, deep, scale.turn_of(each)) for each in sorted(starts)])
     yield from _names(scale)
     yield from _engraved_numerals(scale)
     yield from _glyphs(scale, scale.outer - _BAND)
-
-
-def _depth(scale: DialScale, cell: int) -> float:
-    """Return the length of a border. On a scale of 30 divisions or more, every fifth border is longer."""
-    return _LONG if scale.divisions >= 30 and cell % 5 == 0 else _SHORT
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:

@@ -96,15 +96,12 @@ class FramePlates:
     @cached_property
     def pillar(self) -> float:
         """Radius of a pillar (mm)."""
-        turning = [(each.at, each.radius(*self._between)) for each in self.plan.columns] + self.circles
+        places = self.plan.places
+        turning = [(each.at, each.radius(places.back[1], places.front[0])) for each in self.plan.columns] + self.circles
         low, high = (
             [way(at[k] + side * reach for at, reach in turning) for k in (0, 1)] for way, side in ((min, -1), (max, 1))
         )
         return round(min(_PILLAR_MOST, max(_PILLAR_MINIMUM, _PILLAR_PART * dist(low, high))), 2)
-
-    @property
-    def _between(self) -> tuple[float, float]:
-        return self.plan.places.back[1], self.plan.places.front[0]
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:

@@ -28,7 +28,7 @@ from geartrain.scene.parts.frame_plates import FramePlates
 from geartrain.scene.parts.pillar_places import TENON
 from geartrain.scene.parts.stack_discs import Passage, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import around, basis
+from geartrain.scene.solids.bearing_plates import around
 from geartrain.scene.solids.solid_part import SolidPart, turned_about
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.train.wheel_stock import material_named
@@ -365,7 +365,7 @@ class _CageBuilder:
         eye = self._eye(radius, post, end + side * (GAP + post))
         height = self.height(eye.place)
         aside = eye.place - on_axis(self.carrier, height)
-        away = float(np.hypot(*self._flat(aside)))
+        away = float(np.linalg.norm(np.cross(self.carrier.direction, aside)))
         seat = self._own_wheel(height, away)
         if seat is not None and self._is_behind_a_plate(height, seat):
             seat, level = None, self._beside(height)
@@ -379,10 +379,6 @@ class _CageBuilder:
         if seat is None:
             parts.append(self._arm(aside, away, level, post))
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
-
-    def _flat(self, aside: Floats) -> tuple[float, float]:
-        right, up = basis(self.carrier.direction)
-        return float(aside @ np.array(right)), float(aside @ np.array(up))
 
     def _outer_end(self) -> tuple[int, float]:
         """Return the outer end of the wheels along their arbor, as the side of the carrier's axis and position (mm)."""

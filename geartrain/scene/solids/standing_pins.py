@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from math import asin, atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
@@ -66,9 +67,7 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
             found[coupling.id] = CutCoupling(coupling, None, slots[0])
         elif coupling.drawn and pins and slots:
             along = np.array(scene.bodies[coupling.slot].direction)
-            near = min(
-                ((pin, slot) for pin in pins for slot in slots), key=lambda both: _apart(both[0], both[1], along)
-            )
+            near = min(product(pins, slots), key=lambda both: abs(np.subtract(both[0].centre, both[1].centre) @ along))
             found[coupling.id] = CutCoupling(coupling, *near)
     return found
 
@@ -92,10 +91,6 @@ def _wide_wheels(
         and bores.get(wheel.id, 0.0) / 2 + _WEB <= low
         and high + _WEB <= min(blank.root_radius, blank.tip_radius)
     ]
-
-
-def _apart(one: SceneWheel, other: SceneWheel, along: Floats) -> float:
-    return float(abs(np.subtract(one.centre, other.centre) @ along))
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:

@@ -203,12 +203,6 @@ def joined(solids: Iterable[Solid]) -> Solid:
     )
 
 
-def welded(solid: Solid) -> Solid:
-    """Return the solid with coincident points merged, and without the triangles that become degenerate."""
-    vertices, faces = _merged(solid.vertices, solid.faces)
-    return Solid(vertices, faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
-
-
 def _merged(points: Floats, faces: Integers) -> tuple[Floats, Integers]:
     """Return points without duplicates, and the faces with the new indices."""
     # rounded only for the comparison, because pitches differ in the last digits; + 0.0 turns -0.0 into 0.0
@@ -226,16 +220,10 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
         return plate_solid(contours, blank.thickness, tolerance)
     radius = float(abs(others[0].points).max()) if others else 0.0
     own = len(teeth.points) // blank.teeth + 1
-    line = _open(teeth, own, tolerance)
+    line = Contour(teeth.points[:own], np.append(teeth.bulges[: own - 1], 0.0)).flattened(tolerance)
     tooth = line[simplified(line, tolerance)]
     pitch = _pitch(tooth, radius, blank.teeth, tolerance)
     return extruded(*_repeated(*fill(pitch), blank.teeth), blank.thickness, blank.twist)
-
-
-def _open(contour: Contour, count: int, tolerance: float) -> Floats:
-    """Return the first `count` vertices of a contour as a polyline, with chords for its arcs."""
-    bulges = np.append(contour.bulges[: count - 1], 0.0)
-    return Contour(contour.points[:count], bulges).flattened(tolerance)
 
 
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
@@ -332,7 +320,9 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
     if wheel.cone:
-        return welded(_coned(wheel, profile, bore))
+        coned = _coned(wheel, profile, bore)
+        vertices, faces = _merged(coned.vertices, coned.faces)
+        return Solid(vertices, faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])  # without degenerate triangles
     return extruded(*_section(wheel, profile, bore), wheel.thickness)
 
 

@@ -46,6 +46,21 @@ if TYPE_CHECKING:
     from geartrain.drawing.transmission_curves import transmission_figure as transmission_figure
     from geartrain.drawing.transmission_curves import triangular_figure as triangular_figure
 
+__all__ = [
+    "motion_figure",
+    "outline_text",
+    "picture",
+    "power_figure",
+    "render",
+    "shapes_figure",
+    "sphere_figure",
+    "sweep_figure",
+    "teeth_figure",
+    "torque_cycle_figure",
+    "transmission_figure",
+    "triangular_figure",
+]
+
 _PLACES = {
     "render": "style",
     "outline_text": "flat_files",
@@ -58,5 +73,4 @@ _PLACES = {
     **dict.fromkeys(("shapes_figure", "transmission_figure", "triangular_figure"), "transmission_curves"),
 }
 
-__all__ = sorted(_PLACES)
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -12,9 +12,6 @@ from fractions import Fraction
 from itertools import pairwise
 from math import inf
 
-import numpy as np
-from scipy.optimize import isotonic_regression
-
 from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
 NAME = 0.46  # space above a node for its name
@@ -423,6 +420,9 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
     The method is isotonic regression.
     """
+    import numpy as np
+    from scipy.optimize import isotonic_regression
+
     steps = [one.height + one.below + other.above for one, other in pairwise(column)]
     offsets = np.cumsum([0.0, *steps])
     tops, weights = np.array(wanted).T

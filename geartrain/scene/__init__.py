@@ -67,6 +67,41 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import Scene as Scene
     from geartrain.scene.train_scene import SceneEpoch as SceneEpoch
 
+__all__ = [
+    "AxisPlace",
+    "CountCondition",
+    "CountFormula",
+    "DialFace",
+    "ErrorSource",
+    "ErrorStep",
+    "ErrorTable",
+    "Layout",
+    "LinkCourse",
+    "ManufacturingSizes",
+    "Movement",
+    "Pointer",
+    "PointerTarget",
+    "Scene",
+    "SceneBody",
+    "SceneContact",
+    "SceneCoupling",
+    "SceneEpoch",
+    "SceneFormulas",
+    "SceneHanger",
+    "ScenePair",
+    "ScenePart",
+    "SceneRun",
+    "SceneWave",
+    "SceneWheel",
+    "SolidModel",
+    "SolidPart",
+    "ToothProfile",
+    "WheelPlace",
+    "build_scene",
+    "lay_out",
+    "make_scene",
+]
+
 _PLACES = {
     "make_scene": "construction",
     **dict.fromkeys(("CountCondition", "CountFormula", "SceneFormulas"), "count_formulas"),
@@ -82,5 +117,4 @@ _PLACES = {
     **dict.fromkeys(("DialFace", "Pointer", "PointerTarget", "Scene", "SceneEpoch"), "train_scene"),
 }
 
-__all__ = sorted(_PLACES)
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -246,7 +246,7 @@ def extruded(
 ) -> Solid:
     """Return a flat shape (n, 2) extruded by half the thickness to each side, with the top rotated by `twist` [rad].
 
-    Its boundary edges become walls of `layers` layers, by default so many that each turns by at most 0.1 rad.
+    Its boundary edges become walls of `layers` layers; by default each layer turns by at most 0.1 rad.
     """
     x, y = points.T
     sections = []

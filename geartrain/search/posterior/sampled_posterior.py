@@ -591,7 +591,7 @@ def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str
     """
     moving = {wheel for one in requested for wheel in one.function.wheels}
     bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], requested, frozenset())
-    return tuple(part for bundle in bundles for part in _parts(bundle.powers, domains))
+    return tuple(part for bundle in bundles for part in _parts(bundle, domains))
 
 
 def primitive(powers: Powers) -> dict[str, int]:

@@ -598,9 +598,8 @@ class Motion(Shown):
         >>> motion.plot("moon", turns=0.1).axes[-1].get_xlabel()
         'turns of crank'
         """
-        from geartrain.dynamics.motion.motion_run import MotionRun
-
         for name in outputs:
             check_choice("output", name, list(self.outputs))
-        run = MotionRun(self._of(outputs or tuple(self.outputs)), turns, samples)
+        shown = self._of(outputs or tuple(self.outputs))
+        run = imported_function("dynamics", "MotionRun")(shown, turns, samples)
         return imported_function("drawing", "motion_figure")(run)

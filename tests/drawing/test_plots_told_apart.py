@@ -31,6 +31,7 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_dept
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop import (
     BudgetQuestion,
+    PointerErrorCourse,
     ToothSizes,
     budget_figure,
     find_budget,
@@ -40,10 +41,9 @@ from geartrain.workshop import (
     train_sizes_figure,
 )
 from geartrain.workshop.monte_carlo.monte_carlo_plots import (
-    ErrorBands,
+    course_figure,
     histogram_figure,
     jam_map_figure,
-    pointer_error_figure,
 )
 
 GRID = np.linspace(0.0, 1.0, 5)
@@ -153,16 +153,16 @@ def test_marks_of_best_sizes_are_in_view_and_their_key_is_below_all_designs() ->
 
 def test_each_pointer_is_drawn_over_its_own_turn() -> None:
     errors = np.random.default_rng(1).normal(size=(20, 30))
-    bands = {name: ErrorBands.of(np.linspace(0, span, 30), errors) for name, span in (("moon", 0.1), ("sun", 4.0))}
-    figure = pointer_error_figure(bands)
+    turns = {"moon": np.linspace(0, 0.1, 30), "sun": np.linspace(0, 4, 30)}
+    figure = course_figure([PointerErrorCourse(name, each, errors) for name, each in turns.items()])
     assert [axes.get_xlim()[1] for axes in figure.axes] == [0.1, 4.0]
     assert not alike(figure)
     assert not alike(figure, "light")
 
 
 def test_the_key_of_bands_is_as_dark_as_they_are_seen() -> None:
-    bands = ErrorBands.of([0.0, 1.0], np.random.default_rng(1).normal(size=(20, 2)))
-    figure = pointer_error_figure({"moon": bands})
+    errors = np.random.default_rng(1).normal(size=(20, 2))
+    figure = course_figure([PointerErrorCourse("moon", np.array([0.0, 1.0]), errors)])
     through = 1.0
     for band, key in zip(figure.axes[0].collections, figure.legends[0].get_patches(), strict=True):
         through *= 1 - band.get_alpha()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -22,11 +23,12 @@ from matplotlib.text import Text
 from geartrain import load
 from geartrain.drawing import render
 from geartrain.errors import QuestionError
-from geartrain.numerics import IntervalEstimate as Figure_
+from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
 from geartrain.search import counts_figure, infer_counts, joint_posterior, most_informative_wheels
 from geartrain.search.posterior.corner_plot import CountProbabilities, corner_figure
 from geartrain.workshop import (
     MonteCarloResult,
+    PointerErrorCourse,
     SobolIndices,
     find_trial_plan,
     jamming_map,
@@ -36,14 +38,10 @@ from geartrain.workshop import (
     run_trials,
 )
 from geartrain.workshop.monte_carlo.monte_carlo_plots import (
-    ConvergenceTrace,
-    ErrorBands,
-    VarianceShare,
     convergence_figure,
+    course_figure,
     histogram_figure,
-    indices_figure,
     jam_map_figure,
-    pointer_error_figure,
     tornado_figure,
 )
 from geartrain.workshop.monte_carlo.sobol_indices import SobolIndex
@@ -76,41 +74,26 @@ def outline(figure: Figure, gid: str) -> tuple[float, float]:
 # ------------------------------------------------------------------------------------------------------------ straying
 
 
-def test_bands_hold_their_share_of_the_trials_at_every_position() -> None:
-    bands = ErrorBands.of(TURNS, ERRORS)
-    low, lower, middle, upper, high = bands.percentiles
-    for at in range(len(TURNS)):
-        column = sorted(ERRORS[:, at])
-        assert middle[at] == pytest.approx(median(column))
-        assert sum(lower[at] - 1e-12 <= each <= upper[at] + 1e-12 for each in column) in (21, 22, 23, 41)
-        assert sum(low[at] - 1e-12 <= each <= high[at] + 1e-12 for each in column) >= 39
-    assert bands.trials == 41
+def course(errors: np.ndarray, name: str = "moon") -> PointerErrorCourse:
+    """Errors [deg] along a turn."""
+    return PointerErrorCourse(name, TURNS, np.radians(errors))
 
 
-def test_the_bands_that_are_drawn_are_those_of_the_trials() -> None:
-    figure = pointer_error_figure({"moon": ErrorBands.of(TURNS, ERRORS), "sun": ErrorBands.of(TURNS, 2 * ERRORS)}, "b")
+def test_the_bands_that_are_drawn_are_those_of_the_trials_that_turn() -> None:
+    jams = np.full((3, 50), np.nan)
+    figure = course_figure([course(np.vstack((ERRORS, jams))), course(2 * ERRORS, "sun")], "b")
     assert line(figure, "median") == pytest.approx(np.stack((TURNS, np.median(ERRORS, axis=0)), axis=1))
     assert line(figure, "one") == pytest.approx(np.stack((TURNS, ERRORS[0]), axis=1))
-    assert outline(figure, "every trial") == pytest.approx((ERRORS.min(), ERRORS.max()))
-    assert outline(figure, "50 %") == pytest.approx(
-        (np.quantile(ERRORS, 0.25, axis=0).min(), np.quantile(ERRORS, 0.75, axis=0).max())
-    )
+    for share, low, high in (("every trial", 0, 1), ("95 % of the trials", 0.025, 0.975), ("50 %", 0.25, 0.75)):
+        ends = np.quantile(ERRORS, low, axis=0).min(), np.quantile(ERRORS, high, axis=0).max()
+        assert outline(figure, share) == pytest.approx(ends)
     assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == ["moon", "sun"]
     assert figure.axes[1].get_xlabel() == "turns of b"
 
 
-def test_trials_that_jam_are_left_out() -> None:
-    broken = np.vstack((ERRORS, np.full((3, 50), np.nan)))
-    one, other = ErrorBands.of(TURNS, broken), ErrorBands.of(TURNS, ERRORS)
-    assert one.trials == other.trials
-    assert (one.percentiles == other.percentiles).all()
-    figure = histogram_figure({"moon": broken[:, 7]})
-    assert sum(bar.get_height() for bar in figure.axes[0].patches) == 41
-
-
 def test_a_histogram_counts_every_trial_and_marks_its_percentiles() -> None:
     values = RNG.normal(3.0, 0.5, 5000)
-    figure = histogram_figure({"moon": values})
+    figure = histogram_figure({"moon": [*values, np.nan, np.inf]})
     bars = figure.axes[0].patches
     assert sum(bar.get_height() for bar in bars) == 5000
     for bar in bars[5:10]:
@@ -151,13 +134,6 @@ def test_contours_run_where_the_chance_is_theirs() -> None:
     assert np.array(mesh.get_array()).reshape(41, 40) == pytest.approx(ramp.T)
 
 
-def test_the_bound_is_drawn_where_it_is_one_in_a_hundred() -> None:
-    x, y = np.linspace(0, 1, 30), np.linspace(0, 1, 30)
-    bound = np.minimum(1.0, 10 ** (-4 + 4 * (y[None, :] + 0 * x[:, None])))
-    points = crossing(jam_map_figure(x, y, np.full((30, 30), 0.3), bound), "bound")
-    assert points[:, 1] == pytest.approx(0.5)
-
-
 @pytest.mark.filterwarnings("error")
 def test_a_map_without_a_contour_or_with_holes_is_drawn() -> None:
     nothing = np.zeros((5, 6))
@@ -168,11 +144,16 @@ def test_a_map_without_a_contour_or_with_holes_is_drawn() -> None:
 # ------------------------------------------------------------------------------------------- tornado, corner, settling
 
 
+def sure(value: float) -> IntervalEstimate:
+    """A share without an interval."""
+    return IntervalEstimate(value, value, value)
+
+
 def test_bars_are_sorted_and_carry_their_intervals() -> None:
     shares = {
-        "a": VarianceShare(0.1, (0.05, 0.15), 0.2, (0.1, 0.3)),
-        "b": VarianceShare(0.3, None, 0.5),
-        "c": VarianceShare(0.2, (0.1, 0.4), 0.1),
+        "a": (IntervalEstimate(0.1, 0.05, 0.15), IntervalEstimate(0.2, 0.1, 0.3)),
+        "b": (sure(0.3), sure(0.5)),
+        "c": (IntervalEstimate(0.2, 0.1, 0.4), sure(0.1)),
     }
     figure = tornado_figure(shares)
     (axes,) = figure.axes
@@ -186,10 +167,10 @@ def test_bars_are_sorted_and_carry_their_intervals() -> None:
 
 
 def test_what_does_not_fit_is_counted() -> None:
-    shares = {str(at): VarianceShare(1 / (at + 1)) for at in range(30)}
-    (axes,) = tornado_figure(shares, most=5).axes
-    assert len(axes.get_yticklabels()) == 5
-    assert "25 more causes of at most 0.17" in axes.get_xlabel()
+    shares = {str(at): (sure(1 / (at + 1)),) for at in range(30)}
+    (axes,) = tornado_figure(shares).axes
+    assert len(axes.get_yticklabels()) == 20
+    assert "10 more causes of at most 0.048" in axes.get_xlabel()
 
 
 def test_a_corner_shows_every_chance_at_its_counts() -> None:
@@ -222,13 +203,12 @@ def test_a_panel_names_every_mode_of_its_wheel() -> None:
     assert titles == ["49-52: 20.6 % each", "2 of 21-23: 42.9 % each", "21: 75 %"]
 
 
-def test_settling_shows_estimates_their_widths_and_the_truth() -> None:
-    n = np.array([10.0, 100.0, 1000.0])
-    value = np.array([0.3, 0.2, 0.21])
-    figure = convergence_figure({"jam": ConvergenceTrace(n, value, value - 1 / n, value + 1 / n, 0.2)})
-    assert line(figure, "jam") == pytest.approx(np.stack((n, value), axis=1))
-    assert line(figure, "truth of jam")[:, 1] == pytest.approx([0.2, 0.2])
-    assert line(figure, "width of jam", 1) == pytest.approx(np.stack((n, 1 / n), axis=1))
+def test_settling_shows_estimates_and_their_widths() -> None:
+    steps = [(n, ProbabilityEstimate(n // 5, n)) for n in (10, 100, 1000)]
+    figure = convergence_figure(steps)
+    assert line(figure, "any pair").tolist() == [[10, 0.2], [100, 0.2], [1000, 0.2]]
+    widths = [float(np.ptp(each.interval)) / 2 for _, each in steps]
+    assert line(figure, "width of any pair", 1)[:, 1] == pytest.approx(widths)
     ends = line(figure, "slope", 1)
     assert np.diff(np.log(ends[:, 1])) / np.diff(np.log(ends[:, 0])) == pytest.approx(-0.5)
 
@@ -328,9 +308,9 @@ def test_pictures_of_what_was_not_requested_are_refused(findings: MonteCarloResu
         assert all(problem.fix for problem in caught.value.problems)
 
 
-def test_indices_are_drawn_with_their_intervals() -> None:
-    first, total = Figure_(0.3, 0.2, 0.4), Figure_(0.5, 0.4, 0.6)
-    (axes,) = indices_figure(SobolIndices("moon", "wheel", 64, (SobolIndex("e3", first, total),))).axes
+def test_indices_are_drawn_with_their_intervals(findings: MonteCarloResult) -> None:
+    index = SobolIndex("e3", IntervalEstimate(0.3, 0.2, 0.4), IntervalEstimate(0.5, 0.4, 0.6))
+    (axes,) = monte_carlo_figure(replace(findings, indices=[SobolIndices("moon", "wheel", 64, (index,))]), "sobol").axes
     assert [bar.get_width() for bar in axes.patches] == [0.5, 0.3]
 
 
@@ -371,18 +351,14 @@ cutting: {pitch_deviation: {normal: 2 %}}
 # ---------------------------------------------------------------------------------------------------------- all of them
 
 ALL: dict[str, Callable[[], Figure]] = {
-    "straying": lambda: pointer_error_figure({"moon": ErrorBands.of(TURNS, ERRORS)}),
+    "straying": lambda: course_figure([course(ERRORS)]),
     "histogram": lambda: histogram_figure({"a pointer with a long name": ERRORS[:, 3]}, "at the start"),
-    "map": lambda: jam_map_figure(
-        MAP_X, MAP_Y, np.linspace(0, 1, 30).reshape(5, 6), np.full((5, 6), 0.5), title="64/38"
-    ),
+    "map": lambda: jam_map_figure(MAP_X, MAP_Y, np.linspace(0, 1, 30).reshape(5, 6)),
     "tornado": lambda: tornado_figure(
-        {f"wheel {at}": VarianceShare(0.9**at, (0.1, 0.2), 1.0) for at in range(25)}, "moon"
+        {f"wheel {at}": (IntervalEstimate(0.9**at, 0.1, 0.2), sure(1.0)) for at in range(25)}, "moon"
     ),
     "corner": lambda: corner_figure(CountProbabilities(SINGLE, PAIRS, {}, {"b1": 223}), "what fits"),
-    "settling": lambda: convergence_figure(
-        {"a": ConvergenceTrace(np.ones(1), *(np.full(1, each) for each in (0.5, 0.4, 0.6)))}
-    ),
+    "settling": lambda: convergence_figure([(1, ProbabilityEstimate(0, 1))]),
 }
 
 
@@ -406,20 +382,17 @@ def test_everything_is_inside_and_the_words_are_large_enough(name: str) -> None:
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: pointer_error_figure({}),
-        lambda: ErrorBands.of(TURNS, np.full((3, 50), np.nan)),
-        lambda: ErrorBands.of(TURNS, ERRORS[:, 1:]),
+        lambda: course_figure([]),
+        lambda: course_figure([course(np.full((3, 50), np.nan))]),
         lambda: histogram_figure({}),
         lambda: histogram_figure({"moon": [np.nan]}),
         lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((6, 5))),
         lambda: jam_map_figure(MAP_X[::-1], MAP_Y, np.zeros((5, 6))),
         lambda: jam_map_figure(MAP_X, MAP_Y, np.full((5, 6), 1.5)),
-        lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((5, 6)), np.zeros((6, 5))),
         lambda: tornado_figure({}),
         lambda: corner_figure(CountProbabilities({str(at): {1: 1.0} for at in range(10)}, {})),
         lambda: corner_figure(CountProbabilities({}, {})),
-        lambda: convergence_figure({}),
-        lambda: convergence_figure({"a": ConvergenceTrace(*(np.zeros(1) for _ in range(4)))}),
+        lambda: convergence_figure([]),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_what_to_do(draw: Callable[[], object]) -> None:

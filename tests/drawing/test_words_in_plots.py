@@ -20,7 +20,8 @@ from written_text import read_picture
 from geartrain.drawing import motion_figure, render
 from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES
-from geartrain.workshop.monte_carlo.monte_carlo_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.workshop import PointerErrorCourse
+from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, histogram_figure
 
 CUT = ["montecarlo", "moon-triangular", "--cutting", "pitch_deviation=2%"]
 PAIR = ["mesh", 60, 30, "--form", "triangular"]
@@ -139,8 +140,9 @@ def test_many_pointers_fit_on_a_page_with_those_that_stray_most() -> None:
     assert not faults_of(figure)
     assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == [f"pointer {at}" for at in range(58, 70)]
     assert "58 pointers with smaller errors" in figure.axes[-1].get_xlabel()
-    bands = {name: ErrorBands.of([0.0, 1.0], np.stack([own, own], 1)) for name, own in errors.items()}
-    assert not faults_of(pointer_error_figure(bands))
+    turns = np.array([0.0, 1.0])
+    courses = [PointerErrorCourse(name, turns, np.radians(np.stack([own, own], 1))) for name, own in errors.items()]
+    assert not faults_of(course_figure(courses))
 
 
 def test_many_outputs_of_a_motion_stand_in_rows() -> None:

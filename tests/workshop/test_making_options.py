@@ -21,7 +21,7 @@ from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.workshop import parts_list, wheel_file
-from geartrain.workshop.export.cut_sheets import FlatPart, compensated, stock_sheets
+from geartrain.workshop.export.cut_sheets import Sheet, compensated, stock_sheets
 
 shapely = pytest.importorskip("shapely")
 
@@ -143,14 +143,14 @@ def test_declared_widths_materials_and_arbors_are_those_that_are_made() -> None:
 # ------------------------------------------------------------------ parts laid out on sheets, judged by another library
 
 
-def part(name: str, contour: Contour, count: int = 1, thickness: float = 2.0, hole: float = 0.5) -> FlatPart:
+def part(name: str, contour: Contour, count: int = 1, thickness: float = 2.0, hole: float = 0.5) -> Sheet:
     middle = contour.points.mean(axis=0)
     at = float(middle[0]), float(middle[1])
     cut = (contour, Contour.circle(hole, at))
-    return FlatPart(name, FlatDrawing(name, cut, marks=(EngravedText(name, at, 1.0),)), count, thickness)
+    return Sheet(name, FlatDrawing(name, cut, marks=(EngravedText(name, at, 1.0),)), (name,) * count, thickness)
 
 
-def some_parts(random: Random) -> list[FlatPart]:
+def some_parts(random: Random) -> list[Sheet]:
     found = []
     for at in range(random.randint(1, 12)):
         x, y, w, h = (random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(4, 60), random.uniform(4, 60))
@@ -166,11 +166,11 @@ def test_all_parts_lie_apart_on_their_sheets(seed: int) -> None:
     parts, size, gap = some_parts(random), (150.0, 120.0), random.choice([0.0, 1.0, 2.5])
     sheets = stock_sheets(parts, size, gap)
     laid = [name for sheet in sheets for name in sheet.parts]
-    assert sorted(laid) == sorted(each.name for each in parts for _ in range(each.count))
+    assert sorted(laid) == sorted(name for each in parts for name in each.parts)
     assert len({sheet.file for sheet in sheets}) == len(sheets)
-    sizes = {each.name: Polygon(each.drawing.cut[0].flattened(1e-3)).area for each in parts}
+    sizes = {each.file: Polygon(each.drawing.cut[0].flattened(1e-3)).area for each in parts}
     for sheet in sheets:
-        assert len({each.thickness for each in parts if each.name in sheet.parts}) == 1
+        assert len({each.thickness for each in parts if each.file in sheet.parts}) == 1
         shapes = [Polygon(contour.flattened(1e-3)) for contour in sheet.drawing.cut[::2]]
         for shape, name, hole, mark in zip(
             shapes, sheet.parts, sheet.drawing.cut[1::2], sheet.drawing.marks, strict=True

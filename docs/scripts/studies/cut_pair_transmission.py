@@ -567,6 +567,17 @@ def minimum_of(values: Floats) -> float:
 _BLOCK = 8192  # samples worked on at once: their intermediate arrays stay in a cache
 
 
+def leans(pair: CutGearPair) -> bool:
+    """Return True if a flank leans beyond the perpendicular when the tips of its tooth pair meet, in any trial."""
+    k = np.arange(pair.count)
+    for each in (pair.tooth_pairs(k), pair.mirrored.tooth_pairs(k)):
+        # rounding errors may exceed 1
+        flank = np.arcsin(np.clip(np.maximum(abs(each.sin1), abs(each.sin2)), -1.0, 1.0))
+        if (flank + np.maximum(each.reach, 0.0) - each.side * each.exit_angle >= np.pi / 2).any():
+            return True
+    return False
+
+
 class CutPairLaw:
     """Driven angle, speed and events of two cut wheels; all repeats after lcm(z1, z2) pitches.
 
@@ -593,7 +604,7 @@ class CutPairLaw:
         touches first is not known tooth by tooth.
         """
         pair = CutGearPair(sizes, first, second, shift)
-        if pair.leans.any():
+        if leans(pair):
             raise RangeError(Problem("a flank leans beyond the perpendicular where tips meet", "", "use more teeth"))
         return cls(pair, direction)
 

@@ -86,7 +86,7 @@ class Batch:
         return [self._single(at) for at in range(trials)]
 
     def _single(self, at: int) -> Single:
-        transmission = CutPairLaw.of(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
+        transmission = CutPairLaw.of(self.pair.sizes, self.pair.first.taken(at), self.pair.second.taken(at))
         events = transmission.events
         return events.backlash, (events.stop is not None, bool(events.of("dwell")), bool(events.of("disengaged")))
 

@@ -37,7 +37,7 @@ from geartrain.workshop.budget.motion_causes import (
 )
 from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared, PointerBudget, RatioDrift, TrainBudget
 from geartrain.workshop.cutting.declared_errors import read_error_overrides
-from geartrain.workshop.monte_carlo.clearance_study import run_clearances
+from geartrain.workshop.monte_carlo.clearance_study import jamming_map
 from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
 from geartrain.workshop.monte_carlo.trial_results import FEWEST, turning_trials
 from geartrain.workshop.monte_carlo.trial_run import run_trials
@@ -50,7 +50,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.work import Execution
     from geartrain.train import Target
-    from geartrain.workshop.budget.motion_causes import ToothMotion
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults
@@ -175,8 +174,20 @@ def find_budget(
         train, state, motion._problem.driving_link, {name: answer.outputs[name].of for name in names}
     )
     on_stage()
-    causes = _TrainCauses(requested, _float(train.declaration.unit_days), theories, teeth, cut, uncut)
-    pointers = tuple(causes.pointer(answer.outputs[name]) for name in names)
+    days, pointers = _float(train.declaration.unit_days), []
+    for name in names:
+        output, speed, known = answer.outputs[name], answer.outputs[name].speed, teeth.declared[name]
+        # absolute mean speed; None if the pointer does not turn or the unit is not a time
+        rate = 360 * abs(float(speed)) / days if speed and days else None
+        drifts = find_drifts(output, days, requested.span_days)
+        cutting = BudgetCause.unknown("cutting", uncut) if cut is None else cutting_cause(*cut, name, known)
+        if not known.gears and not known.pins:
+            cutting = BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair is between it and the input")
+        found = (ratio_cause(drifts), theory_cause(theories[name]), *tooth_causes(teeth, name), cutting)
+        causes = tuple(cause.in_days(rate) for cause in found)
+        pointers.append(
+            PointerBudget(name, output.of, output.relative_to, speed, rate, causes, drifts, teeth.pairs[name])
+        )
     return TrainBudget(
         train.name,
         state,
@@ -184,43 +195,12 @@ def find_budget(
         requested.turns,
         requested.samples,
         motion._problem.driving_link,
-        pointers,
+        tuple(pointers),
         crank,
         jams,
         jams_note,
         teeth.reversing_drivers,
     )
-
-
-@dataclass(frozen=True)
-class _TrainCauses:
-    """Causes for the whole train, from which the budget of each pointer is compiled."""
-
-    requested: BudgetQuestion
-    unit_days: float | None
-    theories: Mapping[str, list[TheoryError]]
-    teeth: ToothMotion
-    cut: CuttingTrials | None
-    uncut: str
-
-    def pointer(self, output: OutputResult) -> PointerBudget:
-        """Return the budget of one output."""
-        name, speed = output.name, output.speed
-        # absolute mean speed; None if the pointer does not turn or the unit is not a time
-        rate = 360 * abs(float(speed)) / self.unit_days if speed and self.unit_days else None
-        drifts = find_drifts(output, self.unit_days, self.requested.span_days)
-        ratio, theory = ratio_cause(drifts), theory_cause(self.theories[name])
-        found = (ratio, theory, *tooth_causes(self.teeth, name), self._cutting(name))
-        causes = tuple(cause.in_days(rate) for cause in found)
-        return PointerBudget(name, output.of, output.relative_to, speed, rate, causes, drifts, self.teeth.pairs[name])
-
-    def _cutting(self, name: str) -> BudgetCause:
-        known = self.teeth.declared[name]
-        if not known.gears and not known.pins:
-            return BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair is between it and the input")
-        if self.cut is None:
-            return BudgetCause.unknown("cutting", self.uncut)
-        return self.cut.cause(name, known)
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
@@ -263,7 +243,13 @@ def _jams(
     """Return the probability of jams by clearance, or an empty tuple with the reason why it is unknown."""
     if plan is None:
         return (), uncut
-    return jams_over_clearance(plan, requested.clearances, requested.jam_trials, requested.seed, means)
+    if not requested.clearances:
+        return (), "no clearance was requested"
+    try:
+        cases = jamming_map(plan, requested.clearances, trials=requested.jam_trials, seed=requested.seed, means=means)
+    except GearTrainError as error:
+        return (), error.problems[0].what
+    return tuple(cases), ""
 
 
 # ---------------------------------------------------------------------------------------------------------------- ratio
@@ -314,55 +300,52 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 # -------------------------------------------------------------------------------------------------------------- cutting
 
 
-@dataclass(frozen=True)
-class CuttingTrials:
-    """Trials of a train with cutting errors, and the errors `even` of perfect teeth at the same positions [rad], shape
-    (outputs, trials).
+def cutting_cause(trials: TrialResults, even: Floats, name: str, known: DeclaredPairs) -> BudgetCause:
+    """Return the cause "cutting" of one output: the central 95 % range of its errors, with a confidence interval.
+
+    even    errors of perfect teeth at the same positions [rad], shape (outputs, trials)
+    known   pairs and couplings that move the output
     """
-
-    trials: TrialResults
-    even: Floats
-
-    def cause(self, name: str, known: DeclaredPairs) -> BudgetCause:
-        """Return the cause "cutting" of one output: the central 95 % range of its errors, with a confidence interval.
-
-        known   pairs and couplings that move the output
-        """
-        at = self.trials.plan.outputs.index(name)
-        errors = self.trials.errors[:, at]
-        whole = np.isfinite(errors)
-        reach = len(self.trials.plan.reach[at])
-        if known.gears and not reach:
-            return BudgetCause.unknown("cutting", "none of the pairs that move it can be cut")
-        if known.bare and not np.ptp(errors[whole]):
-            return BudgetCause.unknown("cutting", f"no dimensions are declared for {', '.join(known.bare)}")
-        runs = whole & turning_trials(self.trials.marks, self.trials.plan.reach[at])
-        # too few turning trials give no useful percentiles, so all trials are used
-        kept = runs if np.count_nonzero(runs) >= FEWEST else whole
-        note = f"{int(np.count_nonzero(runs))} of {self.trials.done} trials turn"
-        note += f", {reach} of {known.gears} pairs cut" if reach < known.gears else ""
-        note += "" if kept is runs else "; errors of all trials, given by the pushing flanks"
-        values = np.sort((errors - self.even[at])[kept])
-        low, high = percentile_of(values, 2.5), percentile_of(values, 97.5)
-        size = degrees(high.value - low.value)
-        # smallest and largest range that the intervals of both percentiles allow
-        within = degrees(max(high.low - low.high, 0.0)), degrees(high.high - low.low)
-        interval = within if np.isfinite(within).all() else None
-        if interval is None:
-            note += "; too few trials for an interval"
-        declared: Declared = "part" if known.bare or reach < known.gears else "whole"
-        deviation = degrees(deviation_of(values).value)
-        return BudgetCause("cutting", declared, size, deviation, interval=interval, note=note)
+    at = trials.plan.outputs.index(name)
+    errors, reach = trials.errors[:, at], trials.plan.reach[at]
+    whole = np.isfinite(errors)
+    if known.gears and not reach:
+        return BudgetCause.unknown("cutting", "none of the pairs that move it can be cut")
+    if known.bare and not np.ptp(errors[whole]):
+        return BudgetCause.unknown("cutting", f"no dimensions are declared for {', '.join(known.bare)}")
+    runs = whole & turning_trials(trials.marks, reach)
+    # too few turning trials give no useful percentiles, so all trials are used
+    kept = runs if np.count_nonzero(runs) >= FEWEST else whole
+    note = f"{int(np.count_nonzero(runs))} of {trials.done} trials turn"
+    note += f", {len(reach)} of {known.gears} pairs cut" if len(reach) < known.gears else ""
+    note += "" if kept is runs else "; errors of all trials, given by the pushing flanks"
+    values = np.sort((errors - even[at])[kept])
+    low, high = percentile_of(values, 2.5), percentile_of(values, 97.5)
+    size = degrees(high.value - low.value)
+    # smallest and largest range that the intervals of both percentiles allow
+    within = degrees(max(high.low - low.high, 0.0)), degrees(high.high - low.low)
+    interval = within if np.isfinite(within).all() else None
+    if interval is None:
+        note += "; too few trials for an interval"
+    declared: Declared = "part" if known.bare or len(reach) < known.gears else "whole"
+    deviation = degrees(deviation_of(values).value)
+    return BudgetCause("cutting", declared, size, deviation, interval=interval, note=note)
 
 
-def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution) -> CuttingTrials:
-    """Return the results of trials with cutting errors; `motion` is the motion with perfect teeth."""
+def find_cutting_trials(
+    plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
+) -> tuple[TrialResults, Floats]:
+    """Return trials with cutting errors, and the errors of perfect teeth at the same positions [rad], shape (outputs,
+    trials).
+
+    motion   motion with perfect teeth
+    """
     found = run_trials(plan, count, seed, means)
     if not found.complete:  # interrupted: a budget does not state that it uses only some of the trials
         raise KeyboardInterrupt
     teeth = ErrorDifference(plan.composition, without_teeth(motion)._forward)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
-    return CuttingTrials(found, np.concatenate(parts, axis=1))
+    return found, np.concatenate(parts, axis=1)
 
 
 def cutting_plan(
@@ -379,15 +362,3 @@ def cutting_plan(
         if cutting:  # errors given explicitly must be applied; otherwise the cause is only marked as unknown
             raise
         return None, error.problems[0].what
-
-
-def jams_over_clearance(
-    plan: TrialPlan, clearances: Sequence[float], count: int, seed: int, means: Execution
-) -> tuple[tuple[ClearanceCase, ...], str]:
-    """Return the probability of jams at each clearance, or an empty tuple with the reason why it is unknown."""
-    if not clearances:
-        return (), "no clearance was requested"
-    try:
-        return tuple(run_clearances(plan, clearances, count, seed, means)), ""
-    except GearTrainError as error:
-        return (), error.problems[0].what

@@ -27,7 +27,7 @@ from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, ToothPair
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from geartrain.numerics.arrays import Bools, Floats, Ints
+    from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 
@@ -105,13 +105,8 @@ class CutWheel:
         """True if the teeth have only pitch deviations."""
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
-    def trial(self, at: int) -> CutWheel:
-        """Return the wheel of the trial with index `at`."""
-        one = (each[at] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
-        return CutWheel(self.radius, self.half_angle, *one)
-
-    def taken(self, part: slice | NDArray[np.int64]) -> CutWheel:
-        """Return the wheels of selected trials; arrays common to all trials are not copied."""
+    def taken(self, part: int | slice | NDArray[np.int64]) -> CutWheel:
+        """Return the wheels of selected trials, or of one trial; arrays common to all trials are not copied."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
@@ -306,15 +301,6 @@ class CutToothPairs(ToothPair):
         """Return the tooth pairs cyclically shifted: each is replaced by the pair n before it in the cycle."""
         return self if n == 0 else self.picked(lambda each: np.roll(each, n, -1) if np.ndim(each) else each)
 
-    @property
-    def leaning(self) -> NDArray[np.bool_]:
-        """Mask of pairs in which a flank leans beyond the perpendicular when the tips meet."""
-        # rounding errors may exceed 1
-        flank = np.arcsin(np.clip(np.maximum(abs(self.sin1), abs(self.sin2)), -1.0, 1.0))
-        turned = np.maximum(self.reach, 0.0) - self.side * self.exit_angle
-        found: NDArray[np.bool_] = np.asarray(flank + turned >= np.pi / 2)
-        return found
-
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
     """Return the sine of half the angle within which the teeth of wheel 1 can touch, equation (4)."""
@@ -340,6 +326,22 @@ class CutGearPair:
     def trials(self) -> tuple[int, ...]:
         """Shape of the trials; () for a single pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Numbers of teeth of the driver and of the driven wheel."""
+        return self.sizes.z1, self.sizes.z2
+
+    def taken(self, part: slice | Ints) -> CutGearPair:
+        """Return the pairs of selected trials."""
+        shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
+        return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
+
+    def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
+        """Return the pair with material removed from the flanks by one array (trials, 2 sides, z) for each wheel."""
+        wheels = zip((self.first, self.second), low, strict=True)
+        first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
+        return CutGearPair(self.sizes, first, second, self.shift)
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
         """Return the tooth pairs with the numbers k, which are counted through all turns."""
@@ -376,11 +378,3 @@ class CutGearPair:
         low, high = R1 + float(one.tip.min()), R2 + float(two.tip.max())
         delta = sizes.delta + float(one.tip.max()) + float(two.tip.max()) - sizes.side * shift
         return float(CutToothPairs(low, high, sizes.beta1, sizes.beta2, sizes.side * (sizes.D + shift), delta).reach)
-
-    @cached_property
-    def leans(self) -> Bools:
-        """Mask of the trials in which a flank leans beyond the perpendicular when the tips of its pair meet."""
-        k = np.arange(self.count)
-        both = [np.atleast_2d(each.leaning).any(axis=1) for each in (self.tooth_pairs(k), self.mirrored.tooth_pairs(k))]
-        found: Bools = np.broadcast_to(both[0] | both[1], self.trials or (1,)).copy()
-        return found

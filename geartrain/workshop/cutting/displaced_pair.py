@@ -21,8 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.workshop.cutting.cut_wheel import of_teeth
-from geartrain.workshop.cutting.file_strokes import TightPlace
-from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts
+from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, TightPlace, by_residue, extreme_sum
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -255,19 +254,14 @@ class DisplacedPair:
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
-    def _columns(self, x: Floats) -> list[Floats]:
-        """Return all columns of the contact interpolated linearly at x [rad]; they are constant beyond the ends.
+    def _columns(self, x: Any) -> list[Any]:
+        """Return all columns of the contact interpolated linearly at x [rad]; they are constant beyond the ends, where
+        `_kinks` adds the lag of tips.
 
         Order: across, along and tilt of both wheels, normal, even, apart.
         """
         at = self.contact
-        last = len(at.normal) - 1
-        # constant beyond the ends, where `_kinks` adds the lag of tips
-        place = np.clip((x - at.start) * (last / (at.end - at.start)), 0.0, last)
-        low = np.minimum(place.astype(np.int64), last - 1)
-        part = place - low
-        columns = (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)
-        return [each[low] + (each[low + 1] - each[low]) * part for each in columns]
+        return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
         """Return the terms of equation (2) for both wheels at one x [rad]; teeth are indexed by n = tooth + j.
@@ -276,7 +270,7 @@ class DisplacedPair:
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
-        t1, t2, y1, y2, l1, l2, w, even, apart = (float(each) for each in self._columns(np.array(x)))
+        t1, t2, y1, y2, l1, l2, w, even, apart = map(float, self._columns(x))
         (flank1, low1), (flank2, low2) = one.flanks(back), two.flanks(not back)
         shift = np.asarray(self.shift)[..., None] if np.ndim(self.shift) else self.shift
         ratio = float(at.ratio)
@@ -328,7 +322,7 @@ class DisplacedPair:
         """
         best = np.full(self.trials, np.inf)
         for front, back in self._opposite_pairs():
-            best = np.minimum(best, minimum_sum(front.driver + back.driver, front.driven + back.driven))
+            best = np.minimum(best, extreme_sum(front.driver + back.driver, front.driven + back.driven, np.minimum))
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
@@ -383,7 +377,7 @@ class DisplacedPair:
     def verdicts(self) -> MeshingVerdicts:
         """Return the events (jam, clash, dwell, loss of contact) of each trial over the whole meshing cycle."""
         clash, dwell = self.tip_contacts(True), self.tip_contacts(False)
-        return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged(), np.zeros(self.trials, bool))
+        return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged())
 
     def disengaged(self) -> Bools:
         """Return a mask of shape (trials,): True if no tooth pair can touch at some position."""
@@ -412,7 +406,7 @@ class DisplacedPair:
         own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)
         with np.errstate(invalid="ignore"):
             # negative if the lag of the neighbour is larger
-            margin = minimum_sum(own.driver - mate.driver, own.driven - mate.driven)
+            margin = extreme_sum(own.driver - mate.driver, own.driven - mate.driven, np.minimum)
         found: Bools = np.broadcast_to(~(margin >= 0), self.trials).copy()
         return found
 
@@ -478,26 +472,9 @@ def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
     return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
 
 
-def _by_residue(driver: Any, driven: Any) -> list[Floats]:
-    """Return the terms of both wheels grouped by residue class modulo gcd(z1, z2): teeth of one class meet in the
-    cycle.
-    """
-    rests = gcd(driver.shape[-1], driven.shape[-1])
-    return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
-
-
-def minimum_sum(driver: Any, driven: Any) -> Floats:
-    """Return the minimum sum of a term of the driver and a term of the driven wheel over all teeth that meet in the
-    cycle.
-    """
-    one, two = _by_residue(driver, driven)
-    found: Floats = (one.min(axis=-2) + two.min(axis=-2)).min(axis=-1)
-    return found
-
-
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum sum as in `minimum_sum`, and the indices of its two terms, each of shape (trials,)."""
-    one, two = _by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
+    """Return the minimum sum as in `extreme_sum`, and the indices of its two terms, each of shape (trials,)."""
+    one, two = by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)
     rest = np.broadcast_to(total.argmin(axis=1), count)

@@ -6,60 +6,24 @@ pairs pass. This is repeated at the next tightest position, until the pair turns
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import cos
-from typing import TYPE_CHECKING, Generic, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
-from geartrain.workshop.cutting.cut_wheel import CutGearPair
-from geartrain.workshop.cutting.meshing_cycle import CHUNK, MeshingCycle, chunks, taken
+from geartrain.workshop.cutting.meshing_cycle import CHUNK, MeshingCycle, TightPlace, chunks
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
-    from geartrain.workshop.cutting.cut_wheel import CutWheel
+    from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
+    from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 
 _ROUNDS = 4000  # maximum iterations: enough to file every flank of a pair twice
 
 
-@dataclass(frozen=True)
-class TightPlace:
-    """Position of minimum backlash of each pair, and the flank to file there."""
-
-    backlash: Floats
-    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
-    wheel: Ints
-    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
-    trailing.
-    """
-    tooth: Ints
-    side: Ints
-    gain: Floats
-    """Maximum increase of the backlash per unit depth of filing [rad of the driven wheel per unit of length]."""
-
-
-class FileablePair(Protocol):
-    """Pairs of cut wheels whose flanks can be filed, one pair for each trial."""
-
-    @property
-    def trials(self) -> tuple[int, ...]:
-        """Shape of the trials."""
-
-    @property
-    def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
-
-    def taken(self, rows: Ints) -> Self:
-        """Return the pairs of selected trials."""
-
-    def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash of each pair."""
-
-    def filed(self, low: tuple[Floats, Floats]) -> Self:
-        """Return the pairs with material removed from the flanks by one array (trials, 2 sides, z) for each wheel."""
-
-
-Pair = TypeVar("Pair", bound=FileablePair)
+Pair = TypeVar("Pair", "CutGearPair", "DisplacedPair")
 
 
 @dataclass(frozen=True)
@@ -69,27 +33,23 @@ class FilingWork(Generic[Pair]):
     pair: Pair
     strokes: Ints
     teeth: Ints
-    low: tuple[Floats, Floats]
-    """Depth of material removed from each flank of each wheel, shape (trials, 2 sides, z)."""
-
-    @property
-    def filed(self) -> Bools:
-        """Mask of the trials in which the pair was filed, shape (trials,)."""
-        found: Bools = self.strokes > 0
-        return found
 
 
-def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
-    """Return pairs filed until they pass, one `stroke` of depth at a time.
+def file_to_fit(
+    pair: Pair, tight_place: Callable[[Pair], TightPlace], stroke: float, deepest: float
+) -> FilingWork[Pair]:
+    """Return pairs, one for each trial, filed until they pass, one `stroke` of depth at a time.
 
     A pair remains jammed if more than `deepest` would have to be removed from a flank.
+
+    tight_place   function that returns the position of minimum backlash of each pair
     """
     count = pair.trials[0]
     low = tuple(np.zeros((count, 2, z)) for z in pair.teeth)
     strokes, active = np.zeros(count, np.int64), np.arange(count)
     for _ in range(_ROUNDS):
         part = pair.taken(active).filed((low[0][active], low[1][active]))
-        tight = part.tight_place()
+        tight = tight_place(part)
         jams = tight.backlash < 0
         active, tight = active[jams], _some(tight, jams)
         if not len(active):
@@ -108,7 +68,7 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
         if not len(active):
             break
     teeth = sum(np.count_nonzero(each.any(axis=1), axis=1) for each in low)
-    return FilingWork(pair.filed((low[0], low[1])), strokes, np.asarray(teeth), (low[0], low[1]))
+    return FilingWork(pair.filed((low[0], low[1])), strokes, np.asarray(teeth))
 
 
 def _some(tight: TightPlace, rows: Bools) -> TightPlace:
@@ -117,58 +77,25 @@ def _some(tight: TightPlace, rows: Bools) -> TightPlace:
     )
 
 
-@dataclass(frozen=True)
-class FileableCutPair:
-    """Pairs of cut triangular wheels, with one axis of trials."""
-
-    pair: CutGearPair
-
-    @property
-    def trials(self) -> tuple[int, ...]:
-        """Shape of the trials."""
-        return self.pair.trials
-
-    @property
-    def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
-        return self.pair.first.z, self.pair.second.z
-
-    def taken(self, rows: Ints) -> FileableCutPair:
-        """Return the pairs of selected trials."""
-        return FileableCutPair(taken(self.pair, rows))
-
-    def filed(self, low: tuple[Floats, Floats]) -> FileableCutPair:
-        """Return the pairs with material removed from the flanks by one array (trials, 2 sides, z) for each wheel."""
-        pair = self.pair
-        first, second = pair.first.filed(low[0][:, 0], low[0][:, 1]), pair.second.filed(low[1][:, 0], low[1][:, 1])
-        return FileableCutPair(CutGearPair(pair.sizes, first, second, pair.shift))
-
-    def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash of each pair, with the flank that protrudes most among the four in
-        contact.
-        """
-        parts = [MeshingCycle(part).tightest() for part in chunks(self.pair, CHUNK // self.pair.count)]
-        backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
-        rows, (z1, z2), sizes = np.arange(len(backlash)), self.teeth, self.pair.sizes
-        back = front - apart
-        # the back pair joins the driver's tooth to the next driven tooth
-        teeth = np.stack([front % z1, back % z1, (back + 1) % z2, front % z2])
-        first, second = self.pair.first, self.pair.second
-        out = np.stack(
-            [
-                _flank_height(first, 0)[rows, teeth[0]],
-                _flank_height(first, 1)[rows, teeth[1]],
-                _flank_height(second, 0)[rows, teeth[2]],
-                _flank_height(second, 1)[rows, teeth[3]],
-            ]
-        )
-        flank = out.argmax(axis=0)
-        # a flank is inclined by its half angle plus the reach, which gives a lower bound of the moment arm
-        lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
-        nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
-        # the lower limit of 0.1 keeps the gain finite for flanks almost parallel to the motion
-        gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
-        return TightPlace(backlash, flank // 2, teeth[flank, rows], flank % 2, np.full(len(backlash), gain))
+def tight_place(pair: CutGearPair) -> TightPlace:
+    """Return the position of minimum backlash of each pair of triangular wheels, with the flank that protrudes most
+    among the four in contact.
+    """
+    parts = [MeshingCycle(part).tightest() for part in chunks(pair, CHUNK // pair.count)]
+    backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
+    rows, (z1, z2), sizes = np.arange(len(backlash)), pair.teeth, pair.sizes
+    back = front - apart
+    # the back pair joins the driver's tooth to the next driven tooth
+    teeth = np.stack([front % z1, back % z1, (back + 1) % z2, front % z2])
+    sides = [(pair.first, 0), (pair.first, 1), (pair.second, 0), (pair.second, 1)]
+    out = np.stack([_flank_height(*each)[rows, own] for each, own in zip(sides, teeth, strict=True)])
+    flank = out.argmax(axis=0)
+    # a flank is inclined by its half angle plus the reach, which gives a lower bound of the moment arm
+    lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
+    nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
+    # the lower limit of 0.1 keeps the gain finite for flanks almost parallel to the motion
+    gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
+    return TightPlace(backlash, flank // 2, teeth[flank, rows], flank % 2, np.full(len(backlash), gain))
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:

@@ -66,11 +66,6 @@ class MeshingVerdicts:
     """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
     """Mask of losses of contact: at some position no tooth can touch."""
-    leans: Bools
-    """Mask of trials with a flank that leans beyond the perpendicular when tips meet.
-
-    The tooth pair that touches first is then uncertain.
-    """
 
     @property
     def jams(self) -> Bools:
@@ -90,6 +85,22 @@ class MeshingVerdicts:
         """Return the verdicts of several batches, concatenated."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+
+@dataclass(frozen=True)
+class TightPlace:
+    """Position of minimum backlash of each pair, and the flank to file there."""
+
+    backlash: Floats
+    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
+    wheel: Ints
+    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
+    trailing.
+    """
+    tooth: Ints
+    side: Ints
+    gain: Floats
+    """Maximum increase of the backlash per unit depth of filing [rad of the driven wheel per unit of length]."""
 
 
 def batch_verdicts(
@@ -131,31 +142,23 @@ def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
     teeth = _EntriesAndExits(pair)
     if teeth.reach < 0:  # the tip circles do not intersect
         nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
-        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere, never)
+        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere)
     backlash = backlash_of_pitch_errors(pair)
     for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, chunk // pair.count):
-        backlash[rows] = MeshingCycle(_some(pair, rows)).backlash()
+        backlash[rows] = MeshingCycle(pair.taken(rows)).backlash()
     clash, stands = np.zeros(len(backlash), bool), np.zeros(len(backlash), bool)
     for rows in _parts(teeth.doubtful, chunk // pair.count):
-        some = _EntriesAndExits(_some(pair, rows))
+        some = _EntriesAndExits(pair.taken(rows))
         clash[rows], stands[rows], entering = some.events()
         backlash[rows] = np.minimum(backlash[rows], entering)
-    return MeshingVerdicts(
-        backlash, clash, stands, teeth.disengaged, np.full(len(backlash), teeth.tooth_pair.leaning.item())
-    )
-
-
-def taken(pair: CutGearPair, part: slice | Ints) -> CutGearPair:
-    """Return selected trials of a batch."""
-    shift = pair.shift if np.ndim(pair.shift) == 0 else pair.shift[part]
-    return CutGearPair(pair.sizes, pair.first.taken(part), pair.second.taken(part), shift)
+    return MeshingVerdicts(backlash, clash, stands, teeth.disengaged)
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
     """Yield a batch in parts of at most `trials` trials."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
-        yield taken(pair, slice(start, min(start + step, count)))
+        yield pair.taken(slice(start, min(start + step, count)))
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
@@ -163,10 +166,6 @@ def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
     rows = np.flatnonzero(chosen)
     for start in range(0, len(rows), max(1, size)):
         yield rows[start : start + max(1, size)]
-
-
-def _some(pair: CutGearPair, rows: NDArray[np.int64]) -> CutGearPair:
-    return CutGearPair(pair.sizes, pair.first.taken(rows), pair.second.taken(rows), pair.shift)
 
 
 # --------------------------------------------------------------------------------------------- tooth pair by tooth pair
@@ -178,7 +177,7 @@ def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
     backlash, dwell, clash = cycle.backlash(), cycle.dwells(), cycle.clashes()
     if dwell.any():
         backlash = np.minimum(backlash, np.where(dwell, cycle.backlash_at_entries(), inf))
-    return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged(), pair.leans)
+    return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged())
 
 
 class MeshingCycle:
@@ -416,7 +415,8 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     """
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
-    spread = 2 * float(np.abs(driver).max())  # two driving teeth may deviate in opposite directions
+    # two driving teeth may deviate in opposite directions
+    wide = _next_power_of_two(2 * float(np.abs(driver).max()))
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
     both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
@@ -424,21 +424,25 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
         apart, stop = driver - np.roll(driver, n, -1), np.roll(driven, n - 1, -1) - driven
         if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > backlash.max():
             continue  # pitch deviations cannot bring these below the current minimum
-        own = _interpolate(_table(sizes, n, _next_power_of_two(spread)), _next_power_of_two(spread), apart)
+        own = np.interp(apart, np.linspace(-wide, wide, _NODES), _table(sizes, n, wide))
         # teeth farther apart than the common reach never hold the driven wheel together
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
-        backlash = np.minimum(backlash, _extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
+        backlash = np.minimum(backlash, extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
     return np.asarray(backlash)
 
 
-def _extreme_sum(driver: Any, driven: Any, minimum: Any) -> Any:
-    """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
+def by_residue(driver: Any, driven: Any) -> list[Any]:
+    """Return the terms of both wheels grouped by residue class modulo gcd(z1, z2): teeth of one class meet in the
+    cycle.
+    """
     rests = gcd(driver.shape[-1], driven.shape[-1])
+    return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
-    def by_rest(each: Any) -> Any:
-        return minimum.reduce(each.reshape(*each.shape[:-1], -1, rests), axis=-2)
 
-    return minimum.reduce(by_rest(driver) + by_rest(driven), axis=-1)
+def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
+    """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
+    one, two = by_residue(driver, driven)
+    return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
 
 
 def _next_power_of_two(spread: float) -> float:
@@ -457,14 +461,6 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
     tips = -2 * np.sign(n * sizes.p1 + nodes) * float(tooth_pair.exit_angle)
     found: Floats = np.where(np.isfinite(values), values, tips)
     return found
-
-
-def _interpolate(table: Floats, spread: float, apart: Any) -> Any:
-    """Return values interpolated linearly in a table with equal steps from -spread to spread."""
-    at = (apart + spread) * ((_NODES - 1) / (2 * spread))
-    low = np.clip(at.astype(np.int64), 0, _NODES - 2)
-    first = table[low]
-    return first + (table[low + 1] - first) * (at - low)
 
 
 class _EntriesAndExits:
@@ -515,8 +511,8 @@ class _EntriesAndExits:
         """
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
-        clash = _extreme_sum(*self._entering(1), np.maximum) > self.tip - near
-        stands = _extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
+        clash = extreme_sum(*self._entering(1), np.maximum) > self.tip - near
+        stands = extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
         found: Bools = np.broadcast_to(clash | stands, self.pair.trials).copy()
         return found
 

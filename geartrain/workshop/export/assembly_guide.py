@@ -72,7 +72,7 @@ def readme(
     declared = work.train.declaration
     lines = [f"# {_cell(declared.name)}", "", *([_cell(declared.title), ""] if declared.title else [])]
     if proof is not None:
-        lines += verdict_lines(proof, _cell)
+        lines += _verdict_lines(proof)
     elif parts:
         lines += [unproved(), ""]
     lines += [
@@ -86,7 +86,7 @@ def readme(
     if pictures:
         lines.append("| assembly/ | one picture for each step of the assembly |")
     if proof is not None:
-        lines += proof_lines(proof, _cell)
+        lines += _proof_lines(proof)
     if parts:
         lines += [*_backlashes(work), *_parts(parts_list(work))]
         if work.frame is not None:
@@ -143,27 +143,19 @@ def _cell(text: str) -> str:
 # ------------------------------------------------------------------------------------------------ findings of the proof
 
 
-def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
-    """Return the lines with the verdict and all findings; `cell` escapes a text for Markdown."""
+def _verdict_lines(proof: TrainProof) -> list[str]:
+    """Return the lines with the verdict and all findings."""
     lines = [f"**{'Ready to cut.' if proof.is_ready else 'Not ready to cut.'}**", ""]
     groups: dict[str, list[BuildFinding]] = {}
     for found in proof.findings:
-        groups.setdefault(_group(found), []).append(found)
+        group = 0 if found.is_error else 1 if found.rule in _BY_HAND else 2
+        groups.setdefault(_GROUPS[group], []).append(found)
     for title in _GROUPS:
-        lines += [title, "", *_items(groups[title], cell), ""] if title in groups else []
+        lines += [title, "", *(f"- {_cell(found.text)}" for found in groups[title]), ""] if title in groups else []
     return lines
 
 
-def _group(found: BuildFinding) -> str:
-    """Return the heading under which a finding is listed."""
-    return _GROUPS[0 if found.is_error else 1 if found.rule in _BY_HAND else 2]
-
-
-def _items(findings: list[BuildFinding], cell: Callable[[str], str]) -> list[str]:
-    return [f"- {cell(found.text)}" for found in findings]
-
-
-def proof_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
+def _proof_lines(proof: TrainProof) -> list[str]:
     """Return the lines with the measured values of the proof, and its method."""
     lines = ["", "## Proof on the written outlines", ""]
     lines += [
@@ -173,20 +165,20 @@ def proof_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
         "",
         _HEADER,
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |",
-        *(_row(mesh, cell) for mesh in proof.meshes),
+        *map(_row, proof.meshes),
     ]
     if proof.links:
         lines += ["", "While the input is held, each link can turn by this angle:", ""]
         lines += ["| link | degrees |", "| --- | ---: |"]
-        lines += [f"| {cell(each.link)} | {_turn(each.backlash)} |" for each in proof.links]
+        lines += [f"| {_cell(each.link)} | {_turn(each.backlash)} |" for each in proof.links]
     return lines
 
 
-def _row(mesh: MeshProof, cell: Callable[[str], str]) -> str:
+def _row(mesh: MeshProof) -> str:
     ratio = "-" if mesh.contact_ratio is None else f"{mesh.contact_ratio:.3f}"
     errors = [found.rule for found in mesh.findings if found.is_error]
     words = " ".join(errors) if errors else "turns"
-    values = (cell(mesh.pair), f"{mesh.declared:.4f}", f"{mesh.minimum:.4f}", f"{mesh.overlap:.2g}", ratio)
+    values = (_cell(mesh.pair), f"{mesh.declared:.4f}", f"{mesh.minimum:.4f}", f"{mesh.overlap:.2g}", ratio)
     return f"| {' | '.join(values)} | {mesh.clearance:.3f} | {mesh.tip_width:.3f} | {words} |"
 
 

@@ -29,40 +29,38 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class FlatPart:
-    """Flat part to cut from a sheet."""
+class Sheet:
+    """Drawing of one shape of flat part, or of a sheet of stock with several parts."""
 
-    name: str
-    """Name of its file, and label on sheets of stock."""
+    file: str
+    """Name of its file without suffix, and label of the part on sheets of stock."""
     drawing: FlatDrawing
-    count: int
-    """Number of parts needed."""
+    parts: tuple[str, ...]
+    """Names of the parts, with one entry for each piece."""
     thickness: float
-    """Thickness of its sheet [mm]."""
+    """Thickness of the sheet [mm]."""
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
     """Yield paths without suffixes and drawings, with outlines compensated for the kerf of the process."""
-    kerf, parts = work.process.kerf, list(_parts(work))
-    for folder, part in parts:
-        yield f"{folder}/{part.name}", compensated(part.drawing, kerf)
+    kerf, plates = work.process.kerf, plate_sheets(work)
+    names = file_names(plate.name for plate in plates)
+    flat = [("wheels", each) for each in wheel_sheets(work.blanks.wheels)]
+    flat += [
+        ("plates", Sheet(name, plate.drawing, (plate.name,), plate.thickness))
+        for name, plate in zip(names, plates, strict=True)
+    ]
+    cut = [(folder, replace(each, drawing=compensated(each.drawing, kerf))) for folder, each in flat]
     if work.making.sheet is not None:
-        cut = [replace(each, drawing=compensated(each.drawing, kerf)) for _, each in parts]
-        for sheet in stock_sheets(cut, work.making.sheet, 2 * work.process.web):
-            yield f"sheets/{sheet.file}", sheet.drawing
+        stock = stock_sheets((each for _, each in cut), work.making.sheet, 2 * work.process.web)
+        cut += [("sheets", each) for each in stock]
+    for folder, each in cut:
+        yield f"{folder}/{each.file}", each.drawing
 
 
 def wheel_drawing(work: SolidModel, blank: Blank) -> FlatDrawing:
     """Return the drawing of one wheel, compensated for the kerf."""
     return compensated(wheel_sheets({blank.wheel: blank})[0].drawing, work.process.kerf)
-
-
-def _parts(work: SolidModel) -> Iterator[tuple[str, FlatPart]]:
-    for each in wheel_sheets(work.blanks.wheels):
-        yield "wheels", FlatPart(each.file, each.drawing, len(each.parts), each.thickness)
-    plates = plate_sheets(work)
-    for plate, name in zip(plates, file_names(plate.name for plate in plates), strict=True):
-        yield "plates", FlatPart(name, plate.drawing, 1, plate.thickness)
 
 
 # -------------------------------------------------------------------------------------------------------------- wheels
@@ -76,24 +74,14 @@ _CENTRAL = 1e-6  # mm: a hole whose centre is nearer to the axis is the bore
 _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # file names reserved by Windows
 
 
-@dataclass(frozen=True, slots=True)
-class WheelSheet:
-    """Drawing of one shape of wheel: file name without suffix, drawing, names of the wheels, thickness [mm]."""
-
-    file: str
-    drawing: FlatDrawing
-    parts: tuple[str, ...]
-    thickness: float
-
-
-def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
+def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[Sheet, ...]:
     """Return one drawing for each shape of wheel, which all wheels of this shape share."""
     alike: dict[object, list[Blank]] = {}
     for blank in blanks.values():
         alike.setdefault(_shape(blank), []).append(blank)
     names = file_names(group[0].wheel for group in alike.values())
     return tuple(
-        WheelSheet(name, _drawing(group), tuple(blank.wheel for blank in group), group[0].thickness)
+        Sheet(name, _drawing(group), tuple(blank.wheel for blank in group), group[0].thickness)
         for name, group in zip(names, alike.values(), strict=True)
     )
 
@@ -279,16 +267,7 @@ def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
 _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
-@dataclass(frozen=True, slots=True)
-class StockSheet:
-    """Sheet of stock: file name without suffix, drawing, names of the parts on it with one entry for each piece."""
-
-    file: str
-    drawing: FlatDrawing
-    parts: tuple[str, ...]
-
-
-def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: float) -> tuple[StockSheet, ...]:
+def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) -> tuple[Sheet, ...]:
     """Return all parts laid out on sheets of one size, with parts of one thickness together.
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
@@ -297,8 +276,8 @@ def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: floa
 
     Parameters
     ----------
-    parts : iterable of FlatPart
-        Parts with the number needed of each.
+    parts : iterable of Sheet
+        Parts, each with the names of all its pieces.
     size : tuple of float
         Width and height of a sheet [mm].
     gap : float
@@ -309,18 +288,18 @@ def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: floa
     QuestionError
         If a part is larger than the sheet.
     """
-    alike: dict[float, list[FlatPart]] = {}
+    alike: dict[float, list[Sheet]] = {}
     for part in parts:
         alike.setdefault(float(f"{part.thickness:g}"), []).append(part)  # rounded as in the name of the file
     found = []
     for thickness, group in sorted(alike.items()):
-        pieces = [_fitted_to_sheet(part, size, gap) for part in group for _ in range(part.count)]
+        pieces = [_fitted_to_sheet(part, size, gap) for part in group for _ in part.parts]
         for number, placed in enumerate(_rows(pieces, size, gap), 1):
-            found.append(_stock_sheet(f"sheet-{thickness:g}mm-{number}", placed, size))
+            found.append(_stock_sheet(f"sheet-{thickness:g}mm-{number}", placed, size, thickness))
     return tuple(found)
 
 
-def _fitted_to_sheet(part: FlatPart, size: tuple[float, float], gap: float) -> FlatPart:
+def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Sheet:
     """Return a part turned so that it fits on a sheet, with its longer side along the width of the sheet if
     possible.
     """
@@ -329,7 +308,7 @@ def _fitted_to_sheet(part: FlatPart, size: tuple[float, float], gap: float) -> F
     room = [side - 2 * gap for side in size]
     ways = [turned for turned in (tall > wide, tall <= wide) if _fits((tall, wide) if turned else (wide, tall), room)]
     if not ways:
-        what = f"'{part.name}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
+        what = f"'{part.file}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
         why = f"it measures {wide:.4g} x {tall:.4g} mm, plus a gap of {gap:g} mm on all sides"
         raise QuestionError(Problem(what, why, "give a larger --sheet, or a smaller --module", "--sheet"))
     return replace(part, drawing=_turned(part.drawing)) if ways[0] else part
@@ -339,11 +318,11 @@ def _fits(sides: tuple[float, float], room: list[float]) -> bool:
     return sides[0] <= room[0] and sides[1] <= room[1]
 
 
-def _rows(pieces: list[FlatPart], size: tuple[float, float], gap: float) -> Iterator[list[FlatPart]]:
+def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
     """Yield the pieces of each sheet, shifted to their positions."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
-    sheet: list[FlatPart] = []
+    sheet: list[Sheet] = []
     x = y = gap
     row = 0.0  # height
     for at in order:
@@ -360,7 +339,7 @@ def _rows(pieces: list[FlatPart], size: tuple[float, float], gap: float) -> Iter
         yield sheet
 
 
-def _stock_sheet(file: str, placed: list[FlatPart], size: tuple[float, float]) -> StockSheet:
+def _stock_sheet(file: str, placed: list[Sheet], size: tuple[float, float], thickness: float) -> Sheet:
     border = Contour.of([(0, 0, 0), (size[0], 0, 0), (*size, 0), (0, size[1], 0)])
     title = f"{file}: {len(placed)} parts on {size[0]:g} x {size[1]:g} mm, scale 1:1"
     cut = tuple(contour for piece in placed for contour in piece.drawing.cut)
@@ -368,7 +347,7 @@ def _stock_sheet(file: str, placed: list[FlatPart], size: tuple[float, float]) -
     lines = tuple(line for piece in placed for line in piece.drawing.lines)
     tolerance = min(piece.drawing.tolerance for piece in placed)
     drawing = FlatDrawing(title, cut, (border,), marks, tolerance, lines)
-    return StockSheet(file, drawing, tuple(piece.name for piece in placed))
+    return Sheet(file, drawing, tuple(piece.file for piece in placed), thickness)
 
 
 def _box(drawing: FlatDrawing) -> tuple[Floats, Floats]:

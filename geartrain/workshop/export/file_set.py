@@ -17,7 +17,7 @@ from geartrain.numerics.files import csv_text
 from geartrain.numerics.results import Shown
 from geartrain.scene.solids.bearing_plates import FlatDrawing
 from geartrain.workshop.export.assembly_guide import readme, step_pictures
-from geartrain.workshop.export.cut_sheets import WheelSheet, cut_sheets, wheel_drawing, wheel_sheets
+from geartrain.workshop.export.cut_sheets import cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.workshop.export.parts_list import parts_list, to_csv
 from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
 from geartrain.workshop.export.rexs import to_rexs
@@ -247,12 +247,16 @@ def export_files(
                 "--as",
             )
         )
-    files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
+    files = [*_sheets(work, kinds)]
+    files += [ExportFile(*each) for each in step_pictures(work)] if "svg" in kinds else []
+    if "csv" in kinds:
+        tables = to_tables(work).items()
+        files += [ExportFile(f"tables/{name}.csv", f"table of {name}", text.encode) for name, text in tables]
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
     named |= {kind: f"assembly.{kind}" for kind in ("stl", "glb", "step")}
     for kind, name in named.items():
         if kind in kinds:
-            files.append(ExportFile(name, _TITLES[kind], _whole(work, kind, turns)))
+            files.append(ExportFile(name, _TITLES[kind], partial(train_file, work, kind, turns)))
     if parts_requested(kinds):
         files.append(
             ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
@@ -276,36 +280,19 @@ def parts_requested(kinds: Sequence[str]) -> bool:
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
-def _whole(work: SolidModel, kind: str, turns: Fraction | None) -> Callable[[], bytes]:
-    return lambda: train_file(work, kind, turns)
-
-
 def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
     flat = [kind for kind in kinds if kind in ("svg", "dxf")]
     for path, drawing in cut_sheets(work) if flat else ():
         for kind in flat:
             yield ExportFile(f"{path}.{kind}", drawing.title, partial(_drawn, drawing, kind))
     for sheet in wheel_sheets(work.blanks.wheels) if "stl" in kinds else ():
-        yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
-
-
-def _pictures(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
-    for path, title, draw in step_pictures(work) if "svg" in kinds else ():
-        yield ExportFile(path, title, draw)
+        yield ExportFile(
+            f"wheels/{sheet.file}.stl", sheet.drawing.title, partial(wheel_file, work, sheet.parts[0], ".stl")
+        )
 
 
 def _drawn(drawing: FlatDrawing, kind: str) -> bytes:
     return (to_svg(drawing) if kind == "svg" else to_dxf(drawing)).encode("utf-8")
-
-
-def _printed(work: SolidModel, sheet: WheelSheet) -> Callable[[], bytes]:
-    return lambda: wheel_file(work, sheet.parts[0], ".stl")
-
-
-def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
-    if "csv" in kinds:
-        for name, text in to_tables(work).items():
-            yield ExportFile(f"tables/{name}.csv", f"table of {name}", text.encode)
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:

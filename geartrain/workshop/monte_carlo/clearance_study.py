@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
@@ -69,18 +69,11 @@ def read_clearances(text: str) -> list[float]:
     return [float(each) for each in np.linspace(low, high, count)]
 
 
-def run_clearances(
-    plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: Execution | None = None
-) -> list[ClearanceCase]:
-    """Return the results of trials with the same wheels at each clearance."""
-    return jamming_map(plan, clearances, (1.0,), trials, seed, means)
-
-
 def jamming_map(
     plan: TrialPlan,
     clearances: Sequence[float | None],
-    scales: Sequence[float],
-    trials: int,
+    scales: Sequence[float] = (1.0,),
+    trials: int = 256,
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
@@ -96,9 +89,9 @@ def jamming_map(
         are fractions of the clearance window of each pair; None is the declared clearance. The clearance varies in the
         outer loop.
     scales : sequence of float
-        Factors by which all errors are multiplied, 0 or more.
+        Factors by which all errors are multiplied, 0 or more; by default 1.
     trials : int
-        Number of trials of each case, 1 to 10^9.
+        Number of trials of each case, 1 to 10^9; by default 256.
     seed : int
         Random seed. The same seed gives the same wheels.
     means : Execution, optional
@@ -127,23 +120,16 @@ def jamming_map(
     check_trials(trials)
     means = means or Execution()
     cases = [(clearance, scale) for clearance in clearances for scale in scales]
-    return list(_judged(plan, cases, trials, seed, means))
-
-
-def _judged(
-    plan: TrialPlan, cases: Sequence[tuple[float | None, float]], trials: int, seed: int, means: Execution
-) -> Iterator[ClearanceCase]:
     parts = trial_tasks(trials, len(cases))
     results = means.run(partial(work_case, plan, seed), [[*case, *part] for case in cases for part in parts])
-    for clearance, scale in cases:
+    names, found = [pair.name for pair in plan.pairs], []
+    for case in cases:
         counts = np.sum([next(results) for _ in parts], axis=0)  # results come in the order of the tasks
-        found = [
-            {name: ProbabilityEstimate(*each) for name, each in zip(EVENTS, row.tolist(), strict=True)}
-            for row in counts
+        *pairs, train = [
+            dict(zip(EVENTS, (ProbabilityEstimate(*each) for each in row.tolist()), strict=True)) for row in counts
         ]
-        yield ClearanceCase(
-            clearance, scale, found[-1], dict(zip((pair.name for pair in plan.pairs), found, strict=False))
-        )
+        found.append(ClearanceCase(*case, train, dict(zip(names, pairs, strict=True))))
+    return found
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -34,7 +34,6 @@ from geartrain.workshop.monte_carlo.trial_run import check_trials
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics.turn.torque_cycle import CycleFigures
-    from geartrain.dynamics.turn.train_turn import FrictionStudy
     from geartrain.numerics.arrays import Floats
     from geartrain.train import Train
 
@@ -92,21 +91,6 @@ class FrictionPlan(Shown):
         """Distributions of the friction coefficients, by the train, pair or coupling that declares each of them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
-    @cached_property
-    def _nominal(self) -> GearTrain:
-        from geartrain.analysis.gear_train import GearTrain
-
-        return GearTrain(self.declared)
-
-    @cached_property
-    def study(self) -> FrictionStudy | None:
-        """Part of the computation that is common to all trials in which the same sides drive; None if nothing is
-        common.
-        """
-        from geartrain.dynamics.turn.train_turn import study_friction
-
-        return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)
-
     def follow(self, drawn: Train) -> CycleFigures:
         """Return the torques and the efficiency of the run with the friction coefficients of one trial.
 
@@ -126,26 +110,15 @@ class FrictionPlan(Shown):
             If the torque cannot be determined.
         """
         from geartrain.analysis.gear_train import GearTrain
-        from geartrain.dynamics.turn.torque_cycle import CycleFigures
+        from geartrain.dynamics.torques.torque_results import TorqueVerdict
+        from geartrain.dynamics.turn.train_turn import run_figures
 
-        train, parts, study = GearTrain(drawn), (*drawn.gears, *drawn.couplings), self.study
-        if study is not None and (
-            study.certain or train.mechanics.drivers(self.state) == self._nominal.mechanics.drivers(self.state)
-        ):
-            frictions = {part.name: friction for part in parts if (friction := drawn.friction_of(part)) is not None}
-            figures = study.figures(frictions)
-            if not study.certain or figures.mean is not None:  # if it locks, other sides may drive
-                return figures
-        found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
-        if found.turns is None:
+        found = run_figures(GearTrain(drawn).mechanics, self.turns, self.samples, self.state, self.of)
+        if isinstance(found, TorqueVerdict):
             what = "the torque cannot be determined"
             fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
-            raise QuestionError(Problem(what, found.verdict.text, fix))
-        return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Exclude the common computation from pickling, since each process repeats it."""
-        return {name: value for name, value in self.__dict__.items() if name not in ("study", "_nominal")}
+            raise QuestionError(Problem(what, found.text, fix))
+        return found
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
         """Return all data on which the results depend. A journal identifies the run by these data.

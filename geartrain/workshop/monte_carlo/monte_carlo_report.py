@@ -86,10 +86,10 @@ def _percent(value: float) -> str:
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
 
-def angle_text(figure: IntervalEstimate) -> str:
+def angle_text(figure: IntervalEstimate, digits: int = 3) -> str:
     """Return an angle [rad] in degrees with its interval as text: `2.04 (1.9..2.2)`."""
-    value, low, high = (degrees(each) for each in (figure.value, figure.low, figure.high))
-    return f"{value:.3g} ({low:.3g}..{high:.3g})"
+    value, low, high = (f"{degrees(each):.{digits}g}" for each in (figure.value, figure.low, figure.high))
+    return f"{value} ({low}..{high})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
@@ -212,6 +212,6 @@ def _convergence(found: MonteCarloResult) -> Section:
     ]
     tables = [Table(("trials", "a pair jams", "a pair jams or clashes"), rows)]
     for at, pointer in enumerate(trials.pointers[:4]):
-        spread = [(str(n), f"{sd:.4g} ({low:.4g}..{high:.4g})") for n, sd, low, high in found.pointer_convergence(at)]
+        spread = [(str(count), angle_text(sd, 4)) for count, sd in trials.pointer_convergence(at)]
         tables.append(Table((f"trials of {pointer.name}", "sd (deg)"), spread))
     return Section("Convergence", ("The same estimates from the first trials only.",), tuple(tables))

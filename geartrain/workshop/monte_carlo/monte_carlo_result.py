@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import degrees
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from geartrain.numerics.confidence_intervals import CONFIDENCE
 from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.clearance_study import jamming_map, run_clearances
+from geartrain.workshop.monte_carlo.clearance_study import jamming_map
 from geartrain.workshop.monte_carlo.random_streams import BLOCK
 from geartrain.workshop.monte_carlo.sobol_indices import find_sobol_indices
 from geartrain.workshop.monte_carlo.trial_results import TrialResults
@@ -157,18 +156,6 @@ class MonteCarloResult(Tabular, Pictured, Result):
         """Numbers of completed and requested trials if the run was interrupted; None for a complete run."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
-    def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
-        """Return rows with the number of trials, and the standard deviation of an output's error with its lower and
-        upper limit [deg].
-
-        Parameters
-        ----------
-        at : int
-            Index of the output, from 0.
-        """
-        rows = self.trials.pointer_convergence(at)
-        return [(n, degrees(each.value), degrees(each.low), degrees(each.high)) for n, each in rows]
-
 
 def _sizes(errors: Mapping[str, Mapping[str, Any]]) -> ErrorSizes:
     return {name: {kind: {off.way: off.size} for kind, off in each.items()} for name, each in errors.items() if each}
@@ -201,7 +188,7 @@ class TrialStudies:
         by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
         return MonteCarloResult(
             trials,
-            run_clearances(plan, self.clearances, count, seed, means) if self.clearances else (),
+            jamming_map(plan, self.clearances, trials=count, seed=seed, means=means) if self.clearances else (),
             [run_course(plan, at, _POSITIONS, seed, _COURSES) for at in few] if self.courses else (),
             [find_sobol_indices(plan, at, each, count, seed, means) for at in few for each in by] if self.sobol else (),
         )

@@ -6,7 +6,8 @@ random numbers times that factor, and a study of clearances uses the same wheels
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Container
+from dataclasses import dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -16,8 +17,6 @@ from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.workshop.cutting.declared_errors import ErrorSpecification, WheelErrors
 
@@ -25,23 +24,13 @@ if TYPE_CHECKING:
 BLOCK = 256
 """Number of trials that are drawn together. Results depend on it, so it must never change."""
 
-PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
-    8
-)
-FRICTION = 8
-NUMBER = {
-    "pitch_deviation": PITCH_ERROR,
-    "eccentricity": ECCENTRICITY,
-    "tip": TIP,
-    "aperture_deviation": FLANK_ANGLE_ERROR,
-    "centre": CENTRE_DISTANCE_ERROR,
-    "bearing": BEARING_CLEARANCE,
-}
-
-
-def _first_sample(item: int, kind: int) -> bool:
-    del item, kind
-    return False
+NUMBER = {"pitch_deviation": 0, "eccentricity": 1, "tip": 3, "aperture_deviation": 4, "centre": 5, "bearing": 6}
+"""Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
+TOWARDS, POSITION, FRICTION = 2, 7, 8
+"""Numbers of the streams of the direction of an eccentricity, the position of the input, and friction."""
+Streams = tuple[Container[int], Container[int]]
+EVERY = range(1 << 31)
+"""All numbers of wheels and pairs, or of kinds of error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +39,14 @@ class RandomStreams:
 
     seed: int
     block: int
-    other: Callable[[int, int], bool] = field(default=_first_sample)
-    """Predicate (item, kind): True selects the second, independent sample, which Sobol indices need."""
+    other: Streams = ((), ())
+    """Items (wheels or pairs) and kinds of error of the streams from the second, independent sample, which Sobol
+    indices need.
+    """
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
         """Return the generator for one kind of error of one wheel or pair, or for the position of the input."""
-        key = (self.block, item, kind, int(self.other(item, kind)))
+        key = (self.block, item, kind, int(item in self.other[0] and kind in self.other[1]))
         # PCG64 by name: numpy's default generator may change, and results must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 

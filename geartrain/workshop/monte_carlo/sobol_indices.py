@@ -11,7 +11,7 @@ bootstrap does not accept a seed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -22,7 +22,7 @@ from geartrain.numerics.confidence_intervals import IntervalEstimate, deviations
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.workshop.cutting.declared_errors import ERROR_KINDS
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
+from geartrain.workshop.monte_carlo.random_streams import BLOCK, EVERY, NUMBER, TOWARDS, RandomStreams, Streams
 from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
 from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
 
@@ -169,50 +169,23 @@ def _saltelli(values: Floats) -> Floats:
     return indices
 
 
-def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callable[[int, int], bool]]]:
-    """Return the input variables that can affect an output, each with the predicate of its random streams."""
+def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Streams]]:
+    """Return the input variables that can affect an output, each with its random streams."""
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
     fits = [at for at in pairs if plan.pairs[at].fitting]
-    found: list[tuple[str, Callable[[int, int], bool]]] = []
+    found: list[tuple[str, Streams]] = []
     if by == "wheel":
-        found += [(plan.wheels[at].name, _OfItem(at)) for at in off]
-        found += [(plan.pairs[at].name, _OfItem(len(plan.wheels) + at)) for at in fits]
+        found += [(plan.wheels[at].name, ((at,), EVERY)) for at in off]
+        found += [(plan.pairs[at].name, ((len(plan.wheels) + at,), EVERY)) for at in fits]
     else:
         errors = [plan.wheels[at].errors for at in off] + [plan.pairs[at].fitting for at in fits]
-        found += [(kind, _OfKind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
-    return [*found, ("position", _OfItem(plan.position))]
-
-
-@dataclass(frozen=True, slots=True)
-class _OfItem:
-    item: int
-
-    def __call__(self, item: int, kind: int) -> bool:
-        del kind
-        return item == self.item
-
-
-@dataclass(frozen=True, slots=True)
-class _OfKind:
-    kind: str
-
-    def __call__(self, item: int, kind: int) -> bool:
-        del item
-        # the direction of an eccentricity belongs to the same input variable as its size
-        also = {TOWARDS} if NUMBER[self.kind] == ECCENTRICITY else set()
-        return kind in {NUMBER[self.kind], *also}
-
-
-def _second_sample(item: int, kind: int) -> bool:
-    del item, kind
-    return True
-
-
-def _first_sample(item: int, kind: int) -> bool:
-    del item, kind
-    return False
+        for kind in (each for each in ERROR_KINDS if any(each in own for own in errors)):
+            # the direction of an eccentricity belongs to the same input variable as its size
+            also = (TOWARDS,) if kind == "eccentricity" else ()
+            found.append((kind, (EVERY, (NUMBER[kind], *also))))
+    return [*found, ("position", ((plan.position,), EVERY))]
 
 
 @dataclass(frozen=True)
@@ -230,12 +203,13 @@ class SobolBlock:
         """Return the samples of one task as plain data."""
         first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        columns = [self._errors(first, trials, choice) for choice in (_first_sample, *inputs, _second_sample)]
+        samples: tuple[Streams, ...] = (((), ()), *inputs, (EVERY, EVERY))
+        columns = [self._errors(first, trials, each) for each in samples]
         found: list[list[float]] = np.stack(columns, axis=1).tolist()
         return found
 
-    def _errors(self, first: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
-        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, choice)
+    def _errors(self, first: int, trials: int, second: Streams) -> Floats:
+        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, second)
         drawn = draw_trial_wheels(self.plan, streams, trials, first % BLOCK)
         found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
         errors: Floats = found.errors(input_positions(drawn))[0]

@@ -31,7 +31,7 @@ from geartrain.workshop.cutting.declared_errors import (
     wheel_errors,
 )
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair, even_backlash, mean_lag
-from geartrain.workshop.cutting.file_strokes import FileableCutPair, FilingWork, file_to_fit
+from geartrain.workshop.cutting.file_strokes import FilingWork, file_to_fit, tight_place
 from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
 from geartrain.workshop.cutting.minimum_backlash import jamming_bound, nominal_backlash
 from geartrain.workshop.cutting.trial_transmission import (
@@ -183,21 +183,10 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return the pairs with those that jam filed to fit; pairs of the other trials are unchanged."""
-        count = pair.trials[0] if pair.trials else 1
-        # only jamming pairs are filed, because finding the tightest position is expensive
-        jams = np.flatnonzero(self.verdicts(pair).jams)
-        strokes, teeth = np.zeros((2, count), np.int64)
-        low = tuple(np.zeros((count, 2, z)) for z in self.teeth)
-        if len(jams):
-            whole = FileableCutPair(_with_trial_axis(pair, count))
-            limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
-            work = file_to_fit(whole.taken(jams), self.stroke * self.depth, limit)
-            strokes[jams], teeth[jams] = work.strokes, work.teeth
-            for own, filed in zip(low, work.low, strict=True):
-                own[jams] = filed
-            pair = whole.filed((low[0], low[1])).pair
-        return FilingWork(pair, strokes, teeth, (low[0], low[1]))
+        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
+        whole = _with_trial_axis(pair, pair.trials[0] if pair.trials else 1)
+        limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
+        return file_to_fit(whole, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
         """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the probability of a jam.
@@ -273,7 +262,8 @@ class DisplacedTrialPair(TrialPair):
 
     def filed(self, pair: Any) -> FilingWork[Any]:
         """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
-        return file_to_fit(pair, self.stroke * self.depth, _MAXIMUM_FILING * self.contact.wheels[0].pitch)
+        limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
+        return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
         """Return the pair at a clearance factor of the centre distance, 1 or more."""
@@ -367,6 +357,23 @@ class TrialPlan(Shown):
             1).
         """
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
+
+    def jamming_bound(self, pair: TrialPair) -> float:
+        """Return the upper bound of the jam probability of a pair; NaN unless its wheels have only normal pitch
+        deviations.
+
+        Parameters
+        ----------
+        pair : TrialPair
+            Pair of the plan.
+        """
+        wheels = self.wheels[pair.first], self.wheels[pair.second]
+        plain = all(not each.tables and set(each.errors) <= {"pitch_deviation"} for each in wheels)
+        normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
+        if not (plain and normal) or pair.fitting or pair.stroke:
+            return nan
+        # the bound assumes one deviation for both wheels: the larger one is safe
+        return pair.jamming_bound(max((off.size for each in wheels for off in each.errors.values()), default=0.0))
 
     def question(self) -> dict[str, Any]:
         """Return all data on which the results depend, as plain data. A journal identifies the run by these data."""

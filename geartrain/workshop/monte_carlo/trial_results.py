@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from math import degrees, nan, sqrt
+from math import degrees, isnan, nan, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypedDict, cast
 
 import numpy as np
 
+from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.numerics.confidence_intervals import (
     IntervalEstimate,
     ProbabilityEstimate,
@@ -67,20 +68,15 @@ class TrialResults(Tabular):
     """Position of the input in each trial, shape (trials,) [turn]."""
     errors: Floats
     """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
-    first: Sequence[tuple[float, float, int]]
-    """Sums over the trials for each output: squared error of first-order superposition [rad^2], squared pointer error
-    [rad^2], and number of trials.
+    linear: Floats
+    """Pointer errors of the first trials by first-order superposition, shape (up to about 1024 trials, outputs) [rad].
     """
-    sums: Sequence[Mapping[str, tuple[float, ...]]]
-    """Sums over the trials for each output and pair, from which variance shares are computed: count, part, total,
-    product.
+    lags: Floats
+    """Transmission error of each pair minus its mean without cutting errors, shape (trials, pairs) [rad of the driven
+    wheel].
     """
-    bounds: Mapping[str, float] = field(default_factory=dict)
-    """Upper bound of the jam probability, 0 to 1, for each pair for which a bound is known."""
-    courses: Sequence[PointerErrorCourse] = ()
-    """Pointer errors along one revolution, for the outputs for which a course was requested."""
-    filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
-    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed to fit."""
+    filing: Floats
+    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs)."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -113,6 +109,12 @@ class TrialResults(Tabular):
     def complete(self) -> bool:
         """True if all requested trials are completed."""
         return self.done == self.wanted
+
+    @cached_property
+    def bounds(self) -> Mapping[str, float]:
+        """Upper bound of the jam probability, 0 to 1, for each pair whose wheels have only normal pitch deviations."""
+        found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
+        return {name: bound for name, bound in found.items() if not isnan(bound)}
 
     @cached_property
     def pairs(self) -> tuple[PairEventRates, ...]:
@@ -166,16 +168,39 @@ class TrialResults(Tabular):
     def _pointer(self, at: int) -> PointerErrorStatistics:
         errors = self.errors[:, at]
         runs = turning_trials(self.marks, self.plan.reach[at]) & np.isfinite(errors)
-        off, size, count = self.first[at]
-        first = FirstOrderError(sqrt(off / count), sqrt(size / count)) if count else FirstOrderError(nan, nan)
         return PointerErrorStatistics(
             self.plan.outputs[at],
             errors[runs],
             errors[np.isfinite(errors)],
             int(np.count_nonzero(~runs)),
-            first,
-            _shares(self.sums[at]),
+            self._first_order(at),
+            self._shares(at, runs),
         )
+
+    def _first_order(self, at: int) -> FirstOrderError:
+        with np.errstate(invalid="ignore"):
+            # inf - inf in trials in which no teeth touch
+            exact, off = self.errors[: len(self.linear), at], self.linear[:, at] - self.errors[: len(self.linear), at]
+        good = np.isfinite(off)
+        if not good.any():
+            return FirstOrderError(nan, nan)
+        return FirstOrderError(*(sqrt(np.mean(each[good] ** 2)) for each in (off, exact)))
+
+    def _shares(self, at: int, runs: Bools) -> dict[str, float]:
+        """Return the variance share of each pair: covariance of its part with the total, divided by the total variance.
+
+        runs   mask of the trials that are used, shape (trials,)
+        """
+        superposition = Superposition(self.plan.composition)
+        numbers = {pair.name: number for number, pair in enumerate(self.plan.pairs)}
+        parts = {
+            source.id: source.sense * response * self.lags[runs, numbers[source.id]]
+            for source, response in zip(superposition.sources, superposition.response[at], strict=True)
+            if source.id in numbers and response
+        }
+        whole = sum(parts.values(), np.zeros(np.count_nonzero(runs)))
+        total = float(np.var(whole)) if len(whole) else 0.0
+        return {name: float(np.mean(part * (whole - whole.mean()))) / total for name, part in parts.items() if total}
 
     @property
     def jams(self) -> list[ConvergenceStep]:
@@ -232,16 +257,6 @@ def _share(marks: Marks, mark: int) -> ProbabilityEstimate:
 def _tally(name: str, marks: Marks, backlash: float, bound: float) -> PairEventRates:
     events = {event: _share(marks, mark) for event, mark in EVENTS.items()}
     return PairEventRates(name, events, int(np.count_nonzero(marks & UNCUT)), backlash, bound)
-
-
-def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
-    """Return the variance share of each pair: covariance of its part with the total, divided by the total variance."""
-    found = {}
-    for name, (count, part, whole, product) in sums.items():
-        # sum of products about the means; the common factor cancels in the ratio
-        found[name] = product - part * whole / count if count else 0.0
-    total = sum(found.values())
-    return {name: each / total for name, each in found.items()} if total else {}
 
 
 # ---------------------------------------------------------------------------------------------------------------- pairs

@@ -7,29 +7,27 @@ from __future__ import annotations
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.metadata import version
-from math import isnan
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import (
     UNCUT,
-    TrialPointers,
     draw_trial_wheels,
     input_positions,
     judge_trial_pairs,
     trial_pointers,
 )
-from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults, turning_trials
+from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,7 +36,7 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
 
 
-VERSION = 2
+VERSION = 3
 """Version of the random drawing and evaluation of trials. A journal of another version is rejected."""
 _CHECKED = 1024  # trials in which superposition is compared with exact composition
 _TASKS = 16  # minimum number of tasks if there are enough trials: 8 processes then finish at nearly the same time
@@ -49,21 +47,17 @@ _MOST = 10**9  # trials: more would not fit into memory
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """Results of the trials of one task.
-
-    `first` is the number of its first trial; the arrays are those of `TrialResults`; `backlash` is in pitches of the
-    driven wheel.
-    """
+    """Results of the trials of one task, as in `TrialResults`; `first` is the number of its first trial."""
 
     first: int
     turns: Floats
     marks: NDArray[np.uint8]
     backlash: Floats
+    """Minimum backlash of each pair, shape (trials, pairs) [pitch of the driven wheel]."""
     errors: Floats
-    off: Sequence[tuple[float, float, int]] = ()
-    sums: Sequence[Mapping[str, tuple[float, ...]]] = field(default_factory=tuple)
-    filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
-    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed."""
+    linear: Floats
+    lags: Floats
+    filing: Floats
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
@@ -162,7 +156,7 @@ def run_trials(
     found: list[TrialRecord] = []
     try:
         for (first, _), packed in zip(tasks, means.run(work, tasks), strict=True):
-            rows = unpack(plan, first, packed)
+            rows = unpack(first, packed)
             if not first:
                 _check_cut(plan, rows)
             if take is not None:
@@ -207,78 +201,34 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
     marks, backlash = judge_trial_pairs(drawn)
     turns = input_positions(drawn)
     found = trial_pointers(drawn, np.arange(trials))
-    first = found.superposed(turns) if number < _CHECKED else None
-    errors = found.errors(turns)  # after the superposition, because `_sums` needs the values of this last evaluation
-    runs = [turning_trials(marks, reach) & np.isfinite(row) for reach, row in zip(plan.reach, errors, strict=True)]
-    off = [] if first is None else [_off(*both) for both in zip(first, errors, strict=True)]
-    return {
-        "marks": _pack(marks),
-        "backlash": _pack(backlash),
-        "turns": _pack(turns),
-        "errors": _pack(errors.T),
-        "off": off,
-        "sums": _sums(plan, found, runs),
-        **({"filing": _pack(drawn.strokes())} if plan.files else {}),
+    linear = found.superposed(turns).T if number < _CHECKED else np.zeros((0, len(plan.outputs)))
+    errors = found.errors(turns).T  # after the superposition, because the lags are those of this last evaluation
+    lags = np.zeros(marks.shape)
+    for at, pair in enumerate(plan.pairs):
+        if pair.name in found.transmissions:
+            lags[:, at] = found.transmissions[pair.name].last - pair.even
+    arrays: dict[str, NDArray[Any]] = {
+        "turns": turns,
+        "marks": marks,
+        "backlash": backlash,
+        "errors": errors,
+        "linear": linear,
+        "lags": lags,
     }
-
-
-def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
-    with np.errstate(invalid="ignore"):
-        # inf - inf in trials in which no teeth touch
-        good = np.isfinite(first - exact)
-    first, exact = first[good], exact[good]
-    return float(np.sum((first - exact) ** 2)), float(np.sum(exact**2)), len(first)
-
-
-def _sums(
-    plan: TrialPlan, found: TrialPointers, runs: Sequence[NDArray[np.bool_]]
-) -> list[dict[str, tuple[float, ...]]]:
-    """Return the sums for the variance shares, by output and pair: count of trials, part of the pair, total, and
-    product.
-    """
-    superposition = Superposition(found.cut)
-    even = {pair.name: pair.even for pair in plan.pairs}
-    sums: list[dict[str, tuple[float, ...]]] = []
-    for at, rows in enumerate(runs):
-        parts = {
-            source.id: source.sense * response * (found.transmissions[source.id].last[rows] - even[source.id])
-            for source, response in zip(superposition.sources, superposition.response[at], strict=True)
-            if source.id in found.transmissions and response
-        }
-        whole = sum(parts.values(), np.zeros(int(np.count_nonzero(rows))))
-        sums.append(
-            {
-                name: (float(len(part)), float(part.sum()), float(whole.sum()), float(part @ whole))
-                for name, part in parts.items()
-            }
-        )
-    return sums
+    return {name: _pack(each) for name, each in {**arrays, "filing": drawn.strokes()}.items()}
 
 
 def _pack(array: NDArray[Any]) -> str:
-    return b64encode(np.ascontiguousarray(array).tobytes()).decode()
+    file = BytesIO()
+    np.save(file, array, allow_pickle=False)
+    return b64encode(file.getvalue()).decode()
 
 
-def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecord:
+def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
     """Return the trials of one task, decoded from the plain data of a worker or a journal; `first` is its first
     trial.
     """
-
-    def array(name: str, width: int = 0) -> Any:
-        found = np.frombuffer(b64decode(packed[name]), np.uint8 if name == "marks" else np.float64)
-        return found.reshape(-1, width) if width else found
-
-    pairs = len(plan.pairs)
-    return TrialRecord(
-        first,
-        array("turns"),
-        array("marks", pairs),
-        array("backlash", pairs),
-        array("errors", len(plan.outputs)),
-        [tuple(each) for each in packed["off"]],
-        packed["sums"],
-        array("filing", 2 * pairs) if plan.files else np.zeros((0, 0)),
-    )
+    return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 
 # ----------------------------------------------------------------------------------------------------------- all trials
@@ -286,42 +236,9 @@ def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecor
 
 def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecord]) -> TrialResults:
     """Return the records of all tasks, combined in one result."""
-    outputs = range(len(plan.outputs))
-    checked = [rows.off for rows in found if rows.off]
-    first = [tuple(map(sum, zip(*(off[at] for off in checked), strict=True))) or (0.0, 0.0, 0) for at in outputs]
-    sums = []
-    for at in outputs:
-        names = found[0].sums[at]
-        sums.append(
-            {name: tuple(map(sum, zip(*(rows.sums[at][name] for rows in found), strict=True))) for name in names}
-        )
-    return TrialResults(
-        plan,
-        seed,
-        wanted,
-        np.concatenate([rows.marks for rows in found]),
-        np.concatenate([rows.turns for rows in found]),
-        np.concatenate([rows.errors for rows in found]),
-        first,  # type: ignore[arg-type]
-        sums,
-        jamming_bounds(plan),
-        filing=np.concatenate([rows.filing for rows in found]),
-    )
-
-
-def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
-    """Return the upper bound of the jam probability of each pair whose wheels have only normal pitch deviations."""
-    found = {}
-    for pair in plan.pairs:
-        wheels = plan.wheels[pair.first], plan.wheels[pair.second]
-        plain = all(not each.tables and set(each.errors) <= {"pitch_deviation"} for each in wheels)
-        plain = plain and not pair.fitting and not pair.stroke
-        normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
-        if plain and normal:
-            # the bound assumes one deviation for both wheels: the larger one is safe
-            sizes = [each.errors["pitch_deviation"].size for each in wheels if each.errors]
-            found[pair.name] = pair.jamming_bound(max(sizes, default=0.0))
-    return {name: bound for name, bound in found.items() if not isnan(bound)}
+    names = ("marks", "turns", "errors", "linear", "lags", "filing")
+    arrays = {name: np.concatenate([getattr(rows, name) for rows in found]) for name in names}
+    return TrialResults(plan, seed, wanted, **arrays)
 
 
 def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, trials: int = BLOCK) -> PointerErrorCourse:
@@ -376,31 +293,23 @@ SUFFIXES = (".parquet", ".csv")
 _EVENTS = "bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 wheels cannot be cut"
 
 
-@dataclass(frozen=True)
-class TrialTable:
-    """Table file with one row for each trial, to which the records of tasks are appended."""
+@contextmanager
+def trial_table(
+    plan: TrialPlan, path: Path, force: bool = False, replay: bool = False
+) -> Iterator[Callable[[TrialRecord], None]]:
+    """Yield a function that appends one record to a table file (.parquet or .csv) with one row for each trial.
 
-    plan: TrialPlan
-    path: Path
-    """Path of the .parquet or .csv file."""
-    force: bool = False
-    """True if an existing file may be overwritten."""
-    replay: bool = False
-    """True if an interrupted run is resumed; its file is then written again from the journal."""
-
-    @contextmanager
-    def open(self) -> Iterator[Callable[[TrialRecord], None]]:
-        """Yield a function that appends one record to the table file."""
-        plan = self.plan
-        if self.path.suffix.lower() == ".parquet":
-            about = {"train": plan.name, "events": _EVENTS}
-            with ColumnTable(self.path, about, self.force, replay=self.replay) as columns:
-                yield lambda rows: columns.write(dict(zip(_names(plan), _columns(plan, rows), strict=True)))
-        else:
-            with LongTable(self.path, csv_line(_names(plan)), force=self.force, replay=self.replay) as table:
-                yield lambda rows: table.write(
-                    csv_lines(zip(*(column.tolist() for column in _columns(plan, rows)), strict=True))
-                )
+    force    True if an existing file may be overwritten
+    replay   True if an interrupted run is resumed; its file is then written again from the journal
+    """
+    if path.suffix.lower() == ".parquet":
+        with ColumnTable(path, {"train": plan.name, "events": _EVENTS}, force, replay=replay) as columns:
+            yield lambda rows: columns.write(dict(zip(_names(plan), _columns(plan, rows), strict=True)))
+    else:
+        with LongTable(path, csv_line(_names(plan)), force=force, replay=replay) as table:
+            yield lambda rows: table.write(
+                csv_lines(zip(*(column.tolist() for column in _columns(plan, rows)), strict=True))
+            )
 
 
 def _names(plan: TrialPlan) -> list[str]:

@@ -34,12 +34,15 @@ from geartrain.cli.option_values import Theme
 from geartrain.errors import suggest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from contextlib import AbstractContextManager
+
     from geartrain.numerics.work import Execution
     from geartrain.scene.palette import ThemeName
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults
-    from geartrain.workshop.monte_carlo.trial_run import TrialTable
+    from geartrain.workshop.monte_carlo.trial_run import TrialRecord
 
 Plot = Annotated[Path | None, typer.Option("--plot", help="Write a plot to this file (.svg, .png or .pdf).")]
 Picture = Annotated[
@@ -93,7 +96,7 @@ def run(
     from geartrain.workshop.monte_carlo.clearance_study import read_clearances
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies
     from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
-    from geartrain.workshop.monte_carlo.trial_run import SUFFIXES, TrialTable, check_trials, journal_key
+    from geartrain.workshop.monte_carlo.trial_run import SUFFIXES, check_trials, journal_key, trial_table
 
     to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
     check_trials(trials)
@@ -105,7 +108,8 @@ def run(
     options = RunOptions(workers, resume)
     if to.path is None and to.suffix in SUFFIXES:
         raise option_error("-o", "a table of trials cannot be written to standard output", f"give -o x{to.suffix}")
-    table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
+    tabled = to.path is not None and to.suffix in SUFFIXES
+    table = trial_table(plan, to.path, force, resume) if to.path is not None and tabled else nullcontext()
     findings = drawn = None
     with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:
         found = _trials(plan, trials, seed, given, table)
@@ -119,8 +123,8 @@ def run(
             tell(f"stopped after {found.done} of {trials} trials; the results are for these trials")
             if given.journal is not None:
                 tell(f"completed trials are in {given.journal.path}; repeat the command with --resume to continue")
-    _answer(findings or MonteCarloResult(found), json or to.suffix == ".json", to if table is None else STANDARD)
-    if table is not None and found.complete:
+    _answer(findings or MonteCarloResult(found), json or to.suffix == ".json", STANDARD if tabled else to)
+    if tabled and found.complete:
         tell(f"wrote {out}")
     if drawn is not None and plot is not None:
         _draw_findings(drawn, picture, drawing)
@@ -138,11 +142,17 @@ class _StoppedError(Exception):
     """Interruption of the trials by the user."""
 
 
-def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: TrialTable | None) -> TrialResults:
+def _trials(
+    plan: TrialPlan,
+    trials: int,
+    seed: int,
+    given: Execution,
+    table: AbstractContextManager[Callable[[TrialRecord], None] | None],
+) -> TrialResults:
     """Run the trials with the journal, and write each trial to the table."""
     from geartrain.workshop.monte_carlo.trial_run import run_trials
 
-    with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
+    with suppress(_StoppedError), table as take:
         found = run_trials(plan, trials, seed, given, take)
         if not found.complete:
             raise _StoppedError  # leaves the table marked as partial

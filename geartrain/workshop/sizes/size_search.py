@@ -352,7 +352,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
     lows, highs = zip(*bounds, strict=True)
     # only the number of samples ends the search, not the volume or the side of a cell
     number = _DIVISIONS[min(len(bounds), len(_DIVISIONS)) - 1]
-    direct(_for_scipy(sampled), Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
+    direct(sampled, Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
     if len(bounds) == 1:
         for end in bounds[0]:  # neither DIRECT nor Brent's method evaluates an end
             sampled((end,))
@@ -381,20 +381,11 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
         ]
         # sizes are declared with 6 decimals
         options = {"initial_simplex": np.array(corners), "maxfev": 50 * len(here), "xatol": 1e-6, "fatol": 1e-10}
-        found = minimize(_for_scipy(sampled), np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
+        found = minimize(sampled, np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
         here = min((here, sampled.inside(found.x)), key=sampled)
         if before - sampled(here) <= _GAIN * abs(before):
             break
         step /= 2
-
-
-def _for_scipy(sampled: SampledFunction) -> Callable[[Floats], float]:
-    """Return the function in the form that scipy requires."""
-
-    def value(x: Floats) -> float:
-        return sampled(x)
-
-    return value
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:

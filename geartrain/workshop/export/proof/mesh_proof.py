@@ -98,7 +98,7 @@ def read_wheels(work: SolidModel) -> CutTrain:
                 findings.append(BuildFinding("T0", "error", Problem(what, problem.why, problem.fix)))
             continue
         # the cut removes half a kerf on each side of its line
-        left = _offset(material, kerf / (2 if pins else -2)) if kerf else material
+        left = material.buffer(kerf / (2 if pins else -2), quad_segs=_AROUND) if kerf else material
         left = _with_pins(left, work.blanks.wheels[sheet.parts[0]])
         materials |= dict.fromkeys(sheet.parts, left)
     return CutTrain(materials, tuple(findings))
@@ -115,10 +115,6 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
     # the corners are outside the circle, so that chords do not cut off any part of the pin
     chords = ceil(np.pi / (4 * np.arccos(1 / (1 + TOLERANCE / radius))))
     return shapely.union_all([ring, *shapely.buffer(middles, radius + TOLERANCE, quad_segs=chords)])
-
-
-def _offset(material: Any, by: float) -> Any:
-    return material.buffer(by, quad_segs=_AROUND)
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:

@@ -102,7 +102,7 @@ class TurnedPair:
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
-        kinds = self._kinds(0), self._kinds(1)
+        kinds = self._alike
         for n in range(lcm(z1, z2)):
             one, other = -n % z1, -way * n % z2
             found.setdefault((kinds[0][one], kinds[1][other]), (one, other))
@@ -218,19 +218,15 @@ class TurnedPair:
         """Return the part of a wheel that can touch the other while a tooth (wheel 2: a space) passes the line of
         centres.
         """
-        return self._contact_regions[which](tooth)
+        kind = which, self._alike[which][tooth]
+        if kind not in self._cropped:
+            self._cropped[kind] = self._crop(which, tooth)
+        return self._cropped[kind]
 
     @cached_property
-    def _contact_regions(self) -> tuple[Any, Any]:
-        cut: dict[tuple[int, int], Any] = {}
-
-        def piece(which: int, tooth: int) -> Any:
-            kind = self._kinds(which)[tooth]
-            if (which, kind) not in cut:
-                cut[which, kind] = self._crop(which, tooth)
-            return cut[which, kind]
-
-        return (lambda tooth: piece(0, tooth)), (lambda tooth: piece(1, tooth))
+    def _cropped(self) -> dict[tuple[int, int], Any]:
+        """Regions of contact that were already cropped, by wheel and kind of tooth."""
+        return {}
 
     def _crop(self, which: int, tooth: int) -> Any:
         """Return a wheel rotated to a tooth (wheel 2: a space) at the contact, and cropped to the region that can
@@ -244,12 +240,9 @@ class TurnedPair:
         half = self._extents[which] + 1.1 * pitch  # the wheel turns by up to a pitch, plus a margin
         return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
 
-    def _kinds(self, which: int) -> tuple[int, ...]:
-        """Return for each tooth the index of the first tooth that is equal, including its neighbours."""
-        return self._alike[which]
-
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Index of the first tooth that is equal, including its neighbours, for each tooth of both wheels."""
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 

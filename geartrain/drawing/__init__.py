@@ -35,7 +35,6 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.drawing.flat_files import outline_text as outline_text
     from geartrain.drawing.output_error_plots import motion_figure as motion_figure
-    from geartrain.drawing.output_error_plots import outputs_figure as outputs_figure
     from geartrain.drawing.output_error_plots import torque_cycle_figure as torque_cycle_figure
     from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
     from geartrain.drawing.power_sankey import power_figure as power_figure
@@ -50,7 +49,6 @@ if TYPE_CHECKING:
 __all__ = [
     "motion_figure",
     "outline_text",
-    "outputs_figure",
     "picture",
     "power_figure",
     "render",
@@ -66,15 +64,13 @@ __all__ = [
 _PLACES = {
     "render": "style",
     "outline_text": "flat_files",
-    "shapes_figure": "transmission_curves",
-    **dict.fromkeys(("motion_figure", "outputs_figure"), "output_error_plots"),
+    **dict.fromkeys(("motion_figure", "torque_cycle_figure"), "output_error_plots"),
     "sweep_figure": "parameter_sweep_plot",
     "power_figure": "power_sankey",
     "sphere_figure": "spherical_gears",
     "teeth_figure": "tooth_contact",
-    "torque_cycle_figure": "output_error_plots",
     "picture": "train_pictures",
-    **dict.fromkeys(("triangular_figure", "transmission_figure"), "transmission_curves"),
+    **dict.fromkeys(("shapes_figure", "transmission_figure", "triangular_figure"), "transmission_curves"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

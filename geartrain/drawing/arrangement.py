@@ -8,17 +8,17 @@ are placed in two columns next to a picture, with lines to what they name.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from itertools import pairwise
-from math import ceil, cos, floor, inf, pi, sin
+from math import ceil, cos, inf, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 from scipy.optimize import isotonic_regression, linear_sum_assignment
+from scipy.sparse.csgraph import floyd_warshall
 
 from geartrain.drawing.style import FINE, GREY, Axes, Circle, write
 from geartrain.errors import printable
@@ -37,7 +37,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     The sum of the distances within pairs is reduced by a local search that moves one item at a time. The result is
     deterministic.
     """
-    order = _breadth_first(items, pairs)
+    order = breadth_first(items, pairs)
     at = {item: position for position, item in enumerate(order)}
     ends = [(at[one], at[other]) for one, other in pairs if one != other and one in at and other in at]
     sequence = list(range(len(order)))
@@ -51,7 +51,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     return [order[item] for item in sequence]
 
 
-def _breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
+def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
     """Return the items in breadth-first order, starting at the first item of each connected component."""
     mates = neighbours(items, pairs)
     seen: dict[str, None] = {}
@@ -102,41 +102,17 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     needs    width of each box
     bounds   interval that contains the boxes as far as there is space
     """
-    order = sorted(range(len(wanted)), key=lambda at: wanted[at])
-    clusters: list[tuple[list[int], float]] = []  # members, and the centre of the first
-    for at in order:
-        clusters.append(([at], _first_centre([at], wanted[at], needs, bounds)))
-        while len(clusters) > 1 and _overlap(clusters[-2], clusters[-1], needs):
-            members = clusters[-2][0] + clusters[-1][0]
-            shifts = [wanted[each] - step for each, step in zip(members, _offsets(members, needs), strict=True)]
-            clusters[-2:] = [(members, _first_centre(members, sum(shifts) / len(shifts), needs, bounds))]
-    places = [0.0] * len(wanted)
-    for members, first in clusters:
-        for each, step in zip(members, _offsets(members, needs), strict=True):
-            places[each] = first + step
-    return places
-
-
-def _first_centre(members: Sequence[int], first: float, needs: Sequence[float], bounds: tuple[float, float]) -> float:
-    """Return the centre of the first box such that a row of boxes is within bounds. A row that is too long begins at
-    the lower bound.
-    """
-    most = bounds[1] - needs[members[-1]] / 2 - _offsets(members, needs)[-1]
-    return max(min(first, most), bounds[0] + needs[members[0]] / 2)
-
-
-def _offsets(members: Sequence[int], needs: Sequence[float]) -> list[float]:
-    """Return the distance of each box of a row from the first box."""
-    steps = [0.0]
-    for one, other in pairwise(members):
-        steps.append(steps[-1] + (needs[one] + needs[other]) / 2)
-    return steps
-
-
-def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], needs: Sequence[float]) -> bool:
-    end = left[1] + _offsets(left[0], needs)[-1]
-    # the tolerance keeps boxes that just touch from counting as overlapping
-    return right[1] - end < (needs[left[0][-1]] + needs[right[0][0]]) / 2 - 1e-12
+    if not len(wanted):
+        return []
+    order = np.argsort(wanted, kind="stable")
+    wide = np.asarray(needs)[order]
+    steps = np.concatenate([[0.0], np.cumsum(wide[1:] + wide[:-1]) / 2])  # distances from the first box, without gaps
+    first = isotonic_regression(np.asarray(wanted)[order] - steps).x
+    # a row that is too long begins at the lower bound
+    first = np.maximum(np.minimum(first, bounds[1] - wide[-1] / 2 - steps[-1]), bounds[0] + wide[0] / 2)
+    places = np.zeros(len(order))
+    places[order] = first + steps
+    return list(map(float, places))
 
 
 def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
@@ -176,8 +152,7 @@ def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, s
         i, j = at[one], at[other]
         length = lengths[one, other] if (one, other) in lengths else lengths[other, one]
         far[i, j] = far[j, i] = min(far[i, j], length) if i != j else 0.0
-    for middle in range(len(items)):
-        far = np.minimum(far, far[:, middle, None] + far[None, middle, :])
+    far = floyd_warshall(np.where(np.isfinite(far), far, 0.0))
     return np.where(np.isfinite(far), far, 0.0)
 
 
@@ -189,7 +164,6 @@ Box = tuple[float, float, float, float]
 
 _PATHS = TextToPath()
 _LINE = 1.25  # height of a line over its font size
-_CELL = 0.5  # inches: side of the squares of the grid that indexes boxes
 PITCH = _LINE * FINE / 72 + 0.02
 """Distance between the lines of a callout [in]."""
 
@@ -210,18 +184,18 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Occupied boxes on a page, indexed by the squares of a grid."""
+    """Occupied boxes (n, 4) on a page."""
 
-    taken: dict[tuple[int, int], list[Box]] = field(default_factory=dict)
+    taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 
     def free(self, box: Box) -> bool:
         """Return True if a box does not overlap the occupied boxes."""
-        return not any(overlap(box, other) for square in _squares(box) for other in self.taken.get(square, ()))
+        near = np.abs(self.taken[:, :2] - box[:2]) < (self.taken[:, 2:] + box[2:]) / 2
+        return not near.all(axis=1).any()
 
     def take(self, box: Box) -> None:
         """Mark a box as occupied."""
-        for square in _squares(box):
-            self.taken.setdefault(square, []).append(box)
+        self.taken = np.vstack([self.taken, box])
 
     def place(self, boxes: Iterable[Box]) -> Box | None:
         """Return the first free box and mark it as occupied; None if no box is free."""
@@ -230,21 +204,6 @@ class LabelSpace:
                 self.take(box)
                 return box
         return None
-
-
-def _squares(box: Box) -> Iterator[tuple[int, int]]:
-    """Yield the squares of the grid that a box overlaps."""
-    x, y, width, height = box
-    for across in range(floor((x - width / 2) / _CELL), floor((x + width / 2) / _CELL) + 1):
-        for along in range(floor((y - height / 2) / _CELL), floor((y + height / 2) / _CELL) + 1):
-            yield across, along
-
-
-def overlap(one: Box, other: Box) -> float:
-    """Return the area in which two boxes overlap [in^2]."""
-    across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
-    along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
-    return max(across, 0.0) * max(along, 0.0)
 
 
 # ------------------------------------------------------------------------------------------------------------- callouts

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
@@ -19,6 +19,7 @@ from geartrain.drawing.style import (
     Circle,
     Figure,
     Polygon,
+    after_turns,
     series_look,
     sheet,
     title_of,
@@ -115,7 +116,7 @@ def dials_figure(
     ]
     wide = max(_FACE, max(keys) + 0.3) if labels else _FACE
     width = max(wide * columns, 5.0)
-    title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_driving_link(scene)}" if turns else "")
+    title = title_of(scene.name, scene.title) + after_turns(scene, turns)
     figure, axes = sheet(width, _HEAD + sum(tall) + 0.1, title)
     top = sum(tall) + 0.1
     for row, high in zip(rows, tall, strict=True):
@@ -127,10 +128,6 @@ def dials_figure(
                 _draw_key(axes, face, scene, readings, centre)
         top -= high
     return figure
-
-
-def _driving_link(scene: Scene) -> str:
-    return scene.bodies[scene.driving_link].id if scene.driving_link is not None else "nothing"
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
@@ -150,7 +147,10 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         dial = scene.pointers[at].dial
         if dial is not None:
             on.setdefault(dial, []).append(at)
-    faces = [_dial_picture(scene, dial, pointers) for dial, pointers in on.items()]
+    faces = [
+        DialPicture(face.id, face.scale, tuple(pointers), face.title)
+        for face, pointers in ((scene.dials[dial], pointers) for dial, pointers in on.items())
+    ]
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
@@ -166,11 +166,6 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             )
         )
     return faces
-
-
-def _dial_picture(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
-    face = scene.dials[dial]
-    return DialPicture(face.id, face.scale, tuple(pointers), face.title)
 
 
 # -------------------------------------------------------------------------------------------------------------- drawing

@@ -339,17 +339,14 @@ def _free_sides(
 
 def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:
     kinds = {edge.kind for edge in edges}
-    if "revolute" in kinds:
-        yield _key("revolute", "turning pair, with its axis")
-    if "gear" in kinds:
-        yield _key("gear", "gear pair")
-    if "coupling" in kinds:
-        yield _key("coupling", "pin in a slot")
+    for kind, words in (
+        ("revolute", "turning pair, with its axis"),
+        ("gear", "gear pair"),
+        ("coupling", "pin in a slot"),
+    ):
+        if kind in kinds:
+            width, dashes, color = _EDGE_STYLES[kind]
+            yield Line2D([], [], color=color, linewidth=width, linestyle=dashes, label=words)
     yield Line2D([], [], marker="s", color=BLACK, markerfacecolor="white", linestyle="", label="frame")
     if any(edge.broken for edge in edges):
         yield Line2D([], [], color=RED, linewidth=3.2, label="loop that does not close")
-
-
-def _key(kind: str, words: str) -> Line2D:
-    width, dashes, color = _EDGE_STYLES[kind]
-    return Line2D([], [], color=color, linewidth=width, linestyle=dashes, label=words)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from geartrain.drawing.style import (
     BLACK,
@@ -35,7 +36,7 @@ from geartrain.scene.palette import series_colour
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics import ErrorSamples, Motion, TorqueCycle, TorqueExtreme
+    from geartrain.dynamics import ErrorSamples, TorqueCycle
     from geartrain.numerics.arrays import Floats
 
 
@@ -116,51 +117,18 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     return headed(figure, "; ".join(filter(None, (title, *omitted))))
 
 
-def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
-    """Draw the motion of outputs over some turns of the input with `motion_figure`.
-
-    Parameters
-    ----------
-    motion : Motion
-        Motion of the outputs.
-    turns : float
-        Length of the run from position 0 of the input [turn].
-    samples : int
-        Number of positions, 2 or more, both ends included.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure as drawn by `motion_figure`.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> outputs_figure(geartrain.load("moon-triangular").motion(), turns=0.1, samples=51).axes[-1].get_xlabel()
-    'turns of crank'
-    """
-    return motion_figure(MotionRun(motion, turns, samples))
-
-
 def _omitted(erring: int, exact: int) -> Iterator[str]:
     """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
         yield "every output moves uniformly"
-        yield from _count_remark(exact, "")
-        return
-    yield from _count_remark(erring, " with smaller deviations")
-    if exact:
+    less = (erring or exact) - _OUTPUTS
+    if less == 1:
+        yield f"1 output{' with a smaller deviation' if erring else ''} is left out: select it with --of"
+    elif less > 1:
+        yield f"{less} outputs{' with smaller deviations' if erring else ''} are left out: select them with --of"
+    if erring and exact:
         moves = "1 output that moves uniformly is" if exact == 1 else f"{exact} outputs that move uniformly are"
         yield f"{moves} not drawn"
-
-
-def _count_remark(outputs: int, which: str) -> Iterator[str]:
-    """Yield a remark on outputs that exceed the maximum number of drawn outputs."""
-    less = outputs - _OUTPUTS
-    if less == 1:
-        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --of"
-    elif less > 1:
-        yield f"{less} outputs{which} are left out: select them with --of"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:
@@ -175,18 +143,13 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
     column = iter(grid[:, 0])
     for row, (trace, drawers) in enumerate(parts):
         for drawer, panel in zip(drawers, column if across == 1 else grid[row], strict=False):
-            _draw_panel(panel, drawer, trace, below)
+            drawer(panel, trace)
+            name_axes(panel, below, size=SMALL, parse_math=False)
+            panel.locator_params(axis="x", nbins=_TICKS)
+            plain(panel)
         for panel in grid[row, len(drawers) :] if across > 1 else ():
             panel.set_axis_off()
     return figure
-
-
-def _draw_panel(panel: Any, drawer: _Drawer, trace: _Trace, below: str) -> None:
-    """Draw one panel of one output."""
-    drawer(panel, trace)
-    name_axes(panel, below, size=SMALL, parse_math=False)
-    panel.locator_params(axis="x", nbins=_TICKS)
-    plain(panel)
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
@@ -236,13 +199,9 @@ def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
 
     They are the first position of each bin, its extremes of deviation and speed, and every reversal.
     """
-    if len(error) <= 3 * bins:
-        return np.arange(len(error))
-    kept: list[Any] = []
-    for part in np.array_split(np.arange(len(error)), bins):
-        kept += [part[0], *(part[find(y[part])] for y in (error, speed) for find in (np.argmin, np.argmax))]
-    turning = np.flatnonzero(np.diff(np.signbit(speed)))
-    return np.unique(np.concatenate([kept, turning[:_MOST], turning[:_MOST] + 1]))
+    turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_MOST]
+    extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
+    return np.unique(np.concatenate([*extremes, turning, turning + 1]))
 
 
 def _angle(panel: Any, trace: _Trace) -> None:
@@ -297,18 +256,13 @@ def _curve(panel: Any, trace: _Trace, whole: Floats, first: Floats) -> tuple[Flo
     turns, values = trace.turns, whole
     room = 6 if panel.get_gridspec().ncols == 1 else 3
     if np.abs(np.diff(whole)).sum() > room * _TURNING_POINTS * np.ptp(whole):
-        turning = _turning(first)
+        turning = np.flatnonzero(np.diff(np.sign(np.diff(first))) != 0)
         end = turning[_TURNING_POINTS] if len(turning) > _TURNING_POINTS else len(first)
         turns, values = trace.first[0][:end], first[:end]
         for bound in (whole.min(), whole.max()):
             panel.axhline(bound, color=GREY, linewidth=0.8, linestyle=":")
     panel.plot(turns, values, color=BLUE, linewidth=0.8)
     return turns, values
-
-
-def _turning(values: Floats) -> NDArray[np.intp]:
-    """Return the indices of the turning points of a curve."""
-    return np.flatnonzero(np.diff(np.sign(np.diff(values))) != 0)
 
 
 # --------------------------------------------------------------------------------------------------- torque over a turn
@@ -396,18 +350,16 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
     marks = (("maximum", found.maximum, "^", RED), ("minimum", found.minimum, "v", GREEN))
     for name, extreme, marker, colour in marks:
         if extreme is not None:
-            _mark(panel, name, extreme, marker, colour)
+            look: dict[str, Any] = {"color": colour, "markersize": 7, "clip_on": False, "zorder": 5}
+            panel.plot(
+                [extreme.turns], [extreme.torque], marker, label=f"{name} {extreme.torque:.5g}", gid=name, **look
+            )
     if found.locked:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label=f"locked, {100 * found.locked_share:.3g} %")
     low, high = panel.get_ylim() if not found.locked else _bounds(found.turns, found.torque)
     panel.set_ylim(min(low, 0.0), max(high, 0.0))
     name_axes(panel, y=f"torque at {short(found.link)}{unit}", size=SMALL, parse_math=False)
     legend_above(panel, 5)
-
-
-def _mark(panel: Axes, name: str, extreme: TorqueExtreme, marker: str, colour: str) -> None:
-    look: dict[str, Any] = {"color": colour, "markersize": 7, "clip_on": False, "zorder": 5}
-    panel.plot([extreme.turns], [extreme.torque], marker, label=f"{name} {extreme.torque:.5g}", gid=name, **look)
 
 
 def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> None:
@@ -435,8 +387,7 @@ def _mean_speed(found: TorqueCycle) -> float:
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
     speed = np.asarray(found.speeds.values)[found.speeds.labels[0].index(found.link)]
-    steps = np.diff(found.turns)
-    forth, most = steps @ (speed[1:] + speed[:-1]) / 2, steps @ (abs(speed[1:]) + abs(speed[:-1])) / 2
+    forth, most = np.trapezoid(speed, found.turns), np.trapezoid(abs(speed), found.turns)
     return float(abs(forth) / found.span) if abs(forth) > _MINIMUM * most else 0.0
 
 
@@ -471,10 +422,7 @@ def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
     """Return turns and losses unchanged, or averaged over equal intervals of the run; powers (part, position)."""
     if len(turns) <= 2 * _BINS:
         return turns, powers
-    steps = np.diff(turns)
-    work = np.concatenate(
-        [np.zeros((len(powers), 1)), np.cumsum(steps * (powers[:, 1:] + powers[:, :-1]) / 2, axis=1)], axis=1
-    )
+    work = cumulative_trapezoid(powers, turns, initial=0)
     edges = np.linspace(turns[0], turns[-1], _BINS + 1)
     at_edges = np.array([np.interp(edges, turns, row) for row in work])
     return (edges[1:] + edges[:-1]) / 2, np.diff(at_edges, axis=1) / np.diff(edges)

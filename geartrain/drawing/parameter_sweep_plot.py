@@ -159,11 +159,6 @@ def parameter_name(name: str) -> str:
     return _NAMES[name][0] if name in _NAMES else name.replace("_", " ")
 
 
-def _running(verdicts: Texts) -> list[str]:
-    """Return the verdicts on pairs that run, in order of appearance."""
-    return [kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS]
-
-
 # ------------------------------------------------------------------------------------------------------ one parameter
 
 
@@ -272,7 +267,9 @@ def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
             area = axes.contourf(x, y, here, levels=[0.5, 1.5], colors="none", hatches=[hatch])
             area.set_edgecolor(GREY)
             area.set_linewidth(0.0)
-    running = _running(verdicts)
+    running = [
+        kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS
+    ]  # in order of appearance
     faulty = np.isin(verdicts, list(_FAULTS))
     for kind in running[1:]:
         bound = np.ma.masked_array((verdicts == kind).astype(float), faulty)

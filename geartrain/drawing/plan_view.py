@@ -46,6 +46,7 @@ from geartrain.drawing.style import (
     Path,
     PathPatch,
     Polygon,
+    after_turns,
     sheet,
     title_of,
     write,
@@ -333,7 +334,8 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     shifted = _elements(scene, width)
     over = max(plan.low[1] - margin.extent[0], margin.extent[1] - plan.low[1] - plan.size[1], 0.0)
     height = plan.size[1] + 2 * _RIM + 2 * over + _HEAD + _FOOT + 0.17 * (said.count("\n") + len(shifted))
-    figure, axes = sheet(width, height, _title(scene, turns))
+    state = "" if scene.state is None else f" (state {scene.state})"
+    figure, axes = sheet(width, height, title_of(scene.name, scene.title) + state + after_turns(scene, turns))
     left = (width - plan.size[0] - sum(beside) - plan.deep_room) / 2 + beside[0]
     shift = np.array([left, _FOOT + _RIM + over]) - plan.low
     page = ScaledPage(axes, plan.scale, shift, _FOOT - 0.1)
@@ -383,8 +385,9 @@ class _PlanSize:
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:
         """Return the dimensions of a scene in its pose."""
-        wheels = projected.scene.wheels
-        points = np.concatenate([*(projected.seen(_extent(projected, wheel)) for wheel in wheels), *_hubs(projected)])
+        wheels, bodies = projected.scene.wheels, projected.scene.bodies
+        hubs = [[projected.pose.point(at, body.point)] for at, body in enumerate(bodies)]  # without wheels: the size
+        points = projected.seen(np.concatenate([*(_extent(projected, wheel) for wheel in wheels), *hubs]))
         low, high = points.min(0), points.max(0)
         size = np.maximum(high - low, 1e-6)  # a train of points only has no extent, and the scale divides by it
         side = min(max(_MINIMUM, _WHEEL * len(wheels) ** 0.5 * 1.7), _MOST)
@@ -433,16 +436,6 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
         )
 
 
-def _title(scene: Scene, turns: Fraction) -> str:
-    title = title_of(scene.name, scene.title)
-    if scene.state is not None:
-        title += f" (state {scene.state})"
-    if turns:
-        driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
-        title += f", after {turns} turns of {driver}"
-    return title
-
-
 def _verdict(scene: Scene, width: float) -> str:
     """Return the verdict on a train that does not turn, wrapped to a width; empty for a train that turns."""
     if scene.verdict["kind"] == "determined":
@@ -467,12 +460,6 @@ def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
     return np.concatenate([projected.circle(wheel, most, half), projected.circle(wheel, most, -half)])
-
-
-def _hubs(projected: ProjectedScene) -> list[Floats]:
-    """Return a point on the axis of each body, so that trains without wheels also have a size."""
-    bodies = projected.scene.bodies
-    return [projected.seen([projected.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:

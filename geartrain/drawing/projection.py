@@ -167,12 +167,15 @@ def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
     """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
-    return front if front.flat else ProjectedScene(scene, posed, _screen(np.array(_OBLIQUE)))
+    return front if front.flat else ProjectedScene(scene, posed, screen_of(np.array(_OBLIQUE)))
 
 
-def _screen(view: Floats) -> Floats:
+def screen_of(view: Floats) -> Floats:
+    """Return the directions right, up and towards the reader as rows (3, 3), from the direction towards the reader."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
+    if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
+        right = np.array([1.0, 0.0, 0.0])
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(towards, right), towards])
 
@@ -261,9 +264,8 @@ def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
     """Return a callout for each wheel, anchored where its face is not hidden by a nearer wheel."""
     ends = {wheel.id: _ends(projected, wheel) for wheel in projected.scene.wheels if wheels}
-    outlines = {
-        name: _silhouette(place(np.concatenate([far.points, near.points]))) for name, (far, near) in ends.items()
-    }
+    seen = {name: place(np.concatenate([face.points for face in both])) for name, both in ends.items()}
+    outlines = {name: Path(points[ConvexHull(points).vertices]) for name, points in seen.items()}
     middle = np.mean([place(near.points).mean(0)[0] for _, near in ends.values()]) if ends else 0.0
     found = []
     for wheel in wheels:
@@ -271,16 +273,11 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
         trials = np.concatenate([_inner_points(face.points, place) for face in (front, back)])
         nearer = [outlines[name] for name, (_, near) in ends.items() if near.depth > front.depth]
         hidden = np.any([path.contains_points(trials) for path in nearer], axis=0) if nearer else np.zeros(len(trials))
-        seen = trials if hidden.all() else trials[hidden == 0]
-        best = seen[int(np.argmax(np.round(np.abs(seen[:, 0] - middle), 6)))]
+        free = trials if hidden.all() else trials[hidden == 0]
+        best = free[int(np.argmax(np.round(np.abs(free[:, 0] - middle), 6)))]
         words = [(f"name {wheel.id}", f"{wheel.id} {wheel.teeth}")]
         found.append(Callout(words, (round(float(best[0]), 6), round(float(best[1]), 6))))
     return found
-
-
-def _silhouette(points: Floats) -> Path:
-    """Return the convex hull of the visible points of a wheel."""
-    return Path(points[ConvexHull(points).vertices])
 
 
 def _inner_points(rim: Floats, place: Place) -> Floats:

@@ -418,21 +418,15 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
     """Return the tops of a column without overlap that minimise the weighted squared distances to the wanted tops.
 
-    The method is isotonic regression by pooling adjacent violators.
+    The method is isotonic regression.
     """
-    offsets, y = [], 0.0
-    for at, spot in enumerate(column):
-        offsets.append(y)
-        following = column[at + 1].above if at + 1 < len(column) else 0.0
-        y += spot.height + spot.below + following
-    groups: list[list[float]] = []  # mean, weight, members
-    for (top, weight), offset in zip(wanted, offsets, strict=True):
-        groups.append([top - offset, weight, 1])
-        while len(groups) > 1 and groups[-2][0] > groups[-1][0]:
-            (a, v, m), (b, w, n) = groups[-2:]
-            groups[-2:] = [[(a * v + b * w) / (v + w), v + w, m + n]]
-    means = [mean for mean, _, members in groups for _ in range(int(members))]
-    return [mean + offset for mean, offset in zip(means, offsets, strict=True)]
+    import numpy as np
+    from scipy.optimize import isotonic_regression
+
+    steps = [one.height + one.below + other.above for one, other in pairwise(column)]
+    offsets = np.cumsum([0.0, *steps])
+    tops, weights = np.array(wanted).T
+    return list(map(float, isotonic_regression(tops - offsets, weights=weights).x + offsets))
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
@@ -452,19 +446,6 @@ def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
                 piece.start = y
                 y += piece.width
 
-
-__all__ = [
-    "BEND",
-    "DROP",
-    "NAME",
-    "TALL",
-    "TURN",
-    "BandSegment",
-    "ReturnBand",
-    "SankeyLayout",
-    "SankeySpot",
-    "lay_out_sankey",
-]
 
 Width = Callable[[PowerNode, Fraction], float]
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, Figure, Patch, Polygon, headed
+from geartrain.drawing.projection import screen_of
+from geartrain.drawing.style import BLACK, GREY, PALE, SMALL, WHITE, Circle, Figure, Patch, Polygon, headed
 from geartrain.numerics.exact import plural
 from geartrain.scene.palette import series_colour
 
@@ -59,10 +60,10 @@ def sphere_figure(
     axes.set_axis_off()
     axes.set_xlim(-1.12, 1.12)
     axes.set_ylim(-1.12, 1.12)
-    screen = _screen(np.asarray(view, dtype=float))
+    screen = screen_of(np.asarray(view, dtype=float))
     kinds = list(dict.fromkeys(configuration.kinds))
     towards = configuration.axes @ screen[2]
-    _draw_sphere(axes)
+    axes.add_patch(Circle((0.0, 0.0), 1.0, fill=False, edgecolor=GREY, linewidth=0.8))
     for i in np.argsort(towards * np.cos(cones)):
         near = towards[i] > 0
         face = _face(kinds.index(configuration.kinds[i])) if near else (*to_rgb(PALE), 0.5)
@@ -72,7 +73,8 @@ def sphere_figure(
         edge = (*to_rgb(BLACK), 1.0 if near else 0.5)
         axes.add_patch(Polygon(ring[:, :2], facecolor=face, edgecolor=edge, linewidth=0.5))
         if near:
-            _draw_axle(axes, configuration.axes[i] @ screen.T)
+            x, y, _ = configuration.axes[i] @ screen.T
+            axes.plot(x, y, marker="o", markersize=2.5, color=BLACK)
     _legend(axes, configuration, kinds)
     return headed(figure, configuration.title)
 
@@ -80,16 +82,6 @@ def sphere_figure(
 def _face(kind: int) -> tuple[float, float, float, float]:
     """Return the translucent face colour of a kind, through which the overlapping teeth of mating gears are visible."""
     return (*to_rgb(series_colour(kind)), _STRONG)
-
-
-def _screen(view: Floats) -> Floats:
-    """Return the directions right, up and towards the reader as rows (3, 3)."""
-    towards = view / np.linalg.norm(view)
-    right = np.cross([0.0, 0.0, 1.0], towards)
-    if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
-        right = np.array([1.0, 0.0, 0.0])
-    right /= np.linalg.norm(right)
-    return np.array([right, np.cross(towards, right), towards])
 
 
 def _outline(configuration: Configuration, i: int, cone: float, phase: float) -> Floats:
@@ -102,15 +94,6 @@ def _outline(configuration: Configuration, i: int, cone: float, phase: float) ->
     around = np.cos(azimuth)[:, None] * first + np.sin(azimuth)[:, None] * second
     ring: Floats = np.cos(polar)[:, None] * configuration.axes[i] + np.sin(polar)[:, None] * around
     return ring
-
-
-def _draw_sphere(axes: Any) -> None:
-    angle = np.linspace(0, 2 * np.pi, 200)
-    axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=0.8)
-
-
-def _draw_axle(axes: Any, point: Floats) -> None:
-    axes.plot(point[0], point[1], marker="o", markersize=2.5, color=BLACK)
 
 
 def _legend(axes: Any, configuration: Configuration, kinds: list[str]) -> None:

@@ -234,7 +234,7 @@ class StickSkeleton:
 
 def find_skeleton(train: GearTrain) -> StickSkeleton:
     """Return the positions of axes, shafts, meshes and cranks, with related parts close together."""
-    axis_of = _axes(train)
+    axis_of = {link: train.kinematics.tree.axis(link) or "" for link in train.declaration.links}
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
     tries: list[tuple[int, int, _Arrangement]] = []
@@ -278,12 +278,6 @@ def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -
         min(borne, key=lambda shaft: min(shaft.xs, default=0.0)).xs.append(crank.x)
     for shaft in shafts.values():
         shaft.xs = shaft.xs or [0.3]
-
-
-def _axes(train: GearTrain) -> dict[str, str]:
-    """Return a dictionary from each link to the label of the axis it is drawn on."""
-    tree = train.kinematics.tree
-    return {link: tree.axis(link) or "" for link in train.declaration.links}
 
 
 def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:

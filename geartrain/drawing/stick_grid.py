@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.drawing.arrangement import arrange, neighbours
+from geartrain.drawing.arrangement import arrange, breadth_first, neighbours
 from geartrain.kinematics.circuits import Circuit
 
 _NEAREST = 9  # levels tried for an axis
@@ -38,8 +38,11 @@ def find_levels(
     """
     ends = {axis: _ends(axis, shafts) for axis in order}
     level: dict[str, int] = {}
-    for axis in _breadth_first(order, [(one, other) for one, other, _ in spans]):
-        near = [level[mate] for one, other, _ in spans for mate in _mate(axis, one, other) if mate in level]
+    pairs = [(one, other) for one, other, _ in spans]
+    mates = neighbours(order, pairs)
+    # from the axis with the most neighbours
+    for axis in breadth_first(sorted(order, key=lambda axis: -len(set(mates[axis]))), pairs):
+        near = [level[mate] for mate in mates[axis] if mate in level]
         middle = round(sum(near) / len(near)) if near else 0
         trials = [
             middle + step for step in sorted(range(-len(order), len(order) + 1), key=lambda step: (abs(step), step))
@@ -48,10 +51,6 @@ def find_levels(
         level[axis] = min(free[:_NEAREST], key=lambda each: _cost(axis, each, level, ends, spans))
     levels = sorted(set(level.values()))
     return [[axis for axis in order if level[axis] == each] for each in levels]
-
-
-def _mate(axis: str, one: str, other: str) -> list[str]:
-    return [other] if axis == one else [one] if axis == other else []
 
 
 def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
@@ -86,20 +85,6 @@ def _cost(
         else:
             cost += 2 * (low < here < high and ends[axis][0] < x < ends[axis][1])
     return cost
-
-
-def _breadth_first(order: Sequence[str], pairs: Sequence[tuple[str, str]]) -> list[str]:
-    """Return the axes in breadth-first order, starting at the axis with the most neighbours."""
-    mates = neighbours(order, pairs)
-    seen: dict[str, None] = {}
-    for start in sorted(order, key=lambda axis: -len(set(mates[axis]))):
-        queue = [start]
-        while queue:
-            here = queue.pop(0)
-            if here not in seen:
-                seen[here] = None
-                queue += [mate for mate in mates[here] if mate not in seen]
-    return list(seen)
 
 
 COLUMN, _PLANE = 0.3, 0.34  # inches between meshes of a group that shares wheels, and between groups

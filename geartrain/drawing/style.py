@@ -16,8 +16,11 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem, Questio
 from geartrain.scene.palette import THEMES, ThemeName, series_colour, series_dash
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.scene import Scene
 
 try:
     import numpy as np
@@ -282,6 +285,12 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
     axes.text(x, y, text, **how)
 
 
+def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **how: Any) -> None:
+    """Write text at an offset [pt] from a point of a panel, with a halo; to its left if the offset is negative."""
+    how = {"ha": "left" if offset[0] > 0 else "right", "fontsize": SMALL, "path_effects": HALO, **how}
+    axes.annotate(text, at, xytext=offset, textcoords="offset points", **how)
+
+
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
     """Return a figure whose axes are in inches from its lower left corner, with a title at its top (two lines: 0.5
     inches).
@@ -307,6 +316,12 @@ def headed(figure: Figure, title: str) -> Figure:
 def title_of(name: str, title: str) -> str:
     """Return the title above a picture of a train."""
     return f"{name}: {title}" if title else name
+
+
+def after_turns(scene: Scene, turns: Fraction) -> str:
+    """Return the end of the title of a scene after `turns` of its driving link; empty for 0."""
+    driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
+    return f", after {turns} turns of {driver}" if turns else ""
 
 
 def too_many(train: GearTrain, count: int, most: int, what: str) -> None:

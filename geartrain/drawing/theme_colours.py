@@ -161,11 +161,8 @@ def _themed_all(colours: Any, name: ThemeName) -> Any:
     """Return one colour, or the rows of a collection's colours, in the theme."""
     if isinstance(colours, np.ndarray) and colours.ndim == 2:
         return [themed_colour(tuple(map(float, row)), name) for row in colours]  # type: ignore[arg-type]
-    return themed_colour(to_rgba(colours), name) if not _none(colours) else colours
-
-
-def _none(colour: Any) -> bool:
-    return isinstance(colour, str) and colour in ("none", "auto")
+    unset = isinstance(colours, str) and colours in ("none", "auto")
+    return colours if unset else themed_colour(to_rgba(colours), name)
 
 
 def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:

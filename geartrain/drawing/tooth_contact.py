@@ -18,7 +18,6 @@ from geartrain.drawing.style import (
     BLACK,
     BLUE,
     GREY,
-    HALO,
     ORANGE,
     PURPLE,
     SKY,
@@ -33,6 +32,7 @@ from geartrain.drawing.style import (
     Polygon,
     legend_below,
     name_axes,
+    note,
 )
 from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
@@ -310,15 +310,10 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
     )
     if ring:  # draws the line of its teeth without the rim
         axes.plot(*outline[: len(outline) // 2].T, color=BLACK, linewidth=1.3)
-    centre = tuple(here.place(which, 0.0, 0.0))
+    x, y = here.place(which, 0.0, 0.0)
     pitch = sizes.D * z / sizes.pitch_sum
     for radius, style, width in ((tip, "-", 0.7), (pitch, "--", 1.1)):
-        axes.add_patch(_circle(centre, radius, style, width))
-
-
-def _circle(centre: tuple[float, ...], radius: float, style: str, width: float) -> Circle:
-    x, y = centre
-    return Circle((x, y), radius, fill=False, edgecolor=GREY, linestyle=style, linewidth=width)
+        axes.add_patch(Circle((x, y), radius, fill=False, edgecolor=GREY, linestyle=style, linewidth=width))
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
@@ -337,15 +332,8 @@ def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -
         arrow = FancyArrowPatch(path=Path(arc), arrowstyle="-|>", mutation_scale=18, linewidth=2.0, color=BLACK)
         axes.add_patch(arrow)
     x, y = arc[len(arc) // 2]
-    axes.annotate(
-        f"{_NAMES[which]}, {z} teeth",
-        (x, y),
-        xytext=(-12 if which == DRIVER else 12, 0),
-        textcoords="offset points",
-        ha="right" if which == DRIVER else "left",
-        va="center",
-        fontsize=TEXT,
-    )
+    offset = (-12 if which == DRIVER else 12, 0)
+    note(axes, f"{_NAMES[which]}, {z} teeth", (x, y), offset, va="center", fontsize=TEXT, path_effects=None)
 
 
 def _line_of_centres(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
@@ -355,7 +343,7 @@ def _line_of_centres(axes: Axes, here: ToothPairPose, view: ToothViewport) -> No
     for name, x, aside in (("$O_1$", 0.0, 1), ("$O_2$", here.axis2, -1 if here.axis2 > 0 else 1)):
         at = x if view.left < x < view.right else view.left if aside > 0 else view.right
         text = name if at == x else f"to {name}"
-        _label(axes, text, (at, 0.0), (4 * aside, 8), aside)
+        _label(axes, text, (at, 0.0), (4 * aside, 8))
 
 
 # ------------------------------------------------------------------------------------------------------------- contact
@@ -372,24 +360,14 @@ def _contact(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
     axes.plot([x], [y], "o", color=color, markersize=7, zorder=5, gid="contact")
     axes.plot([cx], [cy], "D", color=PURPLE, markersize=7, markeredgecolor=BLACK, zorder=5, gid="centre")
     if here.phase == APPROACH:  # the label lies in the body whose flank is touched
-        _label(axes, "$V_2$", (x, y), (-11, 5 * here.direction), -1)
+        _label(axes, "$V_2$", (x, y), (-11, 5 * here.direction))
     else:
-        _label(axes, "$V_1$", (x, y), (12, -4 * here.direction), 1)
-    _label(axes, "$C$", (cx, cy), (10, 11 * here.direction), 1)
+        _label(axes, "$V_1$", (x, y), (12, -4 * here.direction))
+    _label(axes, "$C$", (cx, cy), (10, 11 * here.direction))
 
 
-def _label(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], aside: int) -> None:
-    axes.annotate(
-        text,
-        at,
-        xytext=offset,
-        textcoords="offset points",
-        ha="left" if aside > 0 else "right",
-        va="center",
-        fontsize=TEXT + 1,
-        path_effects=HALO,
-        zorder=6,
-    )
+def _label(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float]) -> None:
+    note(axes, text, at, offset, va="center", fontsize=TEXT + 1, zorder=6)
 
 
 def _moment(here: ToothPairPose) -> str:

@@ -18,7 +18,6 @@ import numpy as np
 from geartrain.drawing.style import (
     BLACK,
     GREY,
-    HALO,
     SMALL,
     TEXT,
     WIDTH,
@@ -31,13 +30,14 @@ from geartrain.drawing.style import (
     legend_above,
     legend_below,
     name_axes,
+    note,
     plain,
 )
 from geartrain.drawing.tooth_contact import PHASES, pair_text, require_contact
 from geartrain.errors import Problem, QuestionError
 from geartrain.scene.palette import Dash, series_colour, series_dash
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
-from geartrain.teeth.triangular.real_path import DWELL, SpeedJump
+from geartrain.teeth.triangular.real_path import DWELL
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -248,18 +248,9 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
         axes.axvline(degrees(matching), color=GREY, linewidth=1.0, linestyle="-.", gid="matching")
     left, right = panels[0].get_xlim()
     aside = -1 if degrees(matching) > left + _NEAR_RIM * (right - left) else 1
-    panels[0].annotate(
-        r"matching $\alpha_{1m}$ = " + f"{degrees(matching):.3g}°",
-        (degrees(matching), 0.03),
-        xycoords=("data", "axes fraction"),
-        xytext=(5 * aside, 0),
-        textcoords="offset points",
-        ha="left" if aside > 0 else "right",
-        fontsize=SMALL,
-        color=GREY,
-        path_effects=HALO,
-        gid="matching",
-    )
+    text = r"matching $\alpha_{1m}$ = " + f"{degrees(matching):.3g}°"
+    at, frame = (degrees(matching), 0.03), ("data", "axes fraction")
+    note(panels[0], text, at, (5 * aside, 0), xycoords=frame, color=GREY, gid="matching")
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
@@ -273,23 +264,9 @@ def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
         axes.plot([before, at, at], [jump.before, jump.before, jump.after], color=GREY, linewidth=1.0, linestyle=":")
         axes.plot([before], [jump.before], "o", color=BLACK, markerfacecolor="white", markersize=5, zorder=4)
         axes.plot([at], [jump.after], "o", color=BLACK, markersize=5, zorder=4)
-        _jump_label(axes, jump)
-
-
-def _jump_label(axes: Axes, jump: SpeedJump) -> None:
-    """Write the relative jump of tau at its upper left, which is free of curves."""
-    axes.annotate(
-        f"{'matching' if jump.kind == 'matching' else 'jump'} {jump.value:.4f}",
-        (degrees(jump.alpha1), jump.after),
-        xytext=(-4, 5),
-        textcoords="offset points",
-        ha="right",
-        va="bottom",
-        fontsize=SMALL,
-        color=BLACK,
-        path_effects=HALO,
-        gid="jump",
-    )
+        # the relative jump at its upper left, which is free of curves
+        text = f"{'matching' if jump.kind == 'matching' else 'jump'} {jump.value:.4f}"
+        note(axes, text, (degrees(jump.alpha1), jump.after), (-4, 5), va="bottom", color=BLACK, gid="jump")
 
 
 def _arms_key(axes: Axes) -> None:

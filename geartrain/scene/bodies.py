@@ -16,7 +16,6 @@ from math import acos, atan2, ceil, cos, pi, sqrt, tan
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.train_teeth import STANDARD, TrainTeeth, find_train_teeth
-from geartrain.dynamics.wheel_teeth import WheelTeeth
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector, across, minus, size, unit_or_z
 from geartrain.scene.context import SceneContext, exact, rounded
@@ -260,32 +259,21 @@ def _role(stage: SceneContext, link: str) -> str:
     return "carrier" if link in stage.train.kinematics.tree.top.values() else "arbor"
 
 
-@dataclass(frozen=True, slots=True)
-class ToothProfiles:
-    """Tooth profiles by wheel, names of tooth forms by pair, and notices on wheels that could not be drawn as cut."""
+def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
+    """Return the tooth profile of every wheel, as cut with the declared backlash, and notices.
 
-    profiles: Mapping[str, ToothProfile]
-    forms: Mapping[str, str]
-    notices: tuple[Problem, ...] = ()
-
-
-def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """Return the tooth profile of every wheel, as cut with the declared backlash.
-
-    Wheels that cannot be cut get nominal teeth.
+    Wheels that cannot be cut get nominal teeth. The notices are on wheels that could not be drawn as cut.
     """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
-    profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
-    return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
-
-
-def _profile(stage: SceneContext, toothed: TrainTeeth, wheel: str) -> ToothProfile:
-    found = toothed.wheels.get(wheel) or toothed.approximations.get(wheel)
-    return _approximation(stage, toothed, wheel) if found is None else _section(found)
-
-
-def _section(toothing: WheelTeeth) -> ToothProfile:
-    return ToothProfile(toothing.form, toothing.section(), toothing.kind == "pins")
+    cut = {
+        wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
+        for wheel, each in {**toothed.approximations, **toothed.wheels}.items()
+    }
+    profiles = {
+        wheel: cut[wheel] if wheel in cut else _approximation(stage, toothed, wheel)
+        for wheel in stage.train.declaration.wheels
+    }
+    return profiles, tuple(_notices(stage, toothed))
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
@@ -311,7 +299,7 @@ def _approximation(stage: SceneContext, toothed: TrainTeeth, name: str) -> Tooth
     _, wheel = stage.train.declaration.wheels[name]
     place, z = stage.layout.wheels[name], wheel.count or 1
     if wheel.kind == "worm":
-        return worm(z, _mate_module(stage, name) / place.radius)
+        return worm(z, stage.layout.wheels[next(_mates(stage, name), name)].module / place.radius)
     shaped = next((toothed.wheels[mate] for mate in _mates(stage, name) if mate in toothed.wheels), None)
     if place.cone and shaped is not None and shaped.form != STANDARD and shaped.pins is None:
         return crown(z, shaped.z, shaped.section())
@@ -320,10 +308,6 @@ def _approximation(stage: SceneContext, toothed: TrainTeeth, name: str) -> Tooth
     mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
     heights = [tooth_height(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
     return (ring if wheel.internal else spur)(z, *([min(heights)] if heights else []))
-
-
-def _mate_module(stage: SceneContext, name: str) -> float:
-    return stage.layout.wheels[next(_mates(stage, name), name)].module
 
 
 def _mates(stage: SceneContext, name: str) -> Iterator[str]:

@@ -14,7 +14,6 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,22 +24,23 @@ from geartrain.kinematics.formulas import Formula, Formulas, find_formulas
 from geartrain.kinematics.planet_copies import originals
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, scaled, size, unit_or_z
+from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, size
 from geartrain.scene.bodies import as_placed, bend, find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.count_formulas import CountCondition, CountFormula, SceneFormulas
 from geartrain.scene.dial_pointers import find_dials, find_epoch, find_pointers, with_balls, with_titles
 from geartrain.scene.joints import find_couplings, find_elements, find_pairs, find_verdict
 from geartrain.scene.layout import Layout, lay_out
+from geartrain.scene.layout.train_layout import pitch_directions
 from geartrain.scene.movement import MovementStart, find_movement
+from geartrain.scene.scene_run import find_run
 from geartrain.scene.train_scene import Scene
 from geartrain.train import Output
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
-    from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel
-    from geartrain.scene.layout import WheelPlace
-    from geartrain.scene.scene_run import SceneRun, TimeRun
+    from geartrain.scene.elements import SceneBody, SceneWheel
+    from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import Pointer
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Train
@@ -52,77 +52,48 @@ if TYPE_CHECKING:
 _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are rounding errors
 
 
-@dataclass(frozen=True, slots=True)
-class MeshDirections:
-    """Directions of contact of the two wheels of a pair."""
+def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
+    """Return the directions of contact of a pair; None for skew axes, and for coaxial wheels.
 
-    contact: tuple[Vector, Vector]
-    """Unit vectors from the centres of the wheels to the point of contact, perpendicular to their axes."""
-    same: int
-    """1 if positive rotations of both wheels about their directions move the teeth in contact in the same direction,
-    else -1.
+    They are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their axes, and 1
+    if positive rotations of both wheels move the teeth in contact in the same direction, else -1.
     """
-
-
-def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
-    """Return the directions of contact of a pair; None for skew axes, and for coaxial wheels."""
-    wheels = [stage.train.declaration.wheels[name][1] for name in circuit.wheels]
-    if "worm" in (wheels[0].kind, wheels[1].kind):
-        return None
+    one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
     axes = stage.reference(first.axis), stage.reference(second.axis)
-    if size(cross(*axes)) >= _NONE and any(wheel.is_helical for wheel in wheels):
+    parallel = size(cross(*axes)) < _NONE
+    if "worm" in (one.kind, other.kind) or (not parallel and (one.is_helical or other.is_helical)):
         return None
-    if size(cross(*axes)) < _NONE:  # parallel axes
-        between = across(minus(second.centre, first.centre), axes[0])
-        if size(between) < _NONE:
-            return None
-        n = unit_or_z(between)
-        back = scaled(n, -1.0)
-        # contact with a ring is inside it, on the far side of its mate
-        contact = (back, back) if wheels[1].internal else (n, n) if wheels[0].internal else (n, back)
-    else:
-        contact = _towards(stage, first, second, axes[0]), _towards(stage, second, first, axes[1])
-    ways = [cross(axis, n) for axis, n in zip(axes, contact, strict=True)]
-    return MeshDirections(contact, 1 if dot(*ways) > 0 else -1)
-
-
-def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vector) -> Vector:
-    """Return the unit vector perpendicular to the axis of a bevel wheel towards its mate, on the facing side of the
-    apex.
-    """
-    lies = scaled(stage.along(mate.axis), float(mate.facing)) if mate.facing else minus(mate.centre, own.centre)
-    return unit_or_z(across(lies, axis))
+    if parallel and size(across(minus(second.centre, first.centre), axes[0])) < _NONE:
+        return None
+    ways = stage.along(first.axis), stage.along(second.axis)
+    contact = pitch_directions((first, second), ways, (one.internal, other.internal))
+    ends = [cross(axis, n) for axis, n in zip(axes, contact, strict=True)]
+    return contact, 1 if dot(*ends) > 0 else -1
 
 
 _NEAR = 1e-6  # pitches: smaller phase differences are rounding errors
 _ROUNDS = 4
 
 
-@dataclass(frozen=True, slots=True)
-class WheelPhases:
-    """Angle of the first tooth of each wheel, about the direction of its body and from its reference [rad]."""
+def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
+    """Return the angle of the first tooth of every wheel at which it meshes with its mates, and notices.
 
-    turns: Mapping[str, float]
-    notices: tuple[Problem, ...] = ()
-
-
-def phase_wheels(stage: SceneContext, moved: MovementStart) -> WheelPhases:
-    """Return the angle of every wheel at which it meshes with its mates; for a wheel without mates, its angle in the
+    Angles (rad) are about the direction of the body, from its reference. A wheel without mates has its angle in the
     layout.
     """
     found = _Mounting(stage, moved)
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
     turns = {wheel: found.turns.get(wheel, as_placed(stage, wheel)) for wheel in stage.layout.wheels}
-    return WheelPhases(turns, tuple(found.notices()))
+    return turns, tuple(found.notices())
 
 
 class _Mounting:
     def __init__(self, stage: SceneContext, moved: MovementStart) -> None:
         self.stage, self.moved = stage, moved
         self.turns: dict[str, float] = {}
-        self.meetings: dict[str, MeshDirections] = {}
+        self.meetings: dict[str, tuple[tuple[Vector, Vector], int]] = {}
         self.mates: dict[str, list[Circuit]] = {}
         self.off: list[str] = []
         self.meshes: Mapping[str, GearMesh] = {mesh.name: mesh for mesh in stage.meshes}
@@ -238,14 +209,14 @@ class _Mounting:
         place = self.stage.layout.wheels[circuit.wheels[at]]
         axis = self.stage.reference(place.axis)
         rest = self.moved.rest[(circuit.i, circuit.j)[at]] - self.moved.rest[circuit.carrier]
-        return azimuth(self.meetings[circuit.id].contact[at], axis, place.reference) - rest
+        return azimuth(self.meetings[circuit.id][0][at], axis, place.reference) - rest
 
     def _way(self, circuit: Circuit, at: int) -> int:
         """Return 1 if a wheel turns in the positive sense about its body's direction, else -1."""
         driver = self._driver(circuit)
         setting = self.moved.driving.get(circuit.id)
         forward = self._forward((circuit.i, circuit.j)[driver], circuit.carrier) if setting is None else setting.forward
-        return forward if at == driver else forward * self.meetings[circuit.id].same
+        return forward if at == driver else forward * self.meetings[circuit.id][1]
 
     def _forward(self, link: str, carrier: str) -> int:
         own, base = self.stage.speed(link) or 0, self.stage.speed(carrier) or 0
@@ -430,14 +401,14 @@ def make_scene(
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
     moved = find_movement(stage)
-    drawn = find_profiles(stage)
-    mounted = phase_wheels(stage, moved)
-    wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
+    teeth, undrawn = find_profiles(stage)
+    turns, out_of_phase = phase_wheels(stage, moved)
+    wheels, profiles = find_wheels(stage, teeth, turns)
     dials = find_dials(stage)
-    notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
+    notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
     pointers = find_pointers(stage, dials)
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
-    pairs, couplings = find_pairs(stage, drawn.forms, faults), find_couplings(stage, moved)
+    pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
         title=declared.title,
@@ -467,22 +438,8 @@ def make_scene(
         epoch=find_epoch(stage),
         formulas=find_count_formulas(folded, state, bodies, wheels, pointers) if formulas and run is None else None,
         asks=bool(stage.case.outputs),
-        run=None if run is None else _played(stage, run, moves, moved, wheels, pairs, couplings),
+        run=None if run is None else find_run(stage, run, moves, moved.movement, wheels, pairs, couplings),
     )
-
-
-def _played(
-    stage: SceneContext,
-    run: TimeRun,
-    moves: Mapping[str, str],
-    moved: MovementStart,
-    wheels: Sequence[SceneWheel],
-    pairs: Sequence[ScenePair],
-    couplings: Sequence[SceneCoupling],
-) -> SceneRun:
-    from geartrain.scene.scene_run import find_run  # needs numpy
-
-    return find_run(stage, run, moves, moved.movement, wheels, pairs, couplings)
 
 
 def _sources(train: GearTrain) -> dict[str, dict[str, str]]:

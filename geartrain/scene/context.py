@@ -95,10 +95,6 @@ class SceneContext:
         angle = self.train.declaration.links[link].angle
         return 0.0 if angle is None else angle.si
 
-    def declared(self, link: str) -> Vector:
-        """Return the unit vector about which a link's declared speed is positive."""
-        return self.along(self.train.kinematics.tree.axis(link))
-
     def along(self, axis: str | None) -> Vector:
         """Return the declared direction of an axis; z for the frame."""
         place = self.layout.axes.get(axis or "")

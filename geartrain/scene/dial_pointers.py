@@ -54,7 +54,8 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
     system = stage.train.equations(stage.answer.state)
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     followers = [circuit for circuit in circuits.values() if circuit.kind == "pin_follower"]
-    ends = [_ends(stage, name) for name in stage.outputs]
+    frame = stage.train.declaration.frame
+    ends = [_seen(stage, *output.links(name, frame)) for name, output in stage.outputs.items()]
     ends += [_seen(stage, circuit.j, circuit.carrier) for circuit in followers]
     try:
         weights = _weights(system, ends)
@@ -74,11 +75,6 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
         left -= met
         found.update(*(swings[name] for name in met))
     return found
-
-
-def _ends(stage: SceneContext, name: str) -> dict[str, int]:
-    """Return an output as a linear combination of declared speeds."""
-    return _seen(stage, *stage.outputs[name].links(name, stage.train.declaration.frame))
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
@@ -346,7 +342,7 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     signs = stage.train.kinematics.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
     # viewed against its axis, a positive angle is counter-clockwise
-    sense = -1 if dot(stage.declared(of), facing(stage, name)) > 0 else 1
+    sense = -1 if dot(stage.along(stage.train.kinematics.tree.axis(of)), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
     circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]
     order = {pair: at for at, pair in enumerate(pairs)}

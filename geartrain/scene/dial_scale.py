@@ -13,7 +13,7 @@ from fractions import Fraction
 from math import cos, floor, pi, sin
 from typing import TYPE_CHECKING, Literal
 
-from geartrain.scene.stroke_letters import CurvedLine, Stroke, curved_text, text_length
+from geartrain.scene.stroke_letters import Stroke, curved_text, text_length
 
 if TYPE_CHECKING:
     from geartrain.train.outputs import Dial, Graduation
@@ -265,16 +265,13 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
     yield _lines("rim", [_line(scale, scale.outer, 1)] + ([_line(scale, scale.outer, 1, deep)] if starts else []))
     yield _lines("bold", [_border(scale, scale.outer, _LONG, scale.turn_of(each)) for each in cells if each in at])
     plain = [each for each in cells if each not in at and each not in starts]
-    yield _lines("fine", [_border(scale, scale.outer, _depth(scale, each), scale.turn_of(each)) for each in plain])
+    depths = [_LONG if scale.divisions >= 30 and each % 5 == 0 else _SHORT for each in plain]
+    borders = zip(depths, map(scale.turn_of, plain), strict=True)
+    yield _lines("fine", [_border(scale, scale.outer, depth, turn) for depth, turn in borders])
     yield _lines("bold", [_border(scale, scale.outer, deep, scale.turn_of(each)) for each in sorted(starts)])
     yield from _names(scale)
     yield from _engraved_numerals(scale)
     yield from _glyphs(scale, scale.outer - _BAND)
-
-
-def _depth(scale: DialScale, cell: int) -> float:
-    """Return the length of a border. On a scale of 30 divisions or more, every fifth border is longer."""
-    return _LONG if scale.divisions >= 30 and cell % 5 == 0 else _SHORT
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
@@ -286,25 +283,20 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
     named = [part for part in scale.names if part[0]]
     # fewer names leave more space for each
     for every in range(1, 7):
-        heights = {part: _fitting(scale, radius, part, every) for part in named[::every]}
+        share = 1 if every == 1 else 0.9 * every
+        heights = {part: share * _fitting(part[0], radius, scale.turn_of(part[2])) for part in named[::every]}
         kept = {part: height for part, height in heights.items() if height >= _MINIMUM}
         if len(kept) >= 0.8 * len(heights):  # five days at the year's end are too few for their name
             break
     height = min([_TALL, *kept.values()])
+    at = ((name, scale.turn_of(first + span / 2)) for name, first, span in kept)
     if kept:
-        yield _letters((stroke for part in kept for stroke in _name(scale, radius, part, height)), height)
+        yield _letters((each for name, turn in at for each in _written(scale, name, radius, turn, height)), height)
 
 
-def _fitting(scale: DialScale, radius: float, part: tuple[str, Fraction, Fraction], every: int) -> float:
-    """Return the maximum height of the letters of a name."""
-    name, _, span = part
-    room = _FULL * 2 * pi * radius * float(scale.turn_of(span)) * (1 if every == 1 else 0.9 * every)
-    return room / max(text_length(name), 0.5)
-
-
-def _name(scale: DialScale, radius: float, part: tuple[str, Fraction, Fraction], height: float) -> Iterator[Stroke]:
-    name, first, span = part
-    return _written(scale, name, radius, scale.turn_of(first + span / 2), height)
+def _fitting(text: str, radius: float, turn: Fraction) -> float:
+    """Return the maximum height of the letters of a text along a part of a circle."""
+    return _FULL * 2 * pi * radius * float(turn) / max(text_length(text), 0.5)
 
 
 def _written(
@@ -312,7 +304,7 @@ def _written(
 ) -> Iterator[Stroke]:
     """Yield the strokes of a text along a circle; below the centre it may be inverted, to be readable."""
     angle = 2 * pi * float(scale.way * turn)
-    return curved_text(text, height, CurvedLine(radius, angle, turned and cos(angle) < -0.01))
+    return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
 
 def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
@@ -336,8 +328,7 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
     """Yield glyphs in their cells, in a common size that fits in all cells."""
     if not scale.glyphs:
         return
-    room = _FULL * 2 * pi * radius * float(scale.turn_of(1))
-    height = min(_TALL, *(room / max(text_length(text), 0.5) for _, text in scale.glyphs))
+    height = min(_TALL, *(_fitting(text, radius, scale.turn_of(1)) for _, text in scale.glyphs))
     at = ((text, scale.turn_of(Fraction(2 * cell - 1, 2))) for cell, text in scale.glyphs)
     yield _letters((each for text, turn in at for each in _written(scale, text, radius, turn, height)), height)
 
@@ -361,24 +352,14 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
     yield _lines("fine", [each for cell, each in borders.items() if cell not in starts])
     yield _lines("bold", [each for cell, each in borders.items() if cell in starts])
     written = dict(scale.glyphs)
-    for turn in range(scale.turns):
-        cell = -(-turn * scale.divisions // scale.turns) + 1
+    for coil in range(scale.turns):
+        cell = -(-coil * scale.divisions // scale.turns) + 1
         written.setdefault(cell, str(cell))
-    for cell, text in sorted(written.items()):
-        turn_at = scale.turn_of(Fraction(2 * cell - 1, 2))
-        radius = scale.radius(float(turn_at)) - pitch / 2
-        wide = _FULL * 2 * pi * radius / (scale.divisions / scale.turns)
-        height = min(0.5 * pitch, _TALL, wide / max(text_length(text), 0.5))
-        yield _letters(_written(scale, text, radius, turn_at, height), height)
-    yield from _spiral_names(scale, pitch)
-
-
-def _spiral_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
-    """Yield names along the spiral, if they are large enough to be read."""
-    for name, first, span in scale.names:
-        middle = scale.turn_of(first + span / 2)
-        radius = scale.radius(float(middle)) - pitch / 2
-        wide = _FULL * 2 * pi * radius * float(scale.turn_of(span))
-        height = min(0.5 * pitch, _TALL, wide / max(text_length(name), 0.5))
-        if name and height >= 0.25 * pitch:
-            yield _letters(_written(scale, name, radius, middle, height), height)
+    cells = [(text, Fraction(2 * cell - 1, 2), Fraction(1), 0.0) for cell, text in sorted(written.items())]
+    names = [(name, first + span / 2, span, 0.25 * pitch) for name, first, span in scale.names if name]
+    for text, middle, span, readable in (*cells, *names):
+        turn = scale.turn_of(middle)
+        radius = scale.radius(float(turn)) - pitch / 2
+        height = min(0.5 * pitch, _TALL, _fitting(text, radius, scale.turn_of(span)))
+        if height >= readable:
+            yield _letters(_written(scale, text, radius, turn, height), height)

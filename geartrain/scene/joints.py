@@ -18,12 +18,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.pin_coupling import Coupling as Declared
 
 
-def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order declared.
-
-    forms    name of the drawn tooth form by pair
-    faults   description of the fault by pair
-    """
+def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
+    """Return all gear pairs in the order declared; `faults` are descriptions of faults by pair."""
+    forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(
             id=circuit.id,
@@ -47,14 +44,14 @@ def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
-    first = _term(circuit.a, f"({i} {minus} {k})", "")
+    first = _term(circuit.a, f"({i} {minus} {k})")
     if not circuit.b:
         return f"{first} = 0"
-    return f"{first} {'-' if circuit.b < 0 else '+'} {_term(abs(circuit.b), f'({j} {minus} {k})', '')} = 0"
+    return f"{first} {'-' if circuit.b < 0 else '+'} {_term(abs(circuit.b), f'({j} {minus} {k})')} = 0"
 
 
-def _term(factor: int, what: str, sign: str) -> str:
-    return f"{sign}{what}" if factor == 1 else f"{sign}{factor} {what}"
+def _term(factor: int, what: str) -> str:
+    return what if factor == 1 else f"{factor} {what}"
 
 
 def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
@@ -130,7 +127,8 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
     towards = unit_or_z(between) if size(between) > _NONE else beside(axis)
     towards = _clear_of_carried(stage, declared, pin_axis, axis, towards)
     pin, hole = pin_and_hole(declared, radius, offset)
-    pin_axis, slot_axis = (_at_height(point, axis, _height(stage, declared, axis)) for point in (pin_axis, slot_axis))
+    height = _height(stage, declared, axis)
+    pin_axis, slot_axis = (plus(point, axis, height - dot(point, axis)) for point in (pin_axis, slot_axis))
     return SceneCoupling(
         id=circuit.id,
         kind=declared.kind,
@@ -234,7 +232,3 @@ def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
         (level[0] for level in levels if level),
         dot(_point(stage, stage.train.kinematics.tree.axis(declared.pin)), axis),
     )
-
-
-def _at_height(point: Vector, axis: Vector, height: float) -> Vector:
-    return plus(point, axis, height - dot(point, axis))

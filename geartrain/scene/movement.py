@@ -277,7 +277,6 @@ class MovementStart:
     """Initial angle A of each link about its body's direction (rad)."""
     driving: Mapping[str, InitialPosition] = field(default_factory=dict)
     """Initial positions, by pair or coupling with a transmission error."""
-    motion: Motion | None = None
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
     """Movement against the declared sense of the driving link, on the coast flanks; None if it is equal to the forward
@@ -327,7 +326,7 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
     driving = dict(_settings(composition, way))
     movement = _movement(stage, composition, way)
     back, notices = _backward(stage, motion, movement)
-    return MovementStart(movement, rest, driving, motion, notices, back)
+    return MovementStart(movement, rest, driving, notices, back)
 
 
 def _check_positions(composition: ErrorComposition, turns: float) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from graphlib import TopologicalSorter
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -63,36 +64,18 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
             for at, body in enumerate(scene.bodies)
         ]
     )
-    count = len(scene.bodies)
-    turned, moved = np.zeros((count, 3, 3)), np.zeros((count, 3))
-    done: set[int] = set()
-    for at in range(count):
-        _place(scene, angles, turned, moved, done, at)
-    return ScenePose(angles, turned, moved)
-
-
-def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: set[int], at: int) -> None:
-    """Place a body after its parents.
-
-    Each body turns relative to its parent about its own axis, which moves with the parent.
-    """
-    line, here = [], at  # a loop, because a chain may exceed Python's recursion limit
-    while here not in done:
-        line.append(here)
-        done.add(here)
-        above = scene.bodies[here].parent
-        if above is None:
-            break
-        here = above
-    for each in reversed(line):
-        body = scene.bodies[each]
+    turned, moved = np.zeros((len(scene.bodies), 3, 3)), np.zeros((len(scene.bodies), 3))
+    above = {at: [body.parent] if body.parent is not None else [] for at, body in enumerate(scene.bodies)}
+    for at in TopologicalSorter(above).static_order():  # parents first
+        body = scene.bodies[at]
         if body.parent is None:
-            turned[each] = np.eye(3)
+            turned[at] = np.eye(3)
             continue
-        about = _rotation(body.direction, angles[each] - angles[body.parent])
-        point = np.array(body.point)
-        turned[each] = turned[body.parent] @ about
-        moved[each] = turned[body.parent] @ (point - about @ point) + moved[body.parent]
+        # each body turns relative to its parent about its own axis, which moves with the parent
+        about, point = _rotation(body.direction, angles[at] - angles[body.parent]), np.array(body.point)
+        turned[at] = turned[body.parent] @ about
+        moved[at] = turned[body.parent] @ (point - about @ point) + moved[body.parent]
+    return ScenePose(angles, turned, moved)
 
 
 def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:

@@ -288,17 +288,13 @@ def find_run(
         tolerance=TOLERANCE,
         torque=run.torque,
         complete=run.complete,
-        links=tuple(samples.link(_turned(stage, run, moves[link]), _tolerance(stage, link)) for link in links),
+        links=tuple(
+            samples.link(run.angles[moves[link]] - stage.start(moves[link]), _tolerance(stage, link)) for link in links
+        ),
         contacts=contacts,
         deviations=run.deviations,
         notes=(*run.notes, *_omissions(run, movement)),
     )
-
-
-def _turned(stage: SceneContext, run: TimeRun, link: str) -> Floats:
-    """Return the angles of a link in the run relative to its declared starting angle (rad)."""
-    found: Floats = run.angles[link] - stage.start(link)
-    return found
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:

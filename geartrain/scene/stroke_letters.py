@@ -26,61 +26,27 @@ class HandOutline:
     """Pairs (x, half the width at x) from the tail to the tip, relative to the length."""
 
 
-HANDS: Mapping[str, HandOutline] = {
+# reach, distances from the axis, half the width at each of them
+_HANDS = {
     # slender, with a point like that of a lance
-    "needle": HandOutline(
-        0.97, ((-0.16, 0.024), (-0.12, 0.0272), (0.0, 0.0176), (0.86, 0.012), (0.88, 0.024), (1.0, 0.001))
-    ),
+    "needle": (0.97, "-.16 -.12 0 .86 .88 1", ".024 .0272 .0176 .012 .024 .001"),
     # a spade, short and broad
-    "hour": HandOutline(
-        0.74,
-        (
-            *((-0.17, 0.02), (-0.14, 0.045), (-0.09, 0.05), (-0.03, 0.034), (0.3, 0.022), (0.54, 0.024), (0.57, 0.042)),
-            *(
-                (0.6, 0.03),
-                (0.64, 0.07),
-                (0.69, 0.1),
-                (0.74, 0.105),
-                (0.79, 0.09),
-                (0.85, 0.045),
-                (0.9, 0.022),
-                (1.0, 0.003),
-            ),
-        ),
-    ),
+    "hour": (0.74, "-.17 -.14 -.09 -.03 .3 .54 .57 .6 .64 .69 .74 .79 .85 .9 1",
+             ".02 .045 .05 .034 .022 .024 .042 .03 .07 .1 .105 .09 .045 .022 .003"),
     # long, with a leaf before its point
-    "minute": HandOutline(
-        0.95,
-        (
-            *(
-                (-0.17, 0.012),
-                (-0.14, 0.026),
-                (-0.1, 0.028),
-                (-0.03, 0.02),
-                (0.25, 0.013),
-                (0.66, 0.012),
-                (0.68, 0.022),
-            ),
-            *((0.7, 0.014), (0.74, 0.034), (0.79, 0.042), (0.84, 0.034), (0.9, 0.014), (1.0, 0.002)),
-        ),
-    ),
+    "minute": (0.95, "-.17 -.14 -.1 -.03 .25 .66 .68 .7 .74 .79 .84 .9 1",
+               ".012 .026 .028 .02 .013 .012 .022 .014 .034 .042 .034 .014 .002"),
     # thin, with a counterpoise behind its axis
-    "seconds": HandOutline(
-        0.92,
-        (
-            *(
-                (-0.4, 0.008),
-                (-0.39, 0.03),
-                (-0.36, 0.048),
-                (-0.32, 0.055),
-                (-0.28, 0.048),
-                (-0.25, 0.03),
-                (-0.23, 0.012),
-            ),
-            *((0.0, 0.011), (0.9, 0.006), (1.0, 0.002)),
-        ),
-    ),
-}
+    "seconds": (0.92, "-.4 -.39 -.36 -.32 -.28 -.25 -.23 0 .9 1", ".008 .03 .048 .055 .048 .03 .012 .011 .006 .002"),
+}  # fmt: skip
+
+
+def _hand(reach: float, places: str, halves: str) -> HandOutline:
+    stations = zip(map(float, places.split()), map(float, halves.split()), strict=True)
+    return HandOutline(reach, tuple(stations))
+
+
+HANDS: Mapping[str, HandOutline] = {name: _hand(*drawn) for name, drawn in _HANDS.items()}
 """Outlines of hands by the name used in a declaration."""
 
 
@@ -204,23 +170,16 @@ def text_length(text: str) -> float:
     return max(0.0, sum(wide for _, wide in _advances(text)) - _APART / _HIGH)
 
 
-@dataclass(frozen=True, slots=True)
-class CurvedLine:
-    """Circular arc along which text runs, by its radius and its angle clockwise from the top (rad)."""
+def curved_text(text: str, height: float, radius: float, angle: float, inwards: bool = False) -> Iterator[Stroke]:
+    """Yield the strokes of a text along a circular arc, centred at an angle clockwise from the top (rad).
 
-    radius: float
-    angle: float
-    inwards: bool = False
-    """True if the feet of letters point outwards, so that text below the centre is readable."""
-
-
-def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:
-    """Yield the strokes of a text centred on its line."""
-    way = -1.0 if line.inwards else 1.0
+    inwards   True if the feet of letters point outwards, so that text below the centre is readable
+    """
+    way = -1.0 if inwards else 1.0
     along = -text_length(text) * height / 2
     for letter, advance in _advances(text):
         wide = (advance - _APART / _HIGH) * height
-        turned = line.angle + way * (along + wide / 2) / line.radius
+        turned = angle + way * (along + wide / 2) / radius
         along += advance * height
         if letter.isspace():
             continue
@@ -228,8 +187,8 @@ def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:
         for stroke in letter_strokes(letter)[0]:
             yield tuple(
                 (
-                    (line.radius + v) * out[0] + u * right[0],
-                    (line.radius + v) * out[1] + u * right[1],
+                    (radius + v) * out[0] + u * right[0],
+                    (radius + v) * out[1] + u * right[1],
                 )
                 for u, v in ((way * (x * height - wide / 2), way * (y - 0.5) * height) for x, y in stroke)
             )

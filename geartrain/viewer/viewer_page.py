@@ -85,9 +85,10 @@ def page(
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")
+    policy = f"{own_script_only(program)}; img-src data: blob:; connect-src 'none'"  # no connections
     return Template(_part("page.html")).substitute(
-        policy=escape(_policy(program)),
-        title=escape(title or _names(scenes)),
+        policy=escape(policy),
+        title=escape(title or " and ".join(dict.fromkeys(scene.name for scene in scenes))),
         style=_built("viewer.css"),
         verdicts="\n".join(_words(scene) for scene in scenes),
         data=json_in_script(data),
@@ -182,20 +183,11 @@ def json_in_script(data: object) -> str:
     return text.translate(str.maketrans(_IN_SCRIPTS))
 
 
-def _names(scenes: Sequence[Scene]) -> str:
-    return " and ".join(dict.fromkeys(scene.name for scene in scenes))
-
-
 def _words(scene: Scene) -> str:
     """Return the HTML text for browsers that run no scripts: title, state and verdict."""
     state = f" ({scene.state})" if scene.state else ""
     verdict = scene.verdict.get("text", "")
     return f"<h1>{escape(scene.title or scene.name)}{escape(state)}</h1>\n<p>{escape(str(verdict))}</p>"
-
-
-def _policy(program: str) -> str:
-    """Return the content security policy of the page: its own script and styles, no connections."""
-    return f"{own_script_only(program)}; img-src data: blob:; connect-src 'none'"
 
 
 def own_script_only(program: str) -> str:

@@ -273,18 +273,13 @@ def keyed(*entries: Any) -> Figure:
     return figure
 
 
-def test_two_lines_of_one_grey_are_found() -> None:
+def test_two_lines_or_areas_of_one_grey_are_found() -> None:
     light = THEMES["light"]
     one, two = (Line2D([], [], color=colour, label=colour) for colour in (light.series[0], light.fault))
     assert alike(keyed(one, two)) == [(light.series[0], light.fault)]
     assert not alike(keyed(one, two), "light")
     assert not alike(keyed(one, Line2D([], [], color=light.fault, linestyle=":", label="dotted")))
-
-
-def test_two_areas_of_one_grey_are_found() -> None:
-    light = THEMES["light"]
-    areas = [Patch(color=colour, label=colour) for colour in (light.series[0], light.quiet)]
-    assert alike(keyed(*areas))
+    assert alike(keyed(*(Patch(color=colour, label=colour) for colour in (light.series[0], light.quiet))))
 
 
 @pytest.mark.parametrize(
@@ -306,28 +301,15 @@ def test_a_legend_over_what_is_drawn_is_found(draw: Callable[[Any], object], ove
     assert not hidden(figure)
 
 
-def test_an_axis_of_numbers_without_words_is_found() -> None:
-    figure = Figure()
-    axes = figure.subplots()
-    axes.plot([0, 1], [0, 1])
-    figure.draw_without_rendering()
-    assert len(without_quantity(figure)) == 2
-    axes.set(xlabel="turns", ylabel="error (deg)")
-    assert not without_quantity(figure)
-
-
-def test_a_label_does_not_serve_the_column_beside_it() -> None:
-    figure = Figure()
+def test_an_axis_without_words_and_numbers_that_run_into_each_other_are_found() -> None:
+    figure = Figure(figsize=(4, 2))
     left, right = figure.subplots(1, 2)
     left.set(xlabel="turns", ylabel="error (deg)")
     right.set(ylabel="speed")
     figure.draw_without_rendering()
-    assert without_quantity(figure) == ["x of panel 1"]
-
-
-def test_numbers_that_run_into_each_other_are_found() -> None:
-    figure = Figure(figsize=(2, 2))
-    axes = figure.subplots()
-    axes.set_xlim(0, 10)
-    axes.set_xticks([4, 5], ["100", "101"])
+    assert without_quantity(figure) == ["x of panel 1"], "a label does not serve the column beside it"
+    right.set(xlabel="turns", ylabel="")
+    assert without_quantity(figure) == ["y of panel 1"]
+    right.set_xlim(0, 10)
+    right.set_xticks([4, 5], ["100", "101"])
     assert crowded(figure) == [("100", "101")]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from functools import cache
 from math import cos, degrees, hypot, pi, radians, sin
 
@@ -287,11 +286,6 @@ def test_the_same_figure_is_the_same_file(suffix: str, start: bytes) -> None:
     assert first.startswith(start)
     assert first == again
     assert b"<dc:date>" not in first
-
-
-@pytest.mark.parametrize("draw", [triangular_figure, teeth_figure])
-def test_a_figure_drawn_again_is_the_same_vector_file(draw: Callable[[TriangularTransmission], Figure]) -> None:
-    assert render(draw(transmission(12, 18, 0.03)), ".svg") == render(draw(transmission(12, 18, 0.03)), ".svg")
 
 
 @pytest.mark.parametrize("suffix", [".gif", ""])

@@ -104,20 +104,6 @@ def test_hands_sit_on_the_ends_of_their_own_arbors_and_the_inner_one_is_the_oute
         assert min(abs(hand - end) for end in ends) == pytest.approx(0.5, abs=1e-3)
 
 
-def test_the_ball_of_the_moon_stands_in_the_middle_of_the_moon_s_hand() -> None:
-    scene = build_scene(shipped.train("freeth-2021"))
-    ball = next(face for face in scene.dials if face.look == "ball")
-    moon = next(each for each in scene.pointers if each.output == "moon")
-    assert moon.dial is not None
-    zodiac = scene.dials[moon.dial]
-    away = np.subtract(ball.centre, zodiac.centre)
-    assert away @ np.array(zodiac.normal) == pytest.approx(moon.level)
-    assert np.linalg.norm(away - (away @ np.array(zodiac.normal)) * np.array(zodiac.normal)) == pytest.approx(
-        zodiac.radius / 2
-    )
-    assert ball.radius < 0.1 * zodiac.radius, "its size is that of what it stands on"
-
-
 def test_a_train_that_declares_no_axis_on_its_frame_has_no_parts() -> None:
     text = "name: t\nframe: f\nlinks: {f: {}, a: {}}\nrevolutes: [{pair: [f, a], axis: A}]\ninputs: {a: 1}\n"
     assert build_scene(geartrain.load(text)).parts == ()

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain.scene.dial_scale import DialScale, Engraving, engrave, roman, scale_of
-from geartrain.scene.stroke_letters import CurvedLine, capitals, curved_text, letter_strokes, text_length
+from geartrain.scene.stroke_letters import capitals, curved_text, letter_strokes, text_length
 from geartrain.train import Dial
 
 METONIC = scale_of(Dial(turns=5, divisions=235, cell="month"))
@@ -42,26 +42,13 @@ def test_a_pointer_in_the_middle_of_a_cell_reads_it(turns: int, divisions: int, 
     assert (read.cell, read.turn) == (cell, int((middle - rounds * turns) // 1) + 1)
 
 
-def test_the_month_after_nineteen_years_is_the_first_again() -> None:
-    years = [Fraction(0), Fraction(19, 5), Fraction(19) - Fraction(19, 235), Fraction(19)]
-    assert [METONIC.reading_text(each * Fraction(5, 19)) for each in years] == [
-        "turn 1, month 1",  # a turn is 47 months, 3.8 years
-        "turn 2, month 48",
-        "turn 5, month 235",
-        "turn 1, month 1",
-    ]
-
-
-def test_saros_turns_end_within_a_month() -> None:
-    assert [SAROS.reading_text(Fraction(turn)) for turn in range(4)] == [
-        "turn 1, month 1",  # a turn is 55 3/4 months
-        "turn 2, month 56",
-        "turn 3, month 112",
-        "turn 4, month 168",
-    ]
-
-
-def test_what_is_engraved_in_a_cell_is_told_with_it() -> None:
+def test_a_reading_has_the_turn_the_cell_and_what_is_engraved_in_it() -> None:
+    years = {0: "turn 1, month 1", Fraction(19, 5): "turn 2, month 48", 19 - Fraction(19, 235): "turn 5, month 235"}
+    years |= {19: "turn 1, month 1"}  # a turn of the Metonic spiral is 47 months, 3.8 years
+    assert {year: METONIC.reading_text(year * Fraction(5, 19)) for year in years} == years
+    # a turn of the Saros spiral is 55 3/4 months
+    months = [SAROS.reading_text(Fraction(turn)) for turn in range(4)]
+    assert months == [f"turn {turn}, month {month}" for turn, month in ((1, 1), (2, 56), (3, 112), (4, 168))]
     saros = scale_of(Dial(turns=4, divisions=223, cell="month", glyphs={72: "Η"}))
     assert saros.reading_text(saros.turn_of(Fraction(143, 2))) == "turn 2, month 72, Η"
     assert saros.reading_text(saros.turn_of(72)) == "turn 2, month 73"
@@ -216,7 +203,7 @@ def test_small_letters_and_accents_are_engraved_as_capitals() -> None:
 
 def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_requested() -> None:
     for inwards, angle in ((False, 0.0), (True, pi)):
-        strokes = list(curved_text("HH", 0.1, CurvedLine(1000.0, angle, inwards)))
+        strokes = list(curved_text("HH", 0.1, 1000.0, angle, inwards))
         across = [x for stroke in strokes for x, _ in stroke]
         up = [y for stroke in strokes for _, y in stroke]
         assert max(across) - min(across) == pytest.approx(0.1 * text_length("HH"), rel=1e-3)
@@ -224,15 +211,10 @@ def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_requested(
         assert (max(up) + min(up)) / 2 == pytest.approx(1000 if angle == 0 else -1000)
 
 
-def test_text_below_the_middle_stands_upright() -> None:
-    """The bar of a T is above its foot."""
-    bar, foot = curved_text("T", 0.1, CurvedLine(1.0, pi, inwards=True))
+def test_text_below_the_middle_stands_upright_and_is_not_mirrored() -> None:
+    """The bar of a T is above its foot, and the foot of an L goes to the right of its stem."""
+    bar, foot = curved_text("T", 0.1, 1.0, pi, inwards=True)
     assert bar[0][1] == bar[1][1] > foot[0][1]
-
-
-def test_text_below_the_middle_is_not_mirrored() -> None:
-    """The foot of an L goes to the right of its stem."""
-    (stroke,) = curved_text("L", 0.1, CurvedLine(1.0, pi, inwards=True))
-    top, corner, foot = stroke
-    assert foot[0] > corner[0] + 0.03
+    ((top, corner, end),) = curved_text("L", 0.1, 1.0, pi, inwards=True)
+    assert end[0] > corner[0] + 0.03
     assert top[1] > corner[1] + 0.09

@@ -582,7 +582,7 @@ class Motion(Shown):
         Returns
         -------
         matplotlib.figure.Figure
-            Figure drawn by `geartrain.drawing.outputs_figure`.
+            Figure drawn by `geartrain.drawing.motion_figure`.
 
         Raises
         ------
@@ -601,4 +601,5 @@ class Motion(Shown):
         for name in outputs:
             check_choice("output", name, list(self.outputs))
         shown = self._of(outputs or tuple(self.outputs))
-        return imported_function("drawing", "outputs_figure")(shown, turns, samples)
+        run = imported_function("dynamics", "MotionRun")(shown, turns, samples)
+        return imported_function("drawing", "motion_figure")(run)

@@ -10,10 +10,10 @@
                         broad wheels, by backtracking                AxialSlots
         plan_search     distances that a plan must satisfy           PlanProblem
                         beam search: order, clearance                places in plan
-        swept_overlap   distances while carriers turn                SweptDistances, PlanOverlap
+        swept_overlap   distances while carriers turn                SweptDistances
         wheel_stacks    local search of the order of levels          StackProblem
                         heights of levels                            WheelStack
-    train_layout        angles at which teeth mesh                   MeshAlignment
+    train_layout        angles at which teeth mesh
                         violated conditions                          notices
 """
 

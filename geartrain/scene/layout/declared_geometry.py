@@ -154,15 +154,6 @@ class PinSlotTie:
         return min(self.axes), max(self.axes)
 
 
-@dataclass(frozen=True, slots=True)
-class StrayMesh:
-    """Wheel that a pair has on another axis than earlier pairs have."""
-
-    wheel: str
-    pair: str
-    axis: str
-
-
 class DialEnds(NamedTuple):
     """Ends (low and high) at which an arbor extends beyond the stack to a dial."""
 
@@ -183,7 +174,8 @@ class DeclaredGeometry:
     """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
     """Thickness of the wheels for which it is declared [mm]."""
-    strays: tuple[StrayMesh, ...]
+    strays: tuple[tuple[str, str, str], ...]
+    """Wheels that a pair has on another axis than earlier pairs have: wheel, pair and axis."""
     front: int
     """Side of z from which the train is viewed: 1 or -1."""
     dial_ends: Mapping[str, DialEnds]
@@ -234,7 +226,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
             continue
         for wheel, end in zip(circuit.wheels, ends, strict=True):
             if axis.setdefault(wheel, end) != end:
-                strays.append(StrayMesh(wheel, circuit.id, end))
+                strays.append((wheel, circuit.id, end))
         contacts.append(_contact(train, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))

@@ -38,14 +38,6 @@ Node = tuple[str, str]
 """Wheel, ("wheel", name), or crossing axis, ("axis", label)."""
 
 
-@dataclass(frozen=True, slots=True)
-class HeightConstraint:
-    """Wheel whose height [mm] is determined by parts that are already placed."""
-
-    wheel: str
-    height: float
-
-
 class _HeightSets:
     """Wheels and crossing axes with fixed relative heights, as a weighted union-find structure."""
 
@@ -73,18 +65,21 @@ def build_wheel_stack(
     parallels: Parallels,
     places: Mapping[str, Point],
     swept: SweptDistances,
-    constraints: Sequence[HeightConstraint],
+    known: Mapping[str, float],
 ) -> WheelStack:
-    """Return the stack with blocks of all upright wheels of these axes, and of crossing wheels that mesh with them."""
+    """Return the stack with blocks of all upright wheels of these axes, and of crossing wheels that mesh with them.
+
+    known   heights (mm) of wheels that are determined by parts that are already placed
+    """
     builder = _BlockBuilder(geometry, parallels, places)
     blocks = builder.blocks()
     arbors = list(dict.fromkeys(block.link for block in blocks if block.link and block.link != parallels.frame))
     plates, pins = _plates(blocks, parallels), list(_pins(blocks, geometry.declared.ties))
-    overlap = find_plan_overlap(blocks, arbors, parallels, places, swept, plates, pins)
-    problem = StackProblem(blocks, overlap, arbors, geometry.declared.dial_ends, plates, pins, parallels.frame)
+    clash, pierce = find_plan_overlap(blocks, arbors, parallels, places, swept, plates, pins)
+    problem = StackProblem(blocks, clash, pierce, arbors, geometry.declared.dial_ends, plates, pins, parallels.frame)
     thickness = [geometry.sizes[block.wheel].thickness for block in blocks]
     gap = _GAP * float(np.median(thickness)) if blocks else 1.0
-    return WheelStack(parallels.up, problem, gap, swept, builder.given(constraints))
+    return WheelStack(parallels.up, problem, gap, swept, builder.given(known))
 
 
 def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str]:
@@ -159,12 +154,12 @@ class _BlockBuilder:
             found.append(WheelBlock(wheel, number, link, stack, offset, low, high, size.inner, size.outer))
         return [*found, *(self._across(each) for each in self.crossing)]
 
-    def given(self, constraints: Sequence[HeightConstraint]) -> dict[int, float]:
+    def given(self, known: Mapping[str, float]) -> dict[int, float]:
         """Return heights of stacks that are determined by placed parts, or by declared points of crossing axes."""
         found: dict[int, float] = {}
-        for constraint in constraints:
-            stack, offset = self._stack(("wheel", constraint.wheel))
-            found.setdefault(stack, constraint.height - offset)
+        for wheel, height in known.items():
+            stack, offset = self._stack(("wheel", wheel))
+            found.setdefault(stack, height - offset)
         for each in self.crossing:
             point = self.declared.lines[each.side.mate_axis].given
             if point is not None:
@@ -274,7 +269,7 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
                     clashes.setdefault(wheel, []).append(other)
                     clashes.setdefault(other, []).append(wheel)
         if clashes:
-            found |= _SlotSearch(group, clashes).found()
+            found |= _find_spans(group, clashes)
     return found
 
 
@@ -289,69 +284,35 @@ def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
     return list(groups.values())
 
 
-class _SlotSearch:
-    """Search for the slots of one group of wheels; `tries` is the remaining number of trials."""
+def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
+    """Return the slots of one group of wheels; empty if no assignment exists, or if none was found within the limit.
 
-    def __init__(self, meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> None:
-        self.meshes, self.clashes = meshes, clashes
-        self.tries = _TRIES
-
-    def found(self) -> dict[str, AxialSlots]:
-        """Return slots by wheel; empty if no assignment exists, or if none was found within the limit."""
-        # iterative deepening: the first success has the minimum number of slots
-        for count in range(2, len(self.meshes) + 1):
-            spans = self._try(count)
-            if spans is not None:
+    Iterative deepening: the first success of a depth-first search has the minimum number of slots. It has an explicit
+    stack, because a chain of meshes may exceed Python's recursion limit.
+    """
+    tries = 0
+    for count in range(2, len(meshes) + 1):
+        stack: list[tuple[int, Mapping[str, AxialSlots]]] = [(0, {})]
+        while stack and tries < _TRIES:
+            tries += 1
+            at, spans = stack.pop()
+            if at == len(meshes):
                 return spans
-        return {}
-
-    def _try(self, count: int) -> dict[str, AxialSlots] | None:
-        """Return slots from an assignment of the meshes to `count` slots by depth-first search with backtracking.
-
-        It is None without a solution. The search has an explicit stack, because a chain of meshes may exceed Python's
-        recursion limit.
-        """
-        spans: dict[str, AxialSlots] = {}
-        choice = [0]  # the slot to try next, by mesh
-        before: list[dict[str, AxialSlots | None]] = []
-        while choice:
-            at = len(choice) - 1
-            if at == len(self.meshes):
-                return spans
-            slot = choice[at]
-            if slot == count:
-                choice.pop()
-                if before:
-                    _put_back(spans, before.pop())
-                continue
-            choice[at] += 1
-            self.tries -= 1
-            if self.tries < 0:
-                return None
-            mesh = self.meshes[at]
-            was = {wheel: spans.get(wheel) for wheel in mesh}
-            for wheel in mesh:
-                low, high = spans.get(wheel, (slot, slot))
-                spans[wheel] = AxialSlots(min(low, slot), max(high, slot))
-            if all(self._is_clear(wheel, spans) for wheel in mesh):
-                before.append(was)
-                choice.append(0)
-            else:
-                _put_back(spans, was)
-        return None
-
-    def _is_clear(self, wheel: str, spans: Mapping[str, AxialSlots]) -> bool:
-        own = spans[wheel]
-        others = (spans[other] for other in self.clashes.get(wheel, ()) if other in spans)
-        return all(own.high < other.low or other.high < own.low for other in others)
+            for slot in reversed(range(count)):
+                wider = {**spans, **{wheel: _widened(spans.get(wheel), slot) for wheel in meshes[at]}}
+                if all(_is_clear(wheel, wider, clashes) for wheel in meshes[at]):
+                    stack.append((at + 1, wider))
+    return {}
 
 
-def _put_back(spans: dict[str, AxialSlots], was: Mapping[str, AxialSlots | None]) -> None:
-    for wheel, span in was.items():
-        if span is None:
-            spans.pop(wheel, None)
-        else:
-            spans[wheel] = span
+def _widened(span: AxialSlots | None, slot: int) -> AxialSlots:
+    return AxialSlots(slot, slot) if span is None else AxialSlots(min(span.low, slot), max(span.high, slot))
+
+
+def _is_clear(wheel: str, spans: Mapping[str, AxialSlots], clashes: Mapping[str, Sequence[str]]) -> bool:
+    own = spans[wheel]
+    others = (spans[other] for other in clashes.get(wheel, ()) if other in spans)
+    return all(own.high < other.low or other.high < own.low for other in others)
 
 
 # ------------------------------------------------------------------------------------------------------ parallel groups
@@ -410,14 +371,6 @@ def _order(geometry: SizedGeometry) -> list[int]:
     return order
 
 
-@dataclass(frozen=True, slots=True)
-class _DeterminedAxis:
-    """New axis that meshes with a placed axis: the pair from the new side, and a point of the axis."""
-
-    crossing: CrossingSide
-    point: Vector
-
-
 class _Placing:
     """Groups that are placed so far; `place` adds a group.
 
@@ -432,12 +385,13 @@ class _Placing:
 
     def place(self, parallels: Parallels) -> None:
         """Plan a group of parallel axes, broaden wheels as the plan requires, and stack the wheels."""
-        held = list(self._determined_axes(parallels))
-        fixed = self._fixed(parallels, held)
+        determined = list(self._determined_axes(parallels))
+        fixed = self._fixed(parallels, determined)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
         swept = swept_distances(parallels.lines, places)
         self._broaden(parallels, swept)
-        stack = build_wheel_stack(self.geometry, parallels, places, swept, self._constraints(parallels, held))
+        known = self._known_heights(parallels, determined)
+        stack = build_wheel_stack(self.geometry, parallels, places, swept, known)
         self.stacks.append(stack)
         feet = {label: parallels.foot(place) for label, place in places.items()}
         for line in parallels.lines:
@@ -445,7 +399,8 @@ class _Placing:
         for wheel, height in stack.heights().items():
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
-    def _determined_axes(self, parallels: Parallels) -> Iterator[_DeterminedAxis]:
+    def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
+        """Yield new axes that mesh with a placed axis: the pair from the new side, and a point of the axis."""
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -454,13 +409,13 @@ class _Placing:
                 if each.contact.kind == "screw":
                     far = sum(self.geometry.sizes[wheel].radius for wheel in each.contact.wheels)
                     point = plus(point, each.mate_seat.out, far)
-                yield _DeterminedAxis(each, point)
+                yield each, point
 
-    def _fixed(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> dict[str, Point]:
+    def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
         """Return points in plan of the axes that cannot move; if no axis is fixed, the point of one axis."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
-        for new in held:
-            fixed.setdefault(new.crossing.side.axis, parallels.flat(new.point))
+        for each, point in determined:
+            fixed.setdefault(each.side.axis, parallels.flat(point))
         if fixed:
             return fixed
         labels, declared = list(parallels.index), self.geometry.declared
@@ -506,12 +461,12 @@ class _Placing:
         }
         self.geometry = replace(self.geometry, sizes={**sizes, **broad})
 
-    def _constraints(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> list[HeightConstraint]:
+    def _known_heights(
+        self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]
+    ) -> dict[str, float]:
         """Return heights of wheels whose axes are determined by placed parts."""
-        found = []
-        for new in held:
-            side = new.crossing.side
-            direction = self.geometry.declared.lines[side.axis].direction
-            centre = plus(new.point, direction, new.crossing.seat.far)
-            found.append(HeightConstraint(side.wheel, dot(centre, parallels.up)))
+        found: dict[str, float] = {}
+        for each, point in determined:
+            direction = self.geometry.declared.lines[each.side.axis].direction
+            found.setdefault(each.side.wheel, dot(plus(point, direction, each.seat.far), parallels.up))
         return found

@@ -10,24 +10,12 @@ from math import hypot
 from geartrain.numerics.graphs import DisjointSets
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, Parallels, Point
-from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry
+from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry, WheelSize
 
 # Default distances divided by radii of the wheels, chosen for legible pictures
 _ENCLOSED = 0.12  # from the axis of a slot to that of a pin whose circle encloses it
 _TIED = 1.6  # for other pins and slots
 _CARRIED = 1.2  # from an axis to that of its carrier
-
-
-@dataclass(frozen=True, slots=True)
-class PlanDisc:
-    """Wheel in plan, up to the radius `outer` [mm]; a ring from the radius `inner`. Wheels of one cluster share a
-    level.
-    """
-
-    wheel: str
-    cluster: int
-    inner: float
-    outer: float
 
 
 @dataclass(frozen=True)
@@ -44,8 +32,10 @@ class PlanProblem:
     """Given points of axes."""
     distances: Mapping[tuple[str, str], float]
     """Required distances between pairs of axes (mm)."""
-    discs: Mapping[str, Sequence[PlanDisc]]
-    """Upright wheels of each axis."""
+    discs: Mapping[str, Mapping[str, WheelSize]]
+    """Upright wheels of each axis, by name."""
+    cluster: Mapping[str, int]
+    """Cluster of each wheel. Wheels of one cluster share a level."""
     mates: frozenset[frozenset[str]]
     """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
@@ -57,7 +47,7 @@ class PlanProblem:
 
     def radius(self, label: str) -> float:
         """Return the radius of the widest wheel of an axis (mm)."""
-        return max((disc.outer for disc in self.discs.get(label, ())), default=0.0)
+        return max((disc.outer for disc in self.discs[label].values()), default=0.0)
 
 
 def plan_problem(
@@ -69,14 +59,13 @@ def plan_problem(
     standing   points of axes that are already placed
     """
     declared, labels = geometry.declared, list(parallels.index)
-    discs: dict[str, list[PlanDisc]] = {label: [] for label in labels}
+    discs: dict[str, dict[str, WheelSize]] = {label: {} for label in labels}
     for wheel, axis in declared.axis.items():
         if axis in discs:
-            size = geometry.sizes[wheel]
-            discs[axis].append(PlanDisc(wheel, geometry.modules.cluster[wheel], size.inner, size.outer))
+            discs[axis][wheel] = geometry.sizes[wheel]
     pivots = {line.label: line.pivots[0] for line in parallels.lines if line.pivots}
     forced = {pair: far for pair, far in geometry.modules.distances.items() if parallels.index.keys() >= set(pair)}
-    radius = {label: max((disc.outer for disc in discs[label]), default=1.0) for label in labels}
+    radius = {label: max((disc.outer for disc in discs[label].values()), default=1.0) for label in labels}
     chosen = _chosen_distances(declared, forced, pivots, radius)
     crossing = [each for each in geometry.crossing if each.side.axis in parallels.index]
     return PlanProblem(
@@ -86,6 +75,7 @@ def plan_problem(
         fixed,
         {**forced, **chosen},
         discs,
+        geometry.modules.cluster,
         frozenset(frozenset(contact.wheels) for contact in declared.contacts),
         dict(_rows(declared, parallels, crossing)),
         dict(_sides(declared, parallels, [each for each in crossing if each.side.mate_axis not in standing])),

@@ -2,10 +2,9 @@
 
 `PlanProblem` contains distances, rows, sides, and discs that need clearance. `plan_axes` finds the points by beam
 search: axes are placed one after the other, each at an intersection of circles or in one of 48 directions, and the
-plans of lowest cost are continued. Distances that cannot all be satisfied are fitted by least squares (Gauss-Newton
-method).
+plans of lowest cost are continued. Distances that cannot all be satisfied are fitted by least squares.
 
-The order is greedy, from a priority queue: axes that most distances determine come first. An axis of a closed chain of
+The order is greedy: axes that most distances determine come first. An axis of a closed chain of
 distances must stay near enough to placed axes for the rest of the chain to close. Shortest paths (Dijkstra's algorithm)
 give those bounds. The cost of a place is the overlap of wheels of parallel axes.
 """
@@ -14,14 +13,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
+from heapq import heappop, heappush
+from itertools import combinations
 from math import cos, hypot, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.scene.layout.declared_geometry import Point
-from geartrain.scene.layout.plan_problem import PlanDisc, PlanProblem
+from geartrain.scene.layout.plan_problem import PlanProblem
+from geartrain.scene.layout.wheel_modules import WheelSize
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
 _HARD = 100.0  # cost per mm of overlap of wheels in one level
 _OVER = 1.0  # cost per mm of overlap of discs in different levels, because fewer levels are better
 _COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
-_MOST_AXES = 1500  # maximum number of axes for which levels are distinguished
 
 
 class PlanClearance:
@@ -56,11 +56,11 @@ class PlanClearance:
             if pivot in number:
                 ends = number[label], number[pivot]
                 self.still[ends] = self.still[ends[::-1]] = True
-        plain = [[disc for disc in problem.discs.get(label, ()) if not disc.inner] for label in labels]
-        self.radius = np.array([max((disc.outer for disc in discs), default=0.0) for discs in plain])
-        self.need = _minimum_distances(plain, problem.mates)
+        plain = [{name: disc for name, disc in problem.discs[label].items() if not disc.inner} for label in labels]
+        self.radius = np.array([max((disc.outer for disc in discs.values()), default=0.0) for discs in plain])
+        self.need = _minimum_distances(plain, problem)
         self.meet = np.zeros((len(labels), len(labels)), bool)
-        axis = {disc.wheel: at for at, label in enumerate(labels) for disc in problem.discs.get(label, ())}
+        axis = {wheel: at for at, label in enumerate(labels) for wheel in problem.discs[label]}
         for pair in problem.mates:
             both = [axis[wheel] for wheel in pair if wheel in axis]
             if len(both) == 2:
@@ -87,34 +87,18 @@ class PlanClearance:
         return np.asarray(near[np.hypot(away[:, 0], away[:, 1]) < reach])
 
 
-def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[frozenset[str]]) -> Floats:
+def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanProblem) -> Floats:
     """Return minimum distances between axes whose wheels share a level and do not mesh; 0 without a requirement."""
-    mates = _mates(pairs)
     need = np.zeros((len(discs), len(discs)))
-    clusters: dict[int, list[tuple[int, PlanDisc]]] = {}
+    clusters: dict[int, list[tuple[int, str]]] = {}
     for at, own in enumerate(discs):
-        for disc in own:
-            clusters.setdefault(disc.cluster, []).append((at, disc))
-    for members in clusters.values() if len(discs) <= _MOST_AXES else ():
-        outer = np.array([disc.outer for _, disc in members])
-        apart = outer[:, None] + outer[None, :]
-        number = {disc.wheel: nth for nth, (_, disc) in enumerate(members)}
-        for _, disc in members:
-            for mate in mates.get(disc.wheel, ()):
-                if mate in number:
-                    apart[number[disc.wheel], number[mate]] = 0.0
-        ends = np.array([at for at, _ in members])
-        np.maximum.at(need, np.ix_(ends, ends), apart)  # unbuffered, as an axis may have several wheels of a cluster
-    np.fill_diagonal(need, 0.0)
+        for wheel in own:
+            clusters.setdefault(problem.cluster[wheel], []).append((at, wheel))
+    for members in clusters.values():
+        for (a, one), (b, other) in combinations(members, 2):
+            if a != b and frozenset((one, other)) not in problem.mates:
+                need[a, b] = need[b, a] = max(need[a, b], discs[a][one].outer + discs[b][other].outer)
     return need
-
-
-def _mates(pairs: frozenset[frozenset[str]]) -> Mapping[str, Sequence[str]]:
-    mates: dict[str, list[str]] = {}
-    for pair in pairs:
-        for wheel in pair:
-            mates.setdefault(wheel, []).extend(pair - {wheel})
-    return mates
 
 
 # ----------------------------------------------------------------------------------------------------------- plan order
@@ -137,19 +121,6 @@ class DistanceBound(NamedTuple):
     axis: int
     minimum: float
     most: float
-
-
-class _Rank(NamedTuple):
-    """Priority of an axis: the axis with the minimum is placed first.
-
-    An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars
-    come first. The two counts are negative, so that the maximum comes first.
-    """
-
-    before_pivot: bool
-    minus_tied: int
-    minus_weight: float
-    axis: int
 
 
 @dataclass(frozen=True)
@@ -199,38 +170,30 @@ class PlanOrder:
 
     def _find_steps(self, placed: set[int]) -> list[PlanStep]:
         order = sorted(placed)
-        count = [len(joined.keys() & placed) for joined in self._joined]
         closing = self._on_closed_chains(placed)
-        carried: dict[int, list[int]] = {}
-        for at, pivot in self._pivot.items():
-            carried.setdefault(pivot, []).append(at)
-        waiting = [self._rank(at, count[at], placed) for at in range(len(self._joined)) if at not in placed]
-        heapify(waiting)
         found = []
-        while waiting:
-            rank = heappop(waiting)
-            at = rank.axis
-            if at in placed or rank != self._rank(at, count[at], placed):
-                continue  # an outdated entry: already placed, or queued again with another rank
+        while len(order) < len(self._joined):
+            at = min((at for at in range(len(self._joined)) if at not in placed), key=lambda at: self._rank(at, placed))
             tied = tuple(
                 DistanceBound(other, length, length) for other, length in self._joined[at].items() if other in placed
             )
             bounds = tuple(self._bounds(at, placed, closing)) if at in closing else ()
-            found.append((at, len(order), tied, bounds))
+            found.append(PlanStep(at, np.array(order, np.intp), tied, bounds))
             placed.add(at)
             order.append(at)
-            for other in self._joined[at]:
-                count[other] += 1
-            for other in {*self._joined[at], *carried.get(at, ())} - placed:
-                heappush(waiting, self._rank(other, count[other], placed))
-        stand = np.array(order, np.intp)  # views of one array, without a copy per step
-        return [PlanStep(at, stand[:known], tied, bounds) for at, known, tied, bounds in found]
+        return found
 
-    def _rank(self, at: int, tied: int, placed: set[int]) -> _Rank:
+    def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
+        """Return the priority of an axis, of which the minimum is placed first.
+
+        An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars
+        come first.
+        """
         late = at in self._pivot and self._pivot[at] not in placed
+        tied = len(self._joined[at].keys() & placed)
         weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
         # rounded, so that equal radii keep the order declared
-        return _Rank(late, -tied, -round(weight, 9), at)
+        return late, -tied, -round(weight, 9)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
         """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it is too large."""
@@ -273,7 +236,6 @@ class PlanOrder:
 
 
 _TOUCH = 1e-10  # relative error below which a distance is satisfied
-_STEPS = 60  # maximum number of Gauss-Newton steps
 _MOST = 400  # maximum number of points for a dense matrix
 _DIRECTIONS = 48  # candidates on a circle
 _BEAM = ((60, 12), (200, 4))  # (maximum number of axes, width of the beam)
@@ -321,45 +283,28 @@ def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: fl
 def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> Floats:
     """Return points (n, 2) that minimise the squared errors of distances, from given initial points; `fixed` points do
     not move.
-
-    Gauss-Newton: the Jacobian of |p_b - p_a| has the unit vector from a to b at b, and its opposite at a. Steps are at
-    most a tenth of the longest distance, because the linear model is inaccurate far from the solution.
     """
-    fixed = set(fixed)
-    free = [at for at in range(len(points)) if at not in fixed]
-    bars = [bar for bar in bars if not {bar.first, bar.second} <= fixed]
-    if not bars or not free or len(points) > _MOST:
+    free = np.setdiff1d(np.arange(len(points)), list(fixed))
+    if not bars or not len(free) or len(points) > _MOST:
         return points
+    first, second, lengths = (np.array(column) for column in zip(*bars, strict=True))
+
+    def fitted(moved: Floats) -> Floats:
+        found = points.copy()
+        found[free] = moved.reshape(-1, 2)
+        return found
+
+    def misses(moved: Floats) -> Floats:
+        found = fitted(moved)
+        return np.asarray(np.hypot(*(found[second] - found[first]).T) - lengths)
+
+    start = points[free].ravel()
     # a distance of 0 defines no scale
-    kept = _TOUCH * np.array([max(bar.length, 1e-9) for bar in bars])
-    if np.all(np.abs(_distance_misses(points, bars)[0]) <= kept):
+    if np.all(np.abs(misses(start)) <= _TOUCH * np.maximum(lengths, 1e-9)):
         return points
-    column = {at: 2 * nth for nth, at in enumerate(free)}
-    points = points.copy()
-    longest_step = 0.1 * max(bar.length for bar in bars)
-    for _ in range(_STEPS):
-        miss, ways = _distance_misses(points, bars)
-        jacobian = np.zeros((len(bars), 2 * len(free)))
-        for row, bar in enumerate(bars):
-            for end, sign in ((bar.first, -1.0), (bar.second, 1.0)):
-                if end in column:
-                    jacobian[row, column[end] : column[end] + 2] = sign * ways[row]
-        # minimum-norm step, because plans may have free rotations
-        move = np.linalg.lstsq(jacobian, -miss, rcond=1e-9)[0].reshape(-1, 2)
-        longest = float(np.abs(move).max())
-        points[free] += move * min(1.0, longest_step / longest) if longest else 0.0
-        if longest < _TOUCH * longest_step:
-            break
-    return points
+    from scipy.optimize import least_squares
 
-
-def _distance_misses(points: Floats, bars: Sequence[Bar]) -> tuple[Floats, Floats]:
-    """Return the excess of each distance and the unit vector along it, which is zero for coincident points."""
-    ends = np.array([(bar.first, bar.second) for bar in bars])
-    apart = points[ends[:, 1]] - points[ends[:, 0]]
-    far = np.hypot(apart[:, 0], apart[:, 1])
-    ways = apart / np.where(far > 0, far, 1.0)[:, None]
-    return far - np.array([bar.length for bar in bars]), ways
+    return fitted(least_squares(misses, start, xtol=1e-15, ftol=1e-15, gtol=1e-15).x)
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
@@ -367,28 +312,6 @@ def plan_axes(problem: PlanProblem) -> dict[str, Point]:
     deterministic.
     """
     return _BeamSearch(problem).found()
-
-
-@dataclass(frozen=True)
-class _Plan:
-    """Points of the placed axes, and their cost."""
-
-    points: Floats
-    cost: float
-
-
-@dataclass(frozen=True)
-class _Option:
-    """Plan with a position for the next axis. The new plan is built only if it is among the best."""
-
-    plan: _Plan
-    place: Floats
-    cost: float
-
-    def made(self, at: int) -> _Plan:
-        points = self.plan.points.copy()
-        points[at] = self.place
-        return _Plan(points, self.cost)
 
 
 class _BeamSearch:
@@ -404,26 +327,33 @@ class _BeamSearch:
         points = np.zeros((len(problem.labels), 2))
         for label, point in problem.fixed.items():
             points[index[label]] = point
-        plans = [_Plan(points, 0.0)]
+        plans = [(0.0, points)]  # cost, and points of the placed axes
         for step in self.order.steps:
-            options = [option for plan in plans for option in self._options(step, plan)]
-            best = sorted(options, key=lambda option: option.cost)[: self.width]
-            plans = [option.made(step.axis) for option in best]
-        fitted = fit_distances(plans[0].points, self.order.bars, [index[label] for label in problem.fixed])
+            options = [
+                (round(before + cost, 9), points, place)
+                for before, points in plans
+                for cost, place in self._options(step, points)
+            ]
+            plans = []
+            for cost, points, place in sorted(options, key=lambda option: option[0])[: self.width]:
+                extended = points.copy()
+                extended[step.axis] = place
+                plans.append((cost, extended))
+        fitted = fit_distances(plans[0][1], self.order.bars, [index[label] for label in problem.fixed])
         return {label: (float(fitted[at, 0]), float(fitted[at, 1])) for label, at in index.items()}
 
-    def _options(self, step: PlanStep, plan: _Plan) -> list[_Option]:
-        """Return the best positions of an axis in one plan."""
-        candidates = self._candidates(step, plan.points)
-        costs = _distance_cost(step, candidates, plan.points)
-        costs += self.clearance.cost(step.axis, step.placed, candidates, plan.points)
+    def _options(self, step: PlanStep, points: Floats) -> list[tuple[float, Floats]]:
+        """Return the best positions of an axis in one plan, each with its cost."""
+        candidates = self._candidates(step, points)
+        costs = _distance_cost(step, candidates, points)
+        costs += self.clearance.cost(step.axis, step.placed, candidates, points)
         if len(step.placed):
-            apart = candidates - plan.points[step.placed].mean(axis=0)
+            apart = candidates - points[step.placed].mean(axis=0)
             costs += _FAR * np.hypot(apart[:, 0], apart[:, 1])
             costs -= _SIDE * apart @ np.array(self.problem.sides.get(self.problem.labels[step.axis], (0.0, 0.0)))
         # rounded and stable, so that ties are broken alike on every machine
         best = np.argsort(costs.round(9), kind="stable")[: self.width].tolist()
-        return [_Option(plan, candidates[at], round(plan.cost + float(costs[at]), 9)) for at in best]
+        return [(float(costs[at]), candidates[at]) for at in best]
 
     def _candidates(self, step: PlanStep, points: Floats) -> Floats:
         """Return candidate positions of an axis."""

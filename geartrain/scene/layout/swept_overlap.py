@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,22 +20,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.scene.layout.wheel_modules import WheelSize
 
     Flags = NDArray[np.bool_]
+    Disc: TypeAlias = "WheelBlock | WheelSize"
 
 _SLACK = 1e-9  # relative to a radius: touching discs must not overlap by rounding errors
-
-
-class Disc(Protocol):
-    """Wheel in plan."""
-
-    @property
-    def inner(self) -> float:
-        """Radius of the free space inside a ring (mm); 0 for other wheels."""
-
-    @property
-    def outer(self) -> float:
-        """Outer radius, including clearance (mm)."""
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
@@ -132,16 +122,6 @@ class WheelBlock:
     """Ends of the trace in plan of a crossing wheel that does not move, with half width `outer`; otherwise None."""
 
 
-@dataclass(frozen=True)
-class PlanOverlap:
-    """Overlaps of wheels and arbors in plan."""
-
-    clash: Flags
-    """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
-    pierce: Flags
-    """Wheels through which an arbor or a pin would pass at their height, shape (links and pins, blocks)."""
-
-
 def find_plan_overlap(
     blocks: Sequence[WheelBlock],
     links: Sequence[str],
@@ -150,14 +130,16 @@ def find_plan_overlap(
     swept: SweptDistances,
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
-) -> PlanOverlap:
-    """Return the blocks that overlap in plan, and the blocks that arbors or pins would pass through.
+) -> tuple[Flags, Flags]:
+    """Return the pairs of blocks that must not be at the same height, and the blocks that links and pins would pierce.
+
+    Their shapes are (blocks, blocks), and (links and pins, blocks).
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     pins     wheel of a pin and wheel of its slot
     """
     if not blocks:
-        return PlanOverlap(np.zeros((0, 0), bool), np.zeros((len(links), 0), bool))
+        return np.zeros((0, 0), bool), np.zeros((len(links), 0), bool)
     lines = parallels.lines
     axis = np.array([block.axis for block in blocks])
     outer = np.array([block.outer for block in blocks])
@@ -181,8 +163,7 @@ def find_plan_overlap(
         if link in plates:
             pierce[row, named[plates[link]]] = False
     rows = [_pin_obstacles(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
-    pierce = np.vstack([pierce, *rows])
-    return PlanOverlap(clash, pierce)
+    return clash, np.vstack([pierce, *rows])
 
 
 def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:

@@ -33,7 +33,7 @@ from geartrain.teeth.standard_teeth import DEDENDUM
 
 
 _ROUNDS = 12  # passes over all distances, because changes affect each other
-_MOST = 300  # maximum number of distances on closed chains: time grows with its square
+_MOST = 300  # maximum number of distances for which chains are closed: time grows with its square
 _TIGHT = 0.97  # maximum of a distance over the path round it: more leaves no space for wheels
 _LOOSE = 0.85  # target of that ratio
 _MINIMUM = Fraction(1, 1000)  # minimum factor of a module in one step
@@ -56,7 +56,6 @@ def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
     """Return modules of roots. The modules in `free` are multiplied by simple factors until all chains can close."""
-    distances = _on_cycles(distances)
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -65,22 +64,6 @@ def close_chains(
         if not any(changed):
             break
     return found
-
-
-def _on_cycles(distances: Sequence[AxisDistance]) -> list[AxisDistance]:
-    """Return the 2-core of the graph of distances, by repeated removal of leaves."""
-    at: dict[str, set[int]] = {}
-    for number, one in enumerate(distances):
-        for axis in one.axes:
-            at.setdefault(axis, set()).add(number)
-    loose = [axis for axis, own in at.items() if len(own) == 1]
-    while loose:
-        for number in tuple(at[loose.pop()]):
-            for axis in distances[number].axes:
-                at[axis].discard(number)
-                if len(at[axis]) == 1:
-                    loose.append(axis)
-    return [one for number, one in enumerate(distances) if number in at[one.axes[0]]]
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
@@ -167,15 +150,6 @@ class WheelModules:
     """Pairs of axes -> required distance (mm), the mean of the requirements of their pairs."""
 
 
-def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
-    """Return the modules of all wheels, exact if the declaration is exact, and the resulting distances between axes.
-
-    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
-    A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
-    """
-    return _ModuleSearch(geometry).found()
-
-
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
     """Return the distance between the axes of a pair [mm], at which pitch circles touch or declared teeth mesh."""
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
@@ -183,7 +157,10 @@ def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], cont
 
 
 class _ModuleSearch:
-    """Search for the modules of the clusters of one train.
+    """Search for the modules of the clusters of one train, exact if the declaration is exact.
+
+    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
+    A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
 
     cluster   number of the cluster of each wheel
     between   gear pairs by their axes, for pairs with a distance: parallel ones, and worms
@@ -442,7 +419,7 @@ class SizedGeometry:
 
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
     """Return modules, sizes and seats of all wheels."""
-    modules = find_wheel_modules(declared)
+    modules = _ModuleSearch(declared).found()
     sizes = {
         wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels
     }

@@ -18,12 +18,13 @@ import numpy as np
 
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.declared_geometry import DialEnds
-from geartrain.scene.layout.swept_overlap import PlanOverlap, SweptDistances, WheelBlock
+from geartrain.scene.layout.swept_overlap import SweptDistances, WheelBlock
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.scene.layout.swept_overlap import Flags
 
 _PIERCED = 1.0  # cost of an arbor that passes through a wheel
 # cost of an arbor that interleaves with fixed wheels, in successive passes: a high initial cost gives worse optima
@@ -32,7 +33,6 @@ _LONG = 0.02  # cost of a level that an arbor spans
 _LEVEL = 0.005  # cost of a level
 _PASSES = 8  # maximum number of passes over all stacks
 _RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved or reversed
-_AT_ONCE = 500  # orders evaluated at once: more would not fit into the cache
 _SEARCHED = 80  # maximum number of stacks for the local search
 
 
@@ -41,16 +41,18 @@ class StackProblem:
     """Stacking problem of one group of parallel axes."""
 
     blocks: Sequence[WheelBlock]
-    overlap: PlanOverlap
-    """Overlaps of the blocks in plan."""
+    clash: Flags
+    """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
+    pierce: Flags
+    """Wheels through which an arbor or a pin would pass at their height, shape (links and pins, blocks)."""
     arbors: Sequence[str]
-    """Links that carry wheels, in the order of the rows of `overlap.pierce`."""
+    """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
     """Ends of arbors that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
     """Arbor -> wheel that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheels with a pin and with its slot, in the order of the rows of `overlap.pierce` after those of arbors."""
+    """Wheels with a pin and with its slot, in the order of the rows of `pierce` after those of arbors."""
     still: str = ""
     """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
@@ -60,14 +62,8 @@ class StackProblem:
         return 1 + max((block.stack for block in self.blocks), default=-1)
 
 
-def order_stacks(problem: StackProblem) -> Floats:
-    """Return a key for each stack, increasing upwards. Stacks with equal keys share a level."""
-    search = _OrderSearch(problem)
-    return search.first_fit() if problem.count > _SEARCHED else search.local_search()
-
-
 class _OrderSearch:
-    """Search for the order of the stacks of one problem.
+    """Search for the order of the stacks of one problem: a key for each, increasing upwards, equal on one level.
 
     clash     stacks that must not share a level, by stack
     carried   stacks of each arbor, and of the wheel that carries its axis
@@ -77,7 +73,7 @@ class _OrderSearch:
     def __init__(self, problem: StackProblem) -> None:
         self.problem, self.count = problem, problem.count
         self.stacks = np.array([block.stack for block in problem.blocks])
-        rows, columns = np.nonzero(problem.overlap.clash)
+        rows, columns = np.nonzero(problem.clash)
         clash = np.unique(np.stack([self.stacks[rows], self.stacks[columns]]), axis=1)
         ends = np.searchsorted(clash[0], np.arange(self.count + 1))
         self.clash = [clash[1, low:high] for low, high in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
@@ -153,9 +149,7 @@ class _OrderSearch:
         """Return the best order with one run of levels moved or reversed, and whether it is an improvement."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
-        costs = np.concatenate(
-            [self._costs(ranks[at : at + _AT_ONCE], fixed_cost) for at in range(0, len(ranks), _AT_ONCE)]
-        )
+        costs = self._costs(ranks, fixed_cost)
         # rounded, so that ties are broken alike whatever the order of summation
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
@@ -273,7 +267,7 @@ class _OrderSearch:
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
         """Arbors, stacks through which they pass at the same height, and the number of wheels of each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
-        rows, blocks = np.nonzero(self.problem.overlap.pierce)
+        rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
         times[np.arange(len(self.carried)), self._stack_table] = 0
         arbor, stack = np.nonzero(times)
@@ -333,7 +327,8 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
     """Return the height of each stack (mm), the lowest upright wheel at 0, with a `gap` between levels."""
     if not problem.count:
         return {}
-    keys = order_stacks(problem)
+    search = _OrderSearch(problem)
+    keys = search.first_fit() if problem.count > _SEARCHED else search.local_search()
     known = np.unique(keys)
     level = np.searchsorted(known, keys)
     heights = _level_heights(problem, level, len(known), gap)
@@ -356,7 +351,7 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
     for at in range(1, count):
         mine, below = np.nonzero(level_of == at)[0], np.nonzero(level_of < at)[0]
         need = heights[level_of[below]][:, None] + top[below][:, None] + gap - bottom[mine][None, :]
-        need = np.where(problem.overlap.clash[np.ix_(below, mine)], need, -np.inf)
+        need = np.where(problem.clash[np.ix_(below, mine)], need, -np.inf)
         last = below[upright[below] & (level_of[below] == at - 1)]
         flat = heights[at - 1] + gap + _thickest(blocks, last) / 2 + _thickest(blocks, mine[upright[mine]]) / 2
         heights[at] = max(float(need.max(initial=-np.inf)), flat)
@@ -430,7 +425,7 @@ class WheelStack:
             own = spans.get(arbor, [])
             if len(own) < 2:
                 continue
-            for at in np.nonzero(self.problem.overlap.pierce[row])[0].tolist():
+            for at in np.nonzero(self.problem.pierce[row])[0].tolist():
                 block = self.problem.blocks[at]
                 if frozenset((ends.get(arbor, ""), block.wheel)) in tied:
                     continue

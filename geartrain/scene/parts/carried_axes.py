@@ -60,6 +60,19 @@ class CarriedAxis:
     through: frozenset[str] = frozenset()
 
 
+def plate_seat(
+    disc: StackDisc,
+    height: float,
+    spots: tuple[str, ...] = (),
+    ring: str = "",
+    round_: bool = False,
+    flange: bool = False,
+) -> CarrierSeat:
+    """Return the seat on a plate at a height in a gap: a disc whose heights are not known yet."""
+    disc = replace(disc, low=height - _THIN, high=height + _THIN)
+    return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
+
+
 def carrier_seats(
     link: str,
     axis: str,
@@ -75,23 +88,16 @@ def carrier_seats(
     discs = [disc for each in carried for disc in each.discs]
     low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
     spots = tuple(each.label for each in carried)
-    for height in (gap_beside(slab_gaps, low, -1) + _NEAR, gap_beside(slab_gaps, high, 1) - _NEAR):
-        name = f"{link} carrier plate"
-        disc = StackDisc(name, link, axis, at, height - _THIN, height + _THIN, reach + WIDEST)
-        found.append(CarrierSeat(link, name, (TurningPlate(disc, spots),)))
-    return found
+    plate = StackDisc(f"{link} carrier plate", link, axis, at, 0.0, 0.0, reach + WIDEST)
+    heights = gap_beside(slab_gaps, low, -1) + _NEAR, gap_beside(slab_gaps, high, 1) - _NEAR
+    return [*found, *(plate_seat(plate, height, spots) for height in heights)]
 
 
 def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
     """Return discs that hold a turning ring, behind it or before it."""
-    found = []
-    for height in (gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR):
-        name = f"{ring.name} disc"
-        disc = replace(
-            ring, name=name, low=height - _THIN, high=height + _THIN, outer=rim, inner=0.0, root=rim, hub=True
-        )
-        found.append(CarrierSeat(ring.link, name, (TurningPlate(disc, (), ring.name, round=True),)))
-    return found
+    disc = replace(ring, name=f"{ring.name} disc", outer=rim, inner=0.0, root=rim, hub=True)
+    heights = gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR
+    return [plate_seat(disc, height, (), ring.name, round_=True) for height in heights]
 
 
 def gap_beside(slab_gaps: Sequence[float], face: float, side: int) -> float:

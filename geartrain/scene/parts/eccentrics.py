@@ -18,7 +18,7 @@ import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, USUAL
-from geartrain.scene.parts.carried_axes import BOSS, NEAREST, WIDEST, CarriedAxis, CarrierSeat, TurningPlate, gap_beside
+from geartrain.scene.parts.carried_axes import BOSS, NEAREST, WIDEST, CarriedAxis, CarrierSeat, gap_beside, plate_seat
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
@@ -213,7 +213,6 @@ def running_hole(eccentric: Eccentric, process: Process) -> float:
 
 
 _RIM = 2.0  # mm: width of plate round a pin
-_HALF_THIN = 0.02  # mm: half the provisional thickness of a plate in a gap
 
 
 @dataclass(frozen=True, slots=True)
@@ -285,5 +284,5 @@ def pin_seats(
     height = gap_beside(slab_gaps, low, -1) + NEAREST if below else gap_beside(slab_gaps, high, 1) - NEAREST
     name = f"{circle.link} {'carrier ' if carried else ''}plate"
     reach = max([circle.reach, *(dist(at, each.at) + BOSS + WIDEST for each in carried)])
-    disc = StackDisc(name, circle.link, axis, at, height - _HALF_THIN, height + _HALF_THIN, reach)
-    return [CarrierSeat(circle.link, name, (TurningPlate(disc, tuple(each.label for each in carried), round=True),))]
+    disc = StackDisc(name, circle.link, axis, at, 0.0, 0.0, reach)
+    return [plate_seat(disc, height, tuple(each.label for each in carried), round_=True)]

@@ -34,6 +34,7 @@ from geartrain.scene.parts.carried_axes import (
     TurningPlate,
     carried_columns,
     carrier_seats,
+    plate_seat,
     ring_seats,
 )
 from geartrain.scene.parts.eccentrics import FlexibleCup, PinCircle, pin_seats, running_hole, too_thin
@@ -479,7 +480,7 @@ class FramePlan:
 
 # ------------------------------------------------------------------------------------------------------ seats of shafts
 
-_ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm from the middle of the outermost gaps: arms are nearer to the wheels
+_ARM, _FLANGE = 0.3, 0.2  # mm from the middle of the outermost gaps: arms are nearer to the wheels
 _PART = 0.4  # radius of a flange divided by that of the widest disc on its axis
 _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 
@@ -500,12 +501,8 @@ def arm_seats(
         widest = max(own, key=lambda disc: disc.root)
         between = [disc for disc in about if disc.link != link and (disc.middle > widest.middle) == above]
         if all(disc.outer + _ROOM < widest.root for disc in between):
-            height = slab_gaps[-1] - _ARM if above else slab_gaps[0] + _ARM
-            faces = height - _THIN, height + _THIN
-            disc = replace(
-                widest, name=f"{link} arm", low=faces[0], high=faces[1], outer=widest.root, root=0.0, apart=True
-            )
-            yield CarrierSeat(link, disc.name, (TurningPlate(disc),))
+            disc = replace(widest, name=f"{link} arm", outer=widest.root, root=0.0, apart=True)
+            yield plate_seat(disc, slab_gaps[-1] - _ARM if above else slab_gaps[0] + _ARM)
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
@@ -517,11 +514,9 @@ def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list
         axis = train.kinematics.tree.axis(link) or ""
         radius = _PART * max((disc.outer for disc in stack.discs if disc.axis == axis), default=0.0)
         if link in held - bearing and not declared.wheels and axis in stack.axes and radius:
-            at, found = stack.flat(stack.axes[axis].point), []
-            for height in (slab_gaps[0] + _FLANGE, slab_gaps[-1] - _FLANGE):
-                disc = StackDisc(f"{link} flange", link, axis, at, height - _THIN, height + _THIN, radius)
-                found.append(CarrierSeat(link, disc.name, (TurningPlate(disc, round=True, flange=True),)))
-            yield found
+            disc = StackDisc(f"{link} flange", link, axis, stack.flat(stack.axes[axis].point), 0.0, 0.0, radius)
+            heights = slab_gaps[0] + _FLANGE, slab_gaps[-1] - _FLANGE
+            yield [plate_seat(disc, height, round_=True, flange=True) for height in heights]
 
 
 # -------------------------------------------------------------------------------------------------------------- heights

@@ -10,7 +10,7 @@ from math import ceil, cos, dist, pi, sin
 import numpy as np
 
 from geartrain.errors import Problem
-from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, ColumnMember, FramePlaces
+from geartrain.scene.parts.arbor_columns import AxisBearing, AxisColumn, FramePlaces
 from geartrain.scene.parts.eccentrics import Eccentric, StandingPins, running_hole
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.pillar_places import TENON, blocked_posts, clear_of, nearer_plate, pillar_places, ring_posts
@@ -96,25 +96,18 @@ class FramePlates:
     @cached_property
     def pillar(self) -> float:
         """Radius of a pillar (mm)."""
-        turning = [(each.at, each.radius(*self._between)) for each in self.plan.columns] + self.circles
+        places = self.plan.places
+        turning = [(each.at, each.radius(places.back[1], places.front[0])) for each in self.plan.columns] + self.circles
         low, high = (
             [way(at[k] + side * reach for at, reach in turning) for k in (0, 1)] for way, side in ((min, -1), (max, 1))
         )
         return round(min(_PILLAR_MOST, max(_PILLAR_MINIMUM, _PILLAR_PART * dist(low, high))), 2)
-
-    @property
-    def _between(self) -> tuple[float, float]:
-        return self.plan.places.back[1], self.plan.places.front[0]
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
         """Circles that contain the parts that turn between the plates, in all positions of carriers."""
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
-
-    def _passages(self, faces: tuple[float, float]) -> Iterator[Passage]:
-        """Yield the passages of crossing wheels through a plate."""
-        return filter(None, (wheel.passage(faces) for wheel in self.plan.wheels_across))
 
     @cached_property
     def pillars(self) -> list[Point]:
@@ -151,7 +144,8 @@ class FramePlates:
             mortises = self.mortises.get(side, ())
             points = [*self.pillars, *(hole.at for hole in holes), *(at for each in mortises for at in each.corners)]
             circles = [(hole.at, hole.diameter / 2) for hole in holes]
-            passages = clear_passages([*self._passages(faces), *mortises], circles)
+            crossing = filter(None, (wheel.passage(faces) for wheel in self.plan.wheels_across))
+            passages = clear_passages([*crossing, *mortises], circles)
             edge, windows = with_passages(around(points, self.pillar + _LAND), passages)
             name = f"{self.plan.stack.frame} {side} plate"
             yield FlatPlate(self.plan.stack.frame, name, edge, holes, *faces, windows=windows)
@@ -207,7 +201,12 @@ class FramePlates:
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
         """Return the hole in which an axis is supported, or through which it passes."""
         process = self.plan.process
-        passing = [each for each in column.members if crosses(each, faces) or (each.fixed and _enters(each, faces))]
+        middle = sum(faces) / 2
+        passing = [
+            each
+            for each in column.members
+            if crosses(each, faces) or (each.fixed and each.low < middle < each.high)  # a fixed piece ends in a plate
+        ]
         if passing:
             widest = max(passing, key=lambda each: each.outer)
             return Hole(column.axis, column.at, widest.outer + (process.press if widest.fixed else process.running))
@@ -320,10 +319,6 @@ class FramePlates:
                 what = f"{where} has no hole for axis '{hole.name}'"
                 why = f"it would overlap the hole of '{other.name}', {dist(hole.at, other.at):.3g} mm away"
                 yield Problem(what, why, "use a smaller --bore, or make one stepped stud for both")
-
-
-def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:
-    return member.low < sum(faces) / 2 < member.high
 
 
 def _meet(one: Hole, other: Hole) -> bool:

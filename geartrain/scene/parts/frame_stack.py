@@ -21,6 +21,7 @@ from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
 from geartrain.numerics.vectors import Vector, dot, plus, scaled, size
 from geartrain.scene.bodies import BentWheel, bent_wheels
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
+from geartrain.scene.layout.declared_geometry import upwards
 from geartrain.scene.parts.arbor_columns import HEAD_ROOM
 from geartrain.scene.parts.carried_axes import CarriedAxis
 from geartrain.scene.parts.eccentrics import (
@@ -102,8 +103,8 @@ class FrameStack:
         for place in self.layout.wheels.values():
             axis = self.layout.axes[place.axis]
             if axis.carrier == self.frame:
-                # both senses of a direction count as one
-                count[_upwards(axis.direction)] += 1
+                x, y, z = (round(each, 12) for each in upwards(axis.direction))
+                count[x + 0.0, y + 0.0, z + 0.0] += 1  # both senses of a direction count as one; + 0.0 removes -0.0
         return count.most_common(1)[0][0] if count else None
 
     @cached_property
@@ -337,13 +338,6 @@ def _ends(discs: Sequence[StackDisc]) -> tuple[float, float]:
 
 def _moved(point: Vector, normal: Vector, by: float) -> Vector:
     return plus(point, scaled(normal, by)) if by else point
-
-
-def _upwards(direction: Vector) -> Vector:
-    """Return a direction with the sense in which its last non-zero coordinate is positive, rounded."""
-    x, y, z = (round(each, 12) + 0.0 for each in direction)
-    last = next((each for each in (z, y, x) if each), 1.0)
-    return (x, y, z) if last > 0 else (0.0 - x, 0.0 - y, 0.0 - z)
 
 
 # -------------------------------------------------------------------------------------------------- eccentrics and pins

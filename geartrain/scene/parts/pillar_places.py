@@ -57,18 +57,18 @@ def pillar_places(
     for count in (4, _FEWEST, _MOST):
         if (found := _around(tried - middle, points - middle, count, _SPREAD * radius, even)) is not None:
             return [(float(x), float(y)) for x, y in middle + found]
-    return [(float(x), float(y)) for x, y in _far_apart(tried, middle)]
+    spots = [(float(x), float(y)) for x, y in tried]
+    return far_apart(spots, max(spots, key=lambda each: dist(each, middle)), _MOST)
 
 
-def _far_apart(tried: Floats, middle: Floats) -> Floats:
-    """Return five positions: the farthest from the middle, then repeatedly the position farthest from the chosen
-    positions.
+def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
+    """Return the first position, then repeatedly the position farthest from the chosen positions (greedy
+    dispersion).
     """
-    taken = [int(np.argmax(np.hypot(*(tried - middle).T)))]
-    while len(taken) < _MOST:
-        away = np.hypot(*(tried[:, None, :] - tried[None, taken, :]).transpose(2, 0, 1)).min(axis=1)
-        taken.append(int(np.argmax(away)))
-    return tried[taken]
+    taken = [first]
+    while len(taken) < min(count, len(set(spots))):
+        taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
+    return taken
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:

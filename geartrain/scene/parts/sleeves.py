@@ -18,7 +18,6 @@ from geartrain.scene.parts.turned_parts import Band, TurnedPart, crosses
 
 if TYPE_CHECKING:
     from geartrain.scene.parts.frame_plan import FramePlan
-    from geartrain.scene.parts.stack_discs import Point
 
 _WALLS = (1.5, 1.0, 0.6)  # mm: walls, of which the thickest that fits is used
 _SHORTEST = 0.5  # mm: minimum length
@@ -52,12 +51,20 @@ def free_beside(
     """
     around, (radius, longest) = _Obstacles(plan, column), size
     disc = next(each for each in member.discs if each.name == name)
+    places = _beside(disc, longest, 0.0)
+    return next((faces for faces, room in places if around.is_free(member, *room, radius)), None)
+
+
+def _beside(
+    disc: StackDisc, longest: float, shortest: float
+) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
+    """Yield the ends of rings on either side of a wheel, the longest first, each with the ends of the space that it
+    needs.
+    """
     for part in (1.0, 0.75, 0.5, 0.25):
-        for low, high in ((disc.high, disc.high + part * longest), (disc.low - part * longest, disc.low)):
-            room = (low, high + _FREE) if low == disc.high else (low - _FREE, high)
-            if around.is_free(member, *room, radius):
-                return low, high
-    return None
+        length = max(part * longest, shortest)
+        yield (disc.high, disc.high + length), (disc.high, disc.high + length + _FREE)
+        yield (disc.low - length, disc.low), (disc.low - length - _FREE, disc.low)
 
 
 @dataclass(frozen=True)
@@ -149,14 +156,9 @@ class _MemberSleeves:
 
     def _collet(self, disc: StackDisc) -> Band | None:
         """Return the longest collet that fits on either side of a wheel with clearance to turning parts, or None."""
-        longest = _LONGEST * self.member.outer
-        for part in (1.0, 0.75, 0.5, 0.25):
-            length = max(part * longest, _SHORTEST)
-            for low, high in ((disc.high, disc.high + length), (disc.low - length, disc.low)):
-                room = (low, high + _FREE) if low == disc.high else (low - _FREE, high)
-                band = self._ring(*room)
-                if band is not None:
-                    return Band(low, high, band.radius, band.bore)
+        for faces, room in _beside(disc, _LONGEST * self.member.outer, _SHORTEST):
+            if (band := self._ring(*room)) is not None:
+                return Band(*faces, band.radius, band.bore)
         return None
 
     def _part(self, name: str, kind: str, band: Band, joint: str) -> TurnedPart:
@@ -171,28 +173,10 @@ _LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """Drum fixed to a wheel, which it also fixes to the arbor as a collet."""
+    """Drum beside a wheel, to which it is fixed; as a collet it fixes the wheel to the arbor."""
 
-    link: str
-    """Link to which the barrel belongs."""
     wheel: str
-    """Wheel next to which the barrel is."""
-    at: Point
-    """Position of its axis in the stack (mm)."""
-    low: float
-    """Height of its lower end along the normal (mm)."""
-    high: float
-    """Height of its upper end along the normal (mm)."""
-    radius: float
-    """Outside radius (mm)."""
-    bore: float
-    """Inside radius (mm)."""
-
-    @property
-    def part(self) -> TurnedPart:
-        """Barrel as a turned part."""
-        band = Band(self.low, self.high, self.radius, self.bore)
-        return TurnedPart(self.link, f"{self.link} barrel", "barrel", self.at, (band,), f"pinned to {self.wheel}")
+    part: TurnedPart
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
@@ -209,4 +193,6 @@ def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
     faces = free_beside(plan, column, member, widest.name, (radius, _LONGEST_BARREL))
     if faces is None:
         return None
-    return Barrel(link, widest.name, column.at, *faces, radius, member.outer / 2 + plan.process.press / 2)
+    band = Band(*faces, radius, member.outer / 2 + plan.process.press / 2)
+    joint = f"pinned to {widest.name}"
+    return Barrel(widest.name, TurnedPart(link, f"{link} barrel", "barrel", column.at, (band,), joint))

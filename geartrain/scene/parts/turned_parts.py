@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,11 +21,7 @@ from geartrain.scene.parts.arbor_columns import (
 )
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point
-from geartrain.scene.solids.triangle_solids import SIDES, Solid, joined
-
-if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
-    from geartrain.scene.solids.triangle_solids import Integers
+from geartrain.scene.solids.triangle_solids import SIDES, Solid, joined, lathed
 
 _SAME = 1e-9
 
@@ -112,25 +107,9 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
 def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
     """Return the closed surface of revolution of half a section about z."""
     turn = 2 * pi * np.arange(SIDES) / SIDES
-    vertices: list[Floats] = []
-    rings: list[Integers] = []
-    start = 0
-    for radius, height in corners:
-        count = SIDES if radius else 1
-        # a corner on the axis is one vertex, to which the whole ring refers
-        rings.append(start + np.arange(SIDES) * (count > 1))
-        start += count
-        column = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), np.full(SIDES, height)])
-        vertices.append(column[:count])
-    faces = []
-    # triangles with two corners in one vertex on the axis are omitted
-    for low, high in zip(rings, [*rings[1:], rings[0]], strict=True):
-        here, after = (low, high), (np.roll(low, -1), np.roll(high, -1))
-        if low[0] != low[1]:
-            faces.append(np.column_stack([here[0], after[0], after[1]]))
-        if high[0] != high[1]:
-            faces.append(np.column_stack([here[0], after[1], here[1]]))
-    return Solid(np.concatenate(vertices), np.concatenate(faces).astype(np.int64))
+    rows = [np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SIDES, height)]) for r, height in corners]
+    # a corner on the axis is one vertex
+    return lathed([row if radius else row[:1] for row, (radius, _) in zip(rows, corners, strict=True)])
 
 
 def column_parts(

@@ -5,7 +5,7 @@ Lengths are in mm, y upwards.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import asin, atan2, cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
@@ -116,9 +116,26 @@ def coupling_discs(
     bores   diameters of holes for arbors by link (mm)
     holed   couplings whose holes are in a wheel
     """
+    plates: list[Plate] = []
     notices: list[Problem] = []
-    plates = tuple(_discs(couplings, bores, holed, notices))
-    return Plates(plates, tuple(notices))
+    for coupling in couplings:
+        if isinstance(coupling, Parallel):
+            what = f"the mechanism of '{coupling.name}' is not modelled"
+            why = "the parts that keep its two links parallel are not declared"
+            notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
+        elif isinstance(coupling, PinsInHoles):
+            lacking = "pins" if coupling.name in holed else "pins and holes"
+            what = f"the {lacking} of '{coupling.name}' are not modelled"
+            why = "they are modelled only if their sizes are declared and both links have sufficiently large wheels"
+            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; otherwise add them by hand"
+            notices.append(Problem(what, why, fix))
+        elif coupling.pin_radius is None or coupling.offset is None:
+            what = f"pin and slot of '{coupling.name}' are not modelled"
+            notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
+        else:
+            plates.append(_disc(coupling, coupling.pin, bores, slotted=False))
+            plates.append(_disc(coupling, coupling.slot, bores, slotted=True))
+    return Plates(tuple(plates), tuple(notices))
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
@@ -173,30 +190,6 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 
 
 # ------------------------------------------------------------------------------------------------------ pins and slots
-
-
-def _discs(
-    couplings: Sequence[Coupling], diameters: Mapping[str, float], holed: frozenset[str], notices: list[Problem]
-) -> Iterator[Plate]:
-    for coupling in couplings:
-        if isinstance(coupling, Parallel):
-            what = f"the mechanism of '{coupling.name}' is not modelled"
-            why = "the parts that keep its two links parallel are not declared"
-            notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
-            continue
-        if isinstance(coupling, PinsInHoles):
-            lacking = "pins" if coupling.name in holed else "pins and holes"
-            what = f"the {lacking} of '{coupling.name}' are not modelled"
-            why = "they are modelled only if their sizes are declared and both links have sufficiently large wheels"
-            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; otherwise add them by hand"
-            notices.append(Problem(what, why, fix))
-            continue
-        if coupling.pin_radius is None or coupling.offset is None:
-            what = f"pin and slot of '{coupling.name}' are not modelled"
-            notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
-            continue
-        yield _disc(coupling, coupling.pin, diameters, slotted=False)
-        yield _disc(coupling, coupling.slot, diameters, slotted=True)
 
 
 def pin_diameter(radius: float) -> float:

@@ -12,9 +12,9 @@ from geartrain.errors import GearTrainError
 from geartrain.numerics.vectors import Vector, dot, minus, plus
 from geartrain.scene.construction import make_scene
 from geartrain.scene.dial_pointers import with_balls
-from geartrain.scene.elements import SceneHanger, ScenePart
+from geartrain.scene.elements import ScenePart
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.solids.carrier_cages import HangingParts, hanging_solids
+from geartrain.scene.solids.carrier_cages import hanging_solids
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
 from geartrain.scene.solids.solid_assembly import SolidModel
 from geartrain.scene.solids.solid_part import SolidPart
@@ -90,13 +90,11 @@ def build_scene(
         dials, pointers = _on_bracket(at, scene, dials, pointers, parts)
     wheels = tuple(_with_holes(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
-    return found if model.hanging is None else replace(found, hangers=tuple(_hanging(model, model.hanging)))
-
-
-def _hanging(model: SolidModel, hanging: HangingParts) -> Iterator[SceneHanger]:
-    """Yield the hanging parts with their solids."""
-    for each in hanging.found():
-        yield replace(each, parts=tuple(_scene_part(part, model) for part in hanging_solids(each, hanging.frame)))
+    if (hanging := model.hanging) is None:
+        return found
+    solids = {each: hanging_solids(each, hanging.frame) for each in hanging.found()}
+    hangers = (replace(each, parts=tuple(_scene_part(part, model) for part in own)) for each, own in solids.items())
+    return replace(found, hangers=tuple(hangers))
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:

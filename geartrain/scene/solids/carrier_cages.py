@@ -28,8 +28,8 @@ from geartrain.scene.parts.frame_plates import FramePlates
 from geartrain.scene.parts.pillar_places import TENON
 from geartrain.scene.parts.stack_discs import Passage, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import around, basis
-from geartrain.scene.solids.solid_part import SolidPart
+from geartrain.scene.solids.bearing_plates import around
+from geartrain.scene.solids.solid_part import SolidPart, turned_about
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.train.wheel_stock import material_named
 
@@ -75,7 +75,7 @@ class HangingParts:
     @property
     def frame(self) -> int:
         """Index of the body of the frame."""
-        return next(at for at, body in enumerate(self.scene.bodies) if body.id == self.plan.stack.frame)
+        return _frame(self.scene, self.plan)
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
@@ -144,9 +144,10 @@ class HangingParts:
         way = Fraction(body.speed or 0) * body.sense
         if not way:
             return
-        middle = self.plan.stack.in_space(barrel.at, (barrel.low + barrel.high) / 2)
+        (band,) = barrel.part.bands
+        middle = self.plan.stack.in_space(barrel.part.at, (band.low + band.high) / 2)
         # the side on which the rim of the barrel moves down as it turns forward
-        rate = barrel.radius if way > 0 else -barrel.radius
+        rate = band.radius if way > 0 else -band.radius
         side = plus(middle, cross(down, body.direction), rate)
         lead = material_named(self.declared, "lead").density
         assert lead is not None
@@ -161,19 +162,15 @@ def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)
-        yield _turned(frame, "pendulum rod", (hanger.point, hanger.down, hanger.direction), rod)
+        yield turned_about(frame, _hung("pendulum rod", rod), hanger.down, hanger.point)
         bob = Band(-_THICK * wide, _THICK * wide, wide)
-        yield _turned(frame, "pendulum bob", (end, hanger.direction, hanger.down), bob)
+        yield turned_about(frame, _hung("pendulum bob", bob), hanger.direction, end)
     elif hanger.kind == "weight":
-        yield _turned(frame, "weight", (end, hanger.down, hanger.direction), Band(0.0, _TALL * wide, wide))
+        yield turned_about(frame, _hung("weight", Band(0.0, _TALL * wide, wide)), hanger.down, end)
 
 
-def _turned(frame: int, name: str, place: tuple[Vector, Vector, Vector], band: Band) -> SolidPart:
-    at, z, x = place
-    turn = np.column_stack([x, cross(z, x), z])
-    kind = name.split()[-1]
-    part = TurnedPart("", name, kind, (0.0, 0.0), (band,))
-    return SolidPart(frame, name, kind, turn, np.array(at), turned=part)
+def _hung(name: str, band: Band) -> TurnedPart:
+    return TurnedPart("", name, name.split()[-1], (0.0, 0.0), (band,))
 
 
 # ------------------------------------------------------------------------------------------------------------- brackets
@@ -368,7 +365,7 @@ class _CageBuilder:
         eye = self._eye(radius, post, end + side * (GAP + post))
         height = self.height(eye.place)
         aside = eye.place - on_axis(self.carrier, height)
-        away = float(np.hypot(*self._flat(aside)))
+        away = float(np.linalg.norm(np.cross(self.carrier.direction, aside)))
         seat = self._own_wheel(height, away)
         if seat is not None and self._is_behind_a_plate(height, seat):
             seat, level = None, self._beside(height)
@@ -382,10 +379,6 @@ class _CageBuilder:
         if seat is None:
             parts.append(self._arm(aside, away, level, post))
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
-
-    def _flat(self, aside: Floats) -> tuple[float, float]:
-        right, up = basis(self.carrier.direction)
-        return float(aside @ np.array(right)), float(aside @ np.array(up))
 
     def _outer_end(self) -> tuple[int, float]:
         """Return the outer end of the wheels along their arbor, as the side of the carrier's axis and position (mm)."""
@@ -402,18 +395,14 @@ class _CageBuilder:
         part = TurnedPart(
             self.carrier.id, f"{self.body.id} eye", "collar", (0.0, 0.0), (Band(-post, post, radius + LAND, bore),)
         )
-        return self._placed(part, on_axis(self.body, middle), self.body)
+        return turned_about(self.index, part, self.body.direction, on_axis(self.body, middle))
 
     def _post(self, foot: Floats, ends: Sequence[float], radius: float) -> SolidPart:
         """Return the post from the eye, with a tenon from the second to the third height."""
         sizes = zip(pairwise(ends), (radius, TENON * radius), strict=False)
         bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
         part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
-        return self._placed(part, foot, self.carrier)
-
-    def _placed(self, part: TurnedPart, place: Floats, about: SceneBody) -> SolidPart:
-        turn = np.column_stack([*basis(about.direction), about.direction])
-        return SolidPart(self.index, part.name, part.kind, turn, place, turned=part)
+        return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
         """Return the nearest face of the carrier's wheels that extend to a post within their teeth, or None."""

@@ -16,7 +16,7 @@ import numpy as np
 from geartrain.numerics.vectors import cross, dot
 from geartrain.scene.dial_scale import DialScale, engrave
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.parts.pillar_places import clear_of, pillar_places
+from geartrain.scene.parts.pillar_places import clear_of, far_apart, pillar_places
 from geartrain.scene.parts.stack_discs import Point, swept_circle
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing, around
@@ -147,16 +147,14 @@ def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> 
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:
         side = dot(face.normal, stack.normal)
-        axis = next((label for label, column in columns.items() if _same(column.at, stack.flat(face.centre))), None)
+        axis = next(
+            (label for label, column in columns.items() if dist(column.at, stack.flat(face.centre)) < _SAME), None
+        )
         upright = face.look == "scale" and abs(abs(side) - 1) < _SAME
         if scene.bodies[face.body].id == stack.frame and axis is not None and upright:
             groups.setdefault(1 if side > 0 else -1, {}).setdefault(axis, []).append(face)
     found = (_plate(side, by_axis, columns, plan, thickness) for side, by_axis in groups.items())
     return [plate for plate in found if plate is not None]
-
-
-def _same(one: Point, other: Point) -> bool:
-    return dist(one, other) < _SAME
 
 
 def _plate(
@@ -234,7 +232,7 @@ def dial_feet(
     free = [
         spot for at, radius in circles for spot in _tried(at, radius) if clear_of(spot, turning) > FOOT_RADIUS + _GAP
     ]
-    spots = _apart(free)
+    spots = far_apart(free, free[0], _MOST) if free else []
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
         even = len({column.at for column in plan.columns}) == 1  # same condition as for pillars
         spots = pillar_places(
@@ -270,19 +268,6 @@ def _tried(at: Point, radius: float) -> Iterator[Point]:
     for share, way in product(_SHARES, range(_WAYS)):
         away, turn = min(share * radius, radius - FOOT_RADIUS - _EDGE), 2 * pi * (way + 0.5) / _WAYS
         yield at[0] + away * cos(turn), at[1] + away * sin(turn)
-
-
-def _apart(free: Sequence[Point]) -> list[Point]:
-    """Return the first position, then repeatedly the position farthest from the chosen positions (greedy
-    dispersion).
-    """
-    taken = list(free[:1])
-    while len(taken) < min(_MOST, len(free)):
-        spot = max(free, key=lambda each: min(dist(each, other) for other in taken))
-        if spot in taken:
-            break
-        taken.append(spot)
-    return taken
 
 
 def _foot(plan: FramePlan, name: str, at: Point, ends: tuple[tuple[float, float], ...]) -> TurnedPart:

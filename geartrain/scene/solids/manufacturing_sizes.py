@@ -208,7 +208,7 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
     wanted = _thicknesses(declared, layout, making)
     if all(wanted[name] == place.thickness for name, place in layout.wheels.items()):
         return layout
-    upright = all(_is_upright(layout, place) for place in layout.wheels.values())
+    upright = all(abs(layout.axes[place.axis].direction[2]) == 1 for place in layout.wheels.values())
     more: dict[float, float] = {}
     for name, place in layout.wheels.items():
         height = round(place.centre[2], 6)
@@ -243,10 +243,6 @@ def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
-
-
-def _is_upright(layout: Layout, place: WheelPlace) -> bool:
-    return abs(layout.axes[place.axis].direction[2]) == 1
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:

@@ -19,11 +19,19 @@ from geartrain.scene.parts.frame_stack import FrameStack
 from geartrain.scene.parts.processes import Process, process_named
 from geartrain.scene.parts.sleeves import find_barrel
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import Plates, basis, coupling_discs
-from geartrain.scene.solids.carrier_cages import Bracket, Cage, HangingParts, find_brackets, find_cages, hanging_solids
+from geartrain.scene.solids.bearing_plates import Plates, coupling_discs
+from geartrain.scene.solids.carrier_cages import (
+    Bracket,
+    Cage,
+    HangingParts,
+    find_brackets,
+    find_cages,
+    hanging_solids,
+    wheel_ends,
+)
 from geartrain.scene.solids.dial_plates import THICKNESS, DialPlate, dial_plates
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick, with_backlash
-from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
+from geartrain.scene.solids.solid_part import SolidPart, turned_about, wheel_frame
 from geartrain.scene.solids.standing_pins import (
     CouplingParts,
     CutCoupling,
@@ -239,7 +247,7 @@ class _Parts:
             yield from self.plates(self.work.frame)
             yield from self.dials(self.work.frame)
         work = self.work
-        yield from CouplingParts(self.scene, work.cut_couplings, work.blanks.wheels, work.process).parts()
+        yield from CouplingParts(self.scene, work.cut_couplings, work.process).parts()
 
     def hanging(self) -> Iterator[SolidPart]:
         if (hanging := self.work.hanging) is not None:
@@ -269,21 +277,13 @@ class _Parts:
         reach = [(each.body, each.reach) for each in self.work.brackets]
         reach += [(each.body, each.reach) for each in self.work.cages]
         for at, body in enumerate(self.scene.bodies):
-            own = [wheel for wheel in self.scene.wheels if wheel.body == at and wheel.kind != "ring"]
-            radius = radii.get(body.axis, 0.0) / 2
-            if body.parent is None or body.axis in borne or not own or not radius:
+            wheels, radius = wheel_ends(self.scene, at), radii.get(body.axis, 0.0) / 2
+            if body.parent is None or body.axis in borne or wheels is None or not radius:
                 continue
-            point, along = np.array(body.point), np.array(body.direction)
-            ends = [float((np.array(wheel.centre) - point) @ along) + end for wheel in own for end in self._span(wheel)]
-            ends = [min(ends) - _GAP, max(ends) + _GAP, *(end for bearer, end in reach if bearer == at)]
-            bands = (Band(min(ends), max(ends), radius),)
-            part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), bands)
-            turn = np.column_stack([*basis(body.direction), body.direction])
-            yield SolidPart(at, part.name, "arbor", turn, point, turned=part)
-
-    def _span(self, wheel: SceneWheel) -> tuple[float, float]:
-        blank = self.work.blanks.wheels.get(wheel.id)
-        return wheel.span if blank is None else (-blank.thickness / 2, blank.thickness / 2)
+            ends = [wheels[0] - _GAP, wheels[1] + _GAP, *(end for bearer, end in reach if bearer == at)]
+            band = Band(min(ends), max(ends), radius)
+            part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), (band,))
+            yield turned_about(at, part, body.direction, body.point)
 
     def turned(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Yield arbors, pipes, studs, collars, pillars and posts."""

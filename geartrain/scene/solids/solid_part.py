@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, sin
@@ -10,7 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.numerics.results import Shown
+from geartrain.numerics.vectors import Vector
 from geartrain.scene.parts.turned_parts import TurnedPart
+from geartrain.scene.solids.bearing_plates import basis
 from geartrain.scene.solids.triangle_solids import Solid, plate_solid
 from geartrain.teeth.outlines.contour import Contour
 
@@ -64,6 +67,12 @@ class SolidPart(Shown):
     def placed(self) -> Solid:
         """Solid moved to its position in the zero pose."""
         return self.solid.moved(self.turn, self.place.tolist())
+
+
+def turned_about(body: int, part: TurnedPart, direction: Vector, place: Sequence[float] | Floats) -> SolidPart:
+    """Return a turned part of a body, with its axis along a direction through a place [mm]."""
+    turn = np.column_stack([*basis(direction), direction])
+    return SolidPart(body, part.name, part.kind, turn, np.array(place), turned=part)
 
 
 def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:

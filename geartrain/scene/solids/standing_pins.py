@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from math import asin, atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
@@ -21,8 +22,8 @@ from geartrain.scene.parts.eccentrics import StandingPins
 from geartrain.scene.parts.pillar_places import clear_of
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
-from geartrain.scene.solids.bearing_plates import around, basis, holed_bar, pin_diameter, slotted_bar
-from geartrain.scene.solids.solid_part import SolidPart, wheel_frame
+from geartrain.scene.solids.bearing_plates import around, holed_bar, pin_diameter, slotted_bar
+from geartrain.scene.solids.solid_part import SolidPart, turned_about, wheel_frame
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
@@ -66,9 +67,7 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
             found[coupling.id] = CutCoupling(coupling, None, slots[0])
         elif coupling.drawn and pins and slots:
             along = np.array(scene.bodies[coupling.slot].direction)
-            near = min(
-                ((pin, slot) for pin in pins for slot in slots), key=lambda both: _apart(both[0], both[1], along)
-            )
+            near = min(product(pins, slots), key=lambda both: abs(np.subtract(both[0].centre, both[1].centre) @ along))
             found[coupling.id] = CutCoupling(coupling, *near)
     return found
 
@@ -94,10 +93,6 @@ def _wide_wheels(
     ]
 
 
-def _apart(one: SceneWheel, other: SceneWheel, along: Floats) -> float:
-    return float(abs(np.subtract(one.centre, other.centre) @ along))
-
-
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
     """Return the bar with the slot; if no sizes are declared, with a round hole in which the pin moves uniformly."""
     shape = slotted_bar if coupling.drawn else holed_bar
@@ -116,13 +111,6 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
     x = out / np.linalg.norm(out)
     x = cos(coupling.slot_turn) * x + sin(coupling.slot_turn) * np.cross(along, x)
     return np.column_stack([x, np.cross(along, x), along])
-
-
-def pin_axis(scene: Scene, coupling: SceneCoupling) -> tuple[Floats, Floats]:
-    """Return unit vectors across and along a pin as columns, and the point of its axis at height 0."""
-    direction = scene.bodies[coupling.slot].direction
-    along, at = np.array(direction), np.array(coupling.pin_at)
-    return np.column_stack([*basis(direction), along]), at - along * (at @ along)
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
@@ -163,15 +151,13 @@ class CouplingParts:
     scene: Scene
     cut: Mapping[str, CutCoupling]
     """Couplings that are cut into wheels."""
-    wheels: Mapping[str, Blank]
-    """Flat shapes of wheels by name."""
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
         """Yield pins, from their wheel to the slot's wheel, and bars for slots that are not cut into a wheel."""
         for coupling in self.scene.couplings:
-            turn, axis = pin_axis(self.scene, coupling)
-            along, cut = turn[:, 2], self.cut.get(coupling.id)
+            direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
+            along = np.array(direction)
             if coupling.hole and (cut is None or cut.pin is None):
                 continue  # no wheel carries such pins
             if cut is None or cut.pin is None:
@@ -181,27 +167,25 @@ class CouplingParts:
             else:
                 low, high = self._faces(cut.pin, cut.slot, along)
             band = Band(low, high, pin_width(coupling) / 2)
-            joint, first = self.process.joint, np.array(coupling.pin_at)
             for at, place in enumerate(coupling.pins_at or (coupling.pin_at,)):
                 name = f"{coupling.id} pin" + (f" {at + 1}" if coupling.pins_at else "")
-                part = TurnedPart(self.scene.bodies[coupling.pin].id, name, "pin", (0.0, 0.0), (band,), joint)
-                middle = axis + np.array(place) - first
-                yield SolidPart(coupling.pin, name, part.kind, turn, middle, turned=part)
+                link = self.scene.bodies[coupling.pin].id
+                part = TurnedPart(link, name, "pin", (0.0, 0.0), (band,), self.process.joint)
+                foot = np.array(place) - along * (np.array(coupling.pin_at) @ along)  # at height 0
+                yield turned_about(coupling.pin, part, direction, foot)
             if cut is None:
-                yield self._pin_arm(coupling, turn, levels[0])
+                yield self._pin_arm(coupling, along, levels[0])
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
         """Return the interval from the far face of the pin's wheel to the far face of the slot's wheel."""
-        ends = [
-            float(wheel.centre @ along) + side * self._thick(wheel) / 2 for wheel in (pin, slot) for side in (-1, 1)
-        ]
+        ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
         return min(ends), max(ends)
 
-    def _pin_arm(self, coupling: SceneCoupling, turn: Floats, level: float) -> SolidPart:
+    def _pin_arm(self, coupling: SceneCoupling, along: Floats, level: float) -> SolidPart:
         """Return an arm from the axis of the pin's link to the pin."""
         body = self.scene.bodies[coupling.pin]
-        along, pin = turn[:, 2], np.array(coupling.pin_at)
+        pin = np.array(coupling.pin_at)
         hub = np.array(body.point) + along * (level - float(np.array(body.point) @ along))
         aside = pin - hub - along * float((pin - hub) @ along)
         away = float(np.linalg.norm(aside))
@@ -220,15 +204,11 @@ class CouplingParts:
         """Return the face of the wheels of a body that is nearest to a height."""
         own = [wheel for wheel in self.scene.wheels if wheel.body == body]
         faces = [
-            float(np.array(wheel.centre) @ along) + side * (self._thick(wheel) + _GAP) / 2
+            float(np.array(wheel.centre) @ along) + side * (wheel.thickness + _GAP) / 2
             for wheel in own
             for side in (-1, 1)
         ]
         return min(faces, key=lambda face: abs(face - height), default=float(height))
-
-    def _thick(self, wheel: SceneWheel) -> float:
-        blank = self.wheels.get(wheel.id)
-        return wheel.thickness if blank is None else blank.thickness
 
 
 # ------------------------------------------------------------------------------------------------------- pins in plates

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
-from itertools import pairwise
 from math import ceil, isnan, nan, pi, tan
 from typing import TYPE_CHECKING
 
@@ -204,11 +203,11 @@ def joined(solids: Iterable[Solid]) -> Solid:
     )
 
 
-def welded(solid: Solid) -> Solid:
-    """Return the solid with coincident points merged, and without the triangles that become degenerate."""
-    _, first, index = np.unique(solid.vertices.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
-    faces = np.asarray(index).reshape(-1)[solid.faces]
-    return Solid(solid.vertices[first], faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
+def _merged(points: Floats, faces: Integers) -> tuple[Floats, Integers]:
+    """Return points without duplicates, and the faces with the new indices."""
+    # rounded only for the comparison, because pitches differ in the last digits; + 0.0 turns -0.0 into 0.0
+    _, first, index = np.unique(points.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
+    return points[first], np.asarray(index).reshape(-1)[faces]
 
 
 def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
@@ -221,23 +220,17 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
         return plate_solid(contours, blank.thickness, tolerance)
     radius = float(abs(others[0].points).max()) if others else 0.0
     own = len(teeth.points) // blank.teeth + 1
-    line = _open(teeth, own, tolerance)
+    line = Contour(teeth.points[:own], np.append(teeth.bulges[: own - 1], 0.0)).flattened(tolerance)
     tooth = line[simplified(line, tolerance)]
     pitch = _pitch(tooth, radius, blank.teeth, tolerance)
-    return twisted(*_repeated(*fill(pitch), blank.teeth), blank.thickness, blank.twist)
-
-
-def _open(contour: Contour, count: int, tolerance: float) -> Floats:
-    """Return the first `count` vertices of a contour as a polyline, with chords for its arcs."""
-    bulges = np.append(contour.bulges[: count - 1], 0.0)
-    return Contour(contour.points[:count], bulges).flattened(tolerance)
+    return extruded(*_repeated(*fill(pitch), blank.teeth), blank.thickness, blank.twist)
 
 
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
     """Return a flat part with holes, its middle plane at z = 0."""
     outer, *others = contours
     holes = [round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
-    return raised(*fill(outer.flattened(tolerance), holes), thickness)
+    return extruded(*fill(outer.flattened(tolerance), holes), thickness)
 
 
 def round_about(circle: Contour) -> Floats:
@@ -248,32 +241,43 @@ def round_about(circle: Contour) -> Floats:
     return np.asarray(centre + radius * np.stack([np.cos(turn), np.sin(turn)], axis=1))
 
 
-def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
-    """Return a flat shape (n, 2) extruded by half the thickness to each side, with walls on its boundary edges."""
-    return piled(
-        [np.column_stack([points, np.full(len(points), z)]) for z in (-thickness / 2, thickness / 2)], triangles
-    )
+def extruded(
+    points: Floats, triangles: Integers, thickness: float, twist: float = 0.0, layers: int | None = None
+) -> Solid:
+    """Return a flat shape (n, 2) extruded by half the thickness to each side, with the top rotated by `twist` [rad].
 
-
-def twisted(points: Floats, triangles: Integers, thickness: float, twist: float) -> Solid:
-    """Return a flat shape (n, 2) extruded by half the thickness to each side, with the top rotated by `twist` [rad]."""
+    Its boundary edges become walls of `layers` layers; by default each layer turns by at most 0.1 rad.
+    """
     x, y = points.T
-    layers = []
-    for height in np.linspace(-0.5, 0.5, 1 + max(1, ceil(abs(twist) / _SLICE))).tolist():
+    sections = []
+    for height in np.linspace(-0.5, 0.5, 1 + (layers or max(1, ceil(abs(twist) / _SLICE)))).tolist():
         c, s = np.cos(height * twist), np.sin(height * twist)
-        layers.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height * thickness)]))
-    return piled(layers, triangles)
-
-
-def piled(layers: Sequence[Floats], triangles: Integers) -> Solid:
-    """Return the solid through several copies (n, 3) of one flat shape, from the lowest to the highest."""
+        sections.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height * thickness)]))
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     known = {(a, b) for a, b in edges.tolist()}
     rim = np.array([(a, b) for a, b in edges.tolist() if (b, a) not in known], dtype=np.int64)
-    n, top = len(layers[0]), len(layers[0]) * (len(layers) - 1)
-    a, b = (rim.T[:, None] + n * np.arange(len(layers) - 1)[:, None]).reshape(2, -1)
+    n, top = len(points), len(points) * (len(sections) - 1)
+    a, b = (rim.T[:, None] + n * np.arange(len(sections) - 1)[:, None]).reshape(2, -1)
     walls = np.concatenate([np.stack([a, b, b + n], axis=1), np.stack([a, b + n, a + n], axis=1)])
-    return Solid(np.concatenate(layers), np.concatenate([triangles[:, ::-1], triangles + top, walls]))
+    return Solid(np.concatenate(sections), np.concatenate([triangles[:, ::-1], triangles + top, walls]))
+
+
+def lathed(rows: Sequence[Floats]) -> Solid:
+    """Return the surface through rows of points (n, 3), each counter-clockwise, and from the last row to the first.
+
+    A row of one point is a pole, in which the surface ends.
+    """
+    starts = np.cumsum([0, *map(len, rows)])
+    count = max(map(len, rows))
+    rings = [start + np.arange(count) * (len(row) > 1) for start, row in zip(starts.tolist(), rows, strict=False)]
+    faces = []
+    for low, high in zip(rings, [*rings[1:], rings[0]], strict=True):
+        after = np.roll(high, -1)
+        if low[0] != low[-1]:
+            faces.append(np.column_stack([low, np.roll(low, -1), after]))
+        if high[0] != high[-1]:
+            faces.append(np.column_stack([low, after, high]))
+    return Solid(np.concatenate(rows), np.concatenate(faces).astype(np.int64))
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
@@ -296,10 +300,7 @@ def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, 
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
     every = np.stack([c * x - s * y, s * x + c * y], axis=-1).reshape(-1, 2)
-    # rounded only for the comparison, because pitches differ in the last digits; + 0.0 turns -0.0 into 0.0
-    _, first, index = np.unique(every.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
-    faces = (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3)
-    return every[first], np.asarray(index).reshape(-1)[faces]
+    return _merged(every, (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3))
 
 
 # ------------------------------------------------------------------------------------------------ bevels, crowns, worms
@@ -316,11 +317,13 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
     bore   diameter of its hole, unless it is a ring (mm)
     """
     if wheel.kind == "worm":
-        return _worm(wheel, profile, bore)
+        twist = wheel.thickness * tan(wheel.helix) / wheel.radius
+        return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
     if wheel.cone:
-        return welded(_coned(wheel, profile, bore))
-    points, triangles = _section(wheel, profile, bore)
-    return raised(points, triangles, wheel.thickness)
+        coned = _coned(wheel, profile, bore)
+        vertices, faces = _merged(coned.vertices, coned.faces)
+        return Solid(vertices, faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])  # without degenerate triangles
+    return extruded(*_section(wheel, profile, bore), wheel.thickness)
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
@@ -370,7 +373,7 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
     back = rows[0].copy()
     back[:, 2] = behind
     rows = [_at_bore(back, bore), back, *rows, _at_bore(rows[-1], bore)]
-    toothed = _revolved(rows, closed=bore > 0)
+    toothed = lathed(rows)
     if wheel.facing < 0:  # the apex is on the positive side of its axis
         return toothed
     return Solid(toothed.vertices * (1.0, 1.0, -1.0), toothed.faces[:, ::-1])
@@ -404,35 +407,3 @@ def _at_bore(row: Floats, bore: float) -> Floats:
         return np.array([[0.0, 0.0, row[:, 2].mean()]])
     r = bore / 2 / np.cos(pi / len(row))  # circumscribed, as for other holes
     return np.column_stack([r * np.cos(angle), r * np.sin(angle), row[:, 2]])
-
-
-def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
-    """Return the surface through rows of points, each counter-clockwise.
-
-    It is closed through the bore, or by a point at each end.
-    """
-    count, starts = len(rows[1]), np.cumsum([0, *map(len, rows)])
-    here, after = np.arange(count), (np.arange(count) + 1) % count
-    faces = []
-    rings = [(low, high) for low, high in pairwise(starts[:-1])] + ([(starts[-2], starts[0])] if closed else [])
-    for low, high in rings if closed else rings[1:-1]:
-        faces.append(np.stack([low + here, low + after, high + after], axis=1))
-        faces.append(np.stack([low + here, high + after, high + here], axis=1))
-    if not closed:
-        first, last = starts[1], starts[-3]
-        faces.append(np.stack([first + after, first + here, np.zeros(count, dtype=int)], axis=1))
-        faces.append(np.stack([last + here, last + after, np.full(count, starts[-2])], axis=1))
-    return Solid(np.concatenate(rows), np.concatenate(faces))
-
-
-def _worm(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a worm: a section with as many lobes as starts, rotated along the axis by its lead."""
-    points, triangles = _section(wheel, profile, bore)
-    heights = np.linspace(-0.5, 0.5, _SLICES + 1) * wheel.thickness
-    slices = []
-    for height in heights:
-        turn = height * tan(wheel.helix) / wheel.radius
-        c, s = np.cos(turn), np.sin(turn)
-        x, y = points.T
-        slices.append(np.column_stack([c * x - s * y, s * x + c * y, np.full(len(points), height)]))
-    return piled(slices, triangles)

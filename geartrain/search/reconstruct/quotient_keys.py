@@ -85,25 +85,6 @@ class QuotientKeys:
             found[self.need_few(keys, wheels)] = wheels
         return found
 
-    def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return for the keys of each array whether a key of the other differs from them by at most `wheels` added
-        wheels.
-        """
-        if wheels < 0 or not len(keys) or not len(others):
-            return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
-        few = self.few(wheels) if wheels <= _FEW else None
-        short, long = sorted((len(keys), len(others)))
-        if few is None or short * min(len(few), long) > 2 * _LONGEST:
-            return np.ones(keys.shape, dtype=bool), np.ones(others.shape, dtype=bool)
-        if long <= len(few):
-            pairs = _are_in(few, np.subtract.outer(keys, others))
-            return np.asarray(pairs.any(axis=1)), np.asarray(pairs.any(axis=0))
-        if len(keys) > len(others):
-            more, some = self.agreeing(others, keys, wheels)
-            return some, more
-        reached = np.add.outer(keys, few)  # the set of quotients is closed under inversion
-        return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
-
     def few(self, wheels: int) -> Keys | None:
         """Return the sorted keys of all quotients of at most `wheels` added counts; None if there are too many."""
         if wheels not in self._fewer:

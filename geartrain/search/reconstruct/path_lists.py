@@ -307,7 +307,7 @@ class PathList:
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
         """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
-        growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
+        growth = PathGrowth.start(len(self.passes), self.keys.key(self._wanted), self._powers(self._wanted))
         self._examined = 0
         found = []
         for piece in self._grown(growth, self._seen.order):
@@ -404,14 +404,6 @@ class PathList:
         """
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
-
-    @property
-    def _wanted_key(self) -> int:
-        return self.keys.key(self._wanted)
-
-    @property
-    def _wanted_powers(self) -> NDArray[np.int8]:
-        return self._powers(self._wanted)
 
     # added arbors on a path
 

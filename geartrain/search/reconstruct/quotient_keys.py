@@ -24,8 +24,6 @@ _LONGEST = 3_000_000
 
 _SCARCE = 500
 """Number of keys below which a table of quotients of three wheels costs more than a direct test."""
-_FEW = 2
-"""Maximum number of added wheels whose quotients are all tabulated."""
 
 
 class QuotientKeys:
@@ -73,16 +71,12 @@ class QuotientKeys:
         counts = self._counts if drivers > driven else -self._counts
         return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 
-    def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
-        """Return whether each key belongs to a quotient of at most `wheels` added counts, without false negatives."""
-        few = self.few(wheels) if wheels <= _FEW else None
-        return np.ones(keys.shape, dtype=bool) if few is None else _are_in(few, keys)
-
     def fewest(self, keys: Keys, most: int) -> NDArray[np.int8]:
         """Return a lower bound, at most `most` + 1, of the number of added wheels for each quotient."""
         found = np.full(keys.shape, most + 1, dtype=np.int8)
         for wheels in range(most, -1, -1):
-            found[self.need_few(keys, wheels)] = wheels
+            few = self.few(wheels)
+            found[... if few is None else _are_in(few, keys)] = wheels
         return found
 
     def few(self, wheels: int) -> Keys | None:

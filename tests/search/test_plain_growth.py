@@ -75,6 +75,7 @@ def test_exact_questions_have_the_answers_of_plain_growth(first: int) -> None:
     [
         ("quotient_keys.QuotientKeys._word", lambda *_: 1, 2000),  # nearly all numbers have keys of others
         ("path_lists._PIECE", 3, 2020),
+        ("path_choice._PIECE", 3, 2030),
     ],
 )
 def test_no_answer_depends_on_keys_or_on_how_many_paths_are_grown_at_once(

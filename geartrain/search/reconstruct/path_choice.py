@@ -1,21 +1,23 @@
 """Backtracking search for one path to every dial, such that all of them are paths of one train.
 
-Bit masks represent shared arbors and wheels, and the length of the shortest tour of the dials is the lower bound that
-prunes branches.
+A hash join on quotients finds pairs of paths, bit masks represent shared arbors and wheels, and the length of the
+shortest tour of the dials is the lower bound that prunes branches.
 
 The distance between two dials is the number of added wheels on exactly one of their paths; the distance of a dial from
 the input is the number on its path. A tour around the tree passes each added wheel twice, so not all distances can be
-large. After each choice only paths of the other dials remain that are compatible with all chosen ones, and the dial
-with the fewest paths is next.
+large. The search therefore begins with a short path, or with two paths at a small distance, whose quotients are looked
+up in a table. Then only paths of the other dials remain that are compatible with all chosen ones, and the dial with the
+fewest paths is next. The search is complete, because every choice begins in one of these ways.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, reduce
-from itertools import permutations
+from functools import cache, lru_cache, reduce
+from itertools import combinations, pairwise, permutations, product
 from operator import or_
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +42,12 @@ def end_pair(one: str, other: str) -> EndPair:
 def distances(ends: Sequence[str], far: Mapping[EndPair, int]) -> tuple[int, ...]:
     """Return the distance matrix of the ends, row by row, with 0 for unknown distances."""
     return tuple(far.get(end_pair(one, two), 0) for one in ends for two in ends)
+
+
+@lru_cache(maxsize=1 << 16)
+def shortest_tour(number: int, far: tuple[int, ...]) -> int:
+    """Return the minimum length of a closed tour through all ends, from their distance matrix."""
+    return min(far[one * number + two] + rest for one, two, rest in tours_with_one_more(number, far))
 
 
 @lru_cache(maxsize=1 << 16)
@@ -114,8 +122,8 @@ class PathColumns:
                 last = np.array([False, *(each.driver is None for each in passes)])
                 self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
 
-    def fit(self, rows: Rows, other: PathColumns, row: int) -> NDArray[np.bool_]:
-        """Return whether each path can be in one tree with a path to another dial.
+    def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
+        """Return whether each path can be in one tree with a path to another dial, or with one of several paths.
 
         Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
         by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
@@ -126,14 +134,16 @@ class PathColumns:
         for cluster in self._clusters:  # all paths to a component pass through its topmost arbor
             good &= (both & cluster != 0) | (mine & cluster == 0) | (theirs & cluster == 0)
         parted = np.zeros(len(rows), dtype=np.int8)
-        for at in np.flatnonzero(other.codes[:, row]).tolist():
-            codes = self.codes[at][rows]
-            left = (codes > 0) & (codes != other.codes[at, row])
+        one = isinstance(row, int)
+        for at in np.flatnonzero(other.codes[:, row]).tolist() if one else range(len(self.codes)):
+            codes, others = self.codes[at][rows], other.codes[at, row]
+            shared = codes > 0 if one else (codes > 0) & (others > 0)
+            left = shared & (codes != others)
             parted += left
-            good &= (codes == 0) | (self.driven[at][rows] == other.driven[at, row])
+            good &= ~(shared & (self.driven[at][rows] != other.driven[at, row]))
             driver = other.driver[at, row]
-            if driver:
-                good &= ~(left & (self.driver[at][rows] == driver))
+            if not one or driver:
+                good &= ~(left & (self.driver[at][rows] == driver) & (driver > 0))
             if not at:
                 good &= ~left | (both == 0)
         return good & (parted <= 1)
@@ -148,7 +158,7 @@ class PathColumns:
             found += differ if prime <= self.paths.problem.additions.maximum else differ * np.int16(_NEVER)
         return np.minimum(found, _NEVER).astype(np.int8)
 
-    def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int) -> NDArray[np.bool_]:
+    def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
         """Return whether each path satisfies the rule that a path which ends at an arbor of the other is a part
         of it.
         """
@@ -187,8 +197,14 @@ _INPUT = ""
 """Name of the input as an end of all paths."""
 _NEAR = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
+_SHORT = 2
+"""Difference between the number of added wheels of the train and of a short path; few others are then compatible."""
 _MOST_ENDS = 6
 """Maximum number of dials in tours, which are tried in all orders. Further dials are ignored."""
+_PIECE = 1 << 21
+"""Number of keys that are looked up at once."""
+_MOST_PAIRS = 1 << 22
+"""Maximum number of pairs of paths to two dials that are all compared in advance."""
 _EVEN_SHARES = 50
 """Minimum number of paths that are distributed in turn over the parts of a search."""
 
@@ -203,8 +219,6 @@ class PathChoice:
         self.problem, self.lists, self.keys = problem, lists, keys
         self._idlers = int(problem.idlers)
         self._must = all_to_use(problem)
-        # compatible paths of choices that every part of the search repeats
-        self._kept: dict[Hashable, dict[str, _Compatible] | None] = {}
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
@@ -212,62 +226,182 @@ class PathChoice:
         `parts`.
         """
         self._added = added
-        lists = {}
-        for dial, paths in self.lists.items():
-            rows = np.flatnonzero(paths.wheels <= added)
-            lists[dial] = _Compatible(rows, {_INPUT: paths.wheels[rows].astype(np.int8)})
-        yield from self._extended(_Chosen(), lists, _RoundRobin(part, parts))
+        whole = {
+            dial: _Compatible(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
+            for dial, rows in self._with_partners(added).items()
+        }
+        share = _RoundRobin(part, parts)
+        if len(whole) == 1:
+            ((dial, near),) = whole.items()
+            near = near.kept(np.int64(self._must) & ~self._columns[dial].used[near.rows] == 0)
+            yield from ({dial: row} for row in near.rows.tolist() if share.is_own())
+        else:
+            short = max(0, added - _SHORT)
+            yield from self._from_short(short, whole, share)
+            whole = {dial: near.beyond({_INPUT: short + 1}) for dial, near in whole.items()}
+            yield from self._from_near(short, whole, share)
+
+    @cache  # noqa: B019 -- lives as long as the lists
+    def _with_partners(self, added: int) -> dict[str, Rows]:
+        """Return the paths of each dial whose quotient is compatible with some path of each other dial."""
+        found = {
+            dial: [np.flatnonzero(paths.wheels == wheels) for wheels in range(added + 1)]
+            for dial, paths in self.lists.items()
+        }
+        for one, other in combinations(self.lists, 2):
+            if self.lists[one].dial.is_exact and self.lists[other].dial.is_exact:
+                found[one], found[other] = self._partners(one, found[one], other, found[other], added)
+        return {dial: np.sort(np.concatenate(groups)) for dial, groups in found.items()}
+
+    def _partners(
+        self, one: str, groups: list[Rows], other: str, others: list[Rows], added: int
+    ) -> tuple[list[Rows], list[Rows]]:
+        some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
+        for own, another in product(range(added + 1), repeat=2):
+            far = 2 * added - own - another + self._idlers
+            keys = self.lists[one].wanted[groups[own]], self.lists[other].wanted[others[another]]
+            first, second = self.keys.agreeing(*keys, far)
+            some[own] |= first
+            more[another] |= second
+        return (
+            [rows[good] for rows, good in zip(groups, some, strict=True)],
+            [rows[good] for rows, good in zip(others, more, strict=True)],
+        )
+
+    # first choices
+
+    def _from_short(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
+        """Yield all choices that include a path of at most `most` added wheels, beginning with its shortest path."""
+        for wheels in range(most + 1):
+            for at, (dial, near) in enumerate(lists.items()):
+                others = {
+                    other: some.beyond({_INPUT: wheels + (number < at)})
+                    for number, (other, some) in enumerate(lists.items())
+                    if other != dial
+                }
+                rows = near.rows[near.far[_INPUT] == wheels].tolist()
+                own = share if len(rows) >= _EVEN_SHARES else None
+                for row in rows:
+                    if own is None or own.is_own():
+                        yield from self._extended(dial, row, _Chosen(), others, {}, None if own else share)
+
+    def _from_near(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
+        """Yield all choices without a short path, beginning with two paths at a small distance if there are any."""
+        pairs = list(combinations(lists, 2))
+        ends = (_INPUT, *lists)
+        for far in range(2):
+            for at, (one, other) in enumerate(pairs):
+                minimum = {pair: far + (number < at) for number, pair in enumerate(pairs)}
+                if (
+                    self._may_close(ends, {**{(_INPUT, dial): most + 1 for dial in lists}, **minimum})
+                    and share.is_own()
+                ):
+                    yield from self._from_pair(one, other, far, lists, minimum)
+        minimum = dict.fromkeys(pairs, 2)
+        if self._may_close(ends, {**{(_INPUT, dial): most + 1 for dial in lists}, **minimum}):
+            dial = min(lists, key=lambda each: len(lists[each].rows))
+            others = {other: near for other, near in lists.items() if other != dial}
+            for row in lists[dial].rows.tolist():
+                if share.is_own():
+                    yield from self._extended(dial, row, _Chosen(), others, minimum, None)
+
+    def _from_pair(
+        self, one: str, other: str, far: int, lists: dict[str, _Compatible], minimum: Mapping[EndPair, int]
+    ) -> Iterator[Choice]:
+        rest = {dial: near for dial, near in lists.items() if dial not in (one, other)}
+        for row, partners in self._join(one, lists[one].rows, other, lists[other].rows, far):
+            near = _Compatible(partners, {_INPUT: self.lists[other].wheels[partners].astype(np.int8)})
+            near = self._fitting(one, row, other, near, _Chosen(), {})
+            near = near.kept(near.far[one] == far)
+            if len(near.rows):
+                yield from self._extended(one, row, _Chosen(), {other: near, **rest}, minimum, None, {other: near})
 
     # further choices
 
-    def _extended(self, chosen: _Chosen, lists: dict[str, _Compatible], share: _RoundRobin | None) -> Iterator[Choice]:
-        """Yield all choices that extend the chosen paths by paths to the other dials.
+    def _extended(
+        self,
+        dial: str,
+        row: int,
+        chosen: _Chosen,
+        lists: Mapping[str, _Compatible],
+        minimum: Mapping[EndPair, int],
+        share: _RoundRobin | None,
+        known: Mapping[str, _Compatible] = MappingProxyType({}),
+    ) -> Iterator[Choice]:
+        """Yield all choices that extend the chosen paths by one more.
 
-        share   distribution of the next paths over the parts of the search; None if an earlier path was distributed
+        minimum   minimum distance of each pair of dials; smaller distances were searched before
+        known     lists of dials that are already restricted to paths compatible with the new one
         """
-        missing = self._missing(chosen.paths)
-        if missing & ~reduce(or_, (self._reach(each, near) for each, near in lists.items()), 0):
+        paths = {**chosen.paths, dial: row}
+        kept: dict[str, _Compatible] = dict(known)
+        for other in sorted(lists, key=lambda each: len(lists[each].rows)):
+            if other not in kept:
+                kept[other] = self._fitting(dial, row, other, lists[other], chosen, minimum)
+            if not len(kept[other].rows):
+                return
+        missing = self._missing(paths)
+        if missing & ~reduce(or_, (self._reach(each, near) for each, near in kept.items()), 0):
             return
-        dial = min(lists, key=lambda each: len(lists[each].rows))  # most constrained dial first
-        near = lists[dial]
-        others = {other: some for other, some in lists.items() if other != dial}
-        if not others:
-            near = near.kept(np.int64(missing) & ~self._columns[dial].used[near.rows] == 0)
-        # few paths are not distributed evenly; the paths to the next dial are distributed then
-        own = share if not others or len(near.rows) >= _EVEN_SHARES else None
-        for at, row in enumerate(near.rows.tolist()):
-            if own is not None and not own.is_own():
+        following = min(kept, key=lambda each: len(kept[each].rows))  # most constrained dial first
+        near = kept.pop(following)
+        if not kept:
+            near = near.kept(np.int64(missing) & ~self._columns[following].used[near.rows] == 0)
+        for at, next_row in enumerate(near.rows.tolist()):
+            if share is not None and not share.is_own():
                 continue
-            paths = {**chosen.paths, dial: row}
-            if not others:
-                yield paths
-                continue
-            key = self._added, *paths.items()
-            kept = self._kept[key] if key in self._kept else self._fitting(dial, row, others, chosen)
-            if share is not None and own is None:
-                self._kept[key] = kept
-            if kept is not None:
-                far = {end_pair(end, dial): int(each[at]) for end, each in near.far.items()}
-                yield from self._extended(_Chosen(paths, {**chosen.far, **far}), kept, None if own else share)
+            if not kept:
+                yield {**paths, following: next_row}
+            else:
+                own = {end_pair(end, following): int(each[at]) for end, each in near.far.items()}
+                own |= {end_pair(_INPUT, dial): int(self.lists[dial].wheels[row])}
+                after = _Chosen(paths, {**chosen.far, **own})
+                yield from self._extended(following, next_row, after, kept, minimum, None)
 
     def _fitting(
-        self, dial: str, row: int, lists: Mapping[str, _Compatible], chosen: _Chosen
-    ) -> dict[str, _Compatible] | None:
-        """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has
-        none.
-        """
-        kept = {}
+        self, dial: str, row: int, other: str, near: _Compatible, chosen: _Chosen, minimum: Mapping[EndPair, int]
+    ) -> _Compatible:
+        """Return the paths to another dial that are compatible with one more chosen path."""
+        known = self._compared(dial, row, other) if self._are_few(dial, other) else None
+        fits = self._columns[other].fit(near.rows, self._columns[dial], row) if known is None else known[0][near.rows]
+        near = near.kept(fits)
+        for path in chosen.paths.items():
+            near = near.kept(self._fork(path, (dial, row), other, near.rows))
+        near = near.also(dial, self._apart(dial, row, other, near.rows) if known is None else known[1][near.rows])
         ends = (_INPUT, *[*chosen.paths, dial][-_MOST_ENDS:])
-        far = {**chosen.far, (_INPUT, dial): int(self.lists[dial].wheels[row])}
-        for other, near in sorted(lists.items(), key=lambda each: len(each[1].rows)):
-            near = near.kept(self._columns[other].fit(near.rows, self._columns[dial], row))
-            for path in chosen.paths.items():
-                near = near.kept(self._fork(path, (dial, row), other, near.rows))
-            near = near.also(dial, self._apart(dial, row, other, near.rows))
-            kept[other] = near.kept(self._closes(ends, far, near))
-            if not len(kept[other].rows):
-                return None
-        return kept
+        wheels = int(self.lists[dial].wheels[row])
+        good = self._closes(ends, {**chosen.far, (_INPUT, dial): wheels}, near)
+        requested = minimum.get(end_pair(dial, other), 0)
+        return near.kept(good & (near.far[dial] >= requested) if requested else good)
+
+    def _are_few(self, dial: str, other: str) -> bool:
+        """Return whether all pairs of paths to two dials may be compared in advance."""
+        return len(self.lists[dial]) * len(self.lists[other]) <= _MOST_PAIRS
+
+    @cache  # noqa: B019 -- lives as long as the lists
+    def _compared(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
+        """Return the compatibility and the minimum distance of all paths to another dial with a chosen path."""
+        every = np.arange(len(self.lists[other]))
+        return self._columns[other].fit(every, self._columns[dial], row), self._apart(dial, row, other, every)
+
+    def _join(self, one: str, rows: Rows, other: str, others: Rows, far: int) -> Iterator[tuple[int, Rows]]:
+        """Yield each row of one dial with the compatible rows of another within a distance, by a hash join."""
+        first, second = self.lists[one], self.lists[other]
+        table = self.keys.few(far + self._idlers)
+        if table is None or not (first.dial.is_exact and second.dial.is_exact):
+            yield from ((row, others) for row in rows.tolist())
+            return
+        order = np.argsort(second.wanted[others], kind="stable")
+        keys = second.wanted[others][order]
+        piece = max(1, _PIECE // len(table))
+        for start in range(0, len(rows), piece):
+            own = rows[start : start + piece]
+            at, to = _equal_pairs(keys, np.add.outer(first.wanted[own], table).ravel())
+            at, to = own[at // len(table)], others[order[to]]
+            fits = self._columns[other].fit(to, self._columns[one], at)
+            at, to = at[fits], to[fits]
+            bounds = np.flatnonzero(np.diff(at, prepend=-1, append=-1))
+            yield from ((int(at[low]), to[low:high]) for low, high in pairwise(bounds.tolist()))
 
     # compatibility of ends
 
@@ -308,6 +442,10 @@ class PathChoice:
             good |= near.far[ends[one]].astype(np.int16) + near.far[ends[two]] + rest <= 2 * self._added
         return good
 
+    def _may_close(self, ends: Sequence[str], far: Mapping[EndPair, int]) -> bool:
+        ends = ends[: _MOST_ENDS + 1]
+        return shortest_tour(len(ends), distances(ends, far)) <= 2 * self._added
+
     # surviving wheels that must be used
 
     def _missing(self, paths: Mapping[str, int]) -> int:
@@ -340,6 +478,19 @@ class _Compatible:
     def also(self, end: str, far: NDArray[np.int8]) -> _Compatible:
         """Return the paths with their distances from one more end."""
         return _Compatible(self.rows, {**self.far, end: far})
+
+    def beyond(self, minimum: Mapping[str, int]) -> _Compatible:
+        """Return the paths that have at least the given distances from some ends."""
+        return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in minimum.items())))
+
+
+def _equal_pairs(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
+    """Return all pairs of indices of equal entries of `wanted` and of the sorted `keys`, ordered by the first index."""
+    start, end = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, side="right")
+    number = end - start
+    at = np.repeat(np.arange(len(wanted)), number)
+    first = np.repeat(start - np.append(0, np.cumsum(number)[:-1]), number)
+    return at, first + np.arange(len(at))
 
 
 class _RoundRobin:

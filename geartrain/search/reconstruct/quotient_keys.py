@@ -24,6 +24,8 @@ _LONGEST = 3_000_000
 
 _SCARCE = 500
 """Number of keys below which a table of quotients of three wheels costs more than a direct test."""
+_FEW = 2
+"""Maximum number of added wheels whose quotients are all tabulated."""
 
 
 class QuotientKeys:
@@ -71,13 +73,36 @@ class QuotientKeys:
         counts = self._counts if drivers > driven else -self._counts
         return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 
+    def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
+        """Return whether each key belongs to a quotient of at most `wheels` added counts, without false negatives."""
+        few = self.few(wheels) if wheels <= _FEW else None
+        return np.ones(keys.shape, dtype=bool) if few is None else _are_in(few, keys)
+
     def fewest(self, keys: Keys, most: int) -> NDArray[np.int8]:
         """Return a lower bound, at most `most` + 1, of the number of added wheels for each quotient."""
         found = np.full(keys.shape, most + 1, dtype=np.int8)
         for wheels in range(most, -1, -1):
-            few = self.few(wheels)
-            found[... if few is None else _are_in(few, keys)] = wheels
+            found[self.need_few(keys, wheels)] = wheels
         return found
+
+    def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return for the keys of each array whether a key of the other differs from them by at most `wheels` added
+        wheels.
+        """
+        if wheels < 0 or not len(keys) or not len(others):
+            return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
+        few = self.few(wheels) if wheels <= _FEW else None
+        short, long = sorted((len(keys), len(others)))
+        if few is None or short * min(len(few), long) > 2 * _LONGEST:
+            return np.ones(keys.shape, dtype=bool), np.ones(others.shape, dtype=bool)
+        if long <= len(few):
+            pairs = _are_in(few, np.subtract.outer(keys, others))
+            return np.asarray(pairs.any(axis=1)), np.asarray(pairs.any(axis=0))
+        if len(keys) > len(others):
+            more, some = self.agreeing(others, keys, wheels)
+            return some, more
+        reached = np.add.outer(keys, few)  # the set of quotients is closed under inversion
+        return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
 
     def few(self, wheels: int) -> Keys | None:
         """Return the sorted keys of all quotients of at most `wheels` added counts; None if there are too many."""

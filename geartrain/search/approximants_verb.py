@@ -38,10 +38,9 @@ def run(
     from geartrain.search.stern_brocot import Approximants, approximants
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
-    from geartrain.search.tooth_numbers_report import approximant_rows, describe_approximants
 
     answer = SearchAnswer.of(json, out, force)
     wanted = read_ratio(check_number(context, ratio), per)
     most = max(read_counts(text or counts).most for text in (wheels, pinions))
     found = Approximants(wanted, most, tuple(approximants(wanted.value, most)))
-    answer.give(found, approximant_rows(found), describe_approximants)
+    answer.give(found)

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from heapq import merge
 from typing import ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
@@ -213,19 +212,6 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
     return Fraction(*low), Fraction(*high)
 
 
-def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -> Iterator[Fraction]:
-    """Yield every positive fraction within the bounds in the order of its distance from `value` > 0.
-
-    If two fractions have the same distance, the smaller one is first.
-    """
-    low, high = neighbours(value, most_numerator, most_denominator)
-    most = (most_numerator, most_denominator)
-    up = (coprime(p, q) for p, q in _onward(low, high, most))
-    # the reciprocals of the fractions below are ascending too
-    down = (coprime(p, q) for q, p in _onward(high[::-1], low[::-1], most[::-1]))
-    return merge(down, up, key=lambda fraction: abs(fraction - value))
-
-
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
     """Return the minimum k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, at most `length` + 1.
 
@@ -248,16 +234,6 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
 def _room(near: IntegerPair, far: IntegerPair, most: IntegerPair) -> int:
     """Return the maximum number of steps from `near` towards `far` within the bounds."""
     return min((bound - p) // step for p, step, bound in zip(near, far, most, strict=True) if step)
-
-
-def _onward(before: IntegerPair, at: IntegerPair, most: IntegerPair) -> Iterator[IntegerPair]:
-    """Yield `at` and all larger fractions within the bounds, ascending; `before` is its lower neighbour."""
-    (a, b), (c, d) = before, at
-    while d:
-        yield c, d
-        # recurrence of the Farey sequence
-        k = min((most[0] + a) // c, (most[1] + b) // d)
-        a, b, c, d = c, d, k * c - a, k * d - b
 
 
 def _check(value: Fraction, most_numerator: int, most_denominator: int) -> None:

@@ -7,12 +7,12 @@ the searches share.
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -31,9 +31,7 @@ from geartrain.cli.common import (
     table_text,
 )
 from geartrain.cli.verbs import LazyGroup, Verbs
-
-if TYPE_CHECKING:
-    from geartrain.report.document import Document
+from geartrain.numerics.results import imported_function
 
 
 class SearchGroup(LazyGroup):
@@ -114,6 +112,18 @@ Per = Annotated[
 Tolerance = Annotated[
     str | None, typer.Option("--tolerance", help="Maximum relative error, such as 1e-6, 20 ppm or 0.001 %.")
 ]
+Clearance = Annotated[
+    str | None,
+    typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
+]
+Shift = Annotated[
+    int,
+    typer.Option(
+        "--centre-tolerance", min=0, help="Maximum difference between coaxial centre distances, in half modules."
+    ),
+]
+Hunting = Annotated[bool, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")]
+Different = Annotated[bool, typer.Option("--different", help="Require distinct tooth counts.")]
 Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of solutions to list.")]
 Pick = Annotated[
     int, typer.Option("--pick", min=1, help="With -o x.yaml: number of the listed solution to write as a declaration.")
@@ -159,18 +169,14 @@ class SearchAnswer:
         """Build the destination from the options; a file that cannot be written is rejected before the search."""
         return cls(json, sink(out, force, _FORMS), pick)
 
-    def give(
-        self,
-        found: Any,
-        rows: Sequence[Mapping[str, Any]],
-        describe: Callable[[Any], Document],
-        declared: Callable[[int], Mapping[str, Any]] | None = None,
-    ) -> None:
+    def give(self, found: Any, declared: Callable[[int], Mapping[str, Any]] | None = None) -> None:
         """Print or write the solutions and exit: code 0 if there are solutions, 1 if not, 130 after an interruption.
 
-        rows       the solutions as a flat table
+        found      result with a flat table of solutions and a page
         declared   function from the index of a solution to its declaration
         """
+        table, describe = (imported_function(*name.split(":")) for name in (found.ROWS, found.PAGE))
+        rows = table(found)
         suffix = self.out.suffix
         if suffix in _YAML:
             self._declare(declared, len(rows))

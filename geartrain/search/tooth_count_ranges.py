@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from itertools import accumulate, chain
+from dataclasses import dataclass
+from itertools import chain
 from numbers import Integral
 from typing import TYPE_CHECKING, Any, overload
 
@@ -43,11 +42,6 @@ class CountRuns(Sequence[int]):
     """First and last count of each run, both inclusive. The runs are in ascending order, with a gap between any two of
     them.
     """
-    _before: tuple[int, ...] = field(init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        sizes = (last - first + 1 for first, last in self.spans)
-        object.__setattr__(self, "_before", tuple(accumulate(sizes, initial=0)))
 
     @classmethod
     def of(cls, counts: Iterable[int]) -> CountRuns:
@@ -100,37 +94,6 @@ class CountRuns(Sequence[int]):
         """Maximum tooth count."""
         return self.spans[-1][1]
 
-    @property
-    def contiguous(self) -> bool:
-        """True if the counts have no gap between the minimum and the maximum."""
-        return len(self.spans) == 1
-
-    def upto(self, count: int) -> int:
-        """Return the number of counts that are less than or equal to `count`.
-
-        Parameters
-        ----------
-        count : int
-            Any integer.
-        """
-        # index of the first run that begins above `count`
-        at = bisect_right(self.spans, count, key=_first)
-        return min(self._before[at], self._before[at - 1] + count - self.spans[at - 1][0] + 1) if at else 0
-
-    def between(self, low: int, high: int) -> Iterator[int]:
-        """Yield the counts from `low` to `high`, ascending.
-
-        Parameters
-        ----------
-        low, high : int
-            Bounds, both inclusive.
-        """
-        at = bisect_left(self.spans, low, key=_last)
-        while at < len(self.spans) and self.spans[at][0] <= high:
-            first, last = self.spans[at]
-            yield from range(max(first, low), min(last, high) + 1)
-            at += 1
-
     def as_array(self) -> NDArray[np.int64]:
         """Return the counts as an ascending array. Raises `RangeError` if there are more than a million counts."""
         import numpy as np
@@ -139,20 +102,20 @@ class CountRuns(Sequence[int]):
             raise RangeError(
                 Problem(
                     f"{len(self)} tooth counts are too many to list",
-                    "this search enumerates the counts; only the search for a single pair accepts ranges of any length",
-                    "give a shorter range, such as 15:120",
+                    "a search enumerates the counts of a wheel",
+                    "give a shorter range, such as 15:120; `geartrain teeth approximants` lists fractions of any size",
                 )
             )
         return np.array(tuple(self), dtype=np.int64)
 
     def __len__(self) -> int:
-        return self._before[-1]
+        return sum(last - first + 1 for first, last in self.spans)
 
     def __iter__(self) -> Iterator[int]:
         return chain.from_iterable(range(first, last + 1) for first, last in self.spans)
 
     def __contains__(self, count: object) -> bool:
-        return isinstance(count, Integral) and self.upto(int(count)) > self.upto(int(count) - 1)
+        return isinstance(count, Integral) and any(first <= int(count) <= last for first, last in self.spans)
 
     @overload
     def __getitem__(self, at: int) -> int: ...
@@ -161,13 +124,12 @@ class CountRuns(Sequence[int]):
     def __getitem__(self, at: int | slice) -> int | tuple[int, ...]:
         places = range(len(self))[at]
         if not isinstance(places, int):
-            return tuple(self._at(place) for place in places)
-        return self._at(places)
-
-    def _at(self, place: int) -> int:
-        # last run with at most `place` counts before it
-        run = bisect_right(self._before, place) - 1
-        return self.spans[run][0] + place - self._before[run]
+            return tuple(self[place] for place in places)
+        for first, last in self.spans:
+            if places <= last - first:
+                return first + places
+            places -= last - first + 1
+        raise IndexError(at)
 
     def __str__(self) -> str:
         return ",".join(f"{first}:{last}" if last > first else f"{first}" for first, last in self.spans)
@@ -215,14 +177,6 @@ def _span(part: str) -> tuple[int, int]:
     if first > last:
         raise _problem(f"the range {shown} is reversed", "the first count must not exceed the last", f"{last}:{first}")
     return first, last
-
-
-def _first(span: tuple[int, int]) -> int:
-    return span[0]
-
-
-def _last(span: tuple[int, int]) -> int:
-    return span[1]
 
 
 def _problem(what: str, why: str, better: str = "'15:120', '30,36,48' or '12:40,48,60'") -> QuestionError:

@@ -52,12 +52,11 @@ def _product(counts: Sequence[int]) -> str:
 def describe_stages(found: StageFindings) -> Document:
     """Build the document of the solutions for a ratio by stages of gear pairs."""
     summary = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
-    if found.tolerance is not None:
-        within = "exact" if not found.tolerance else f"within {figure(float(found.tolerance), 4)}"
-        search = "exhaustive search" if found.complete else "interrupted search"
-        summary.append(
-            f"{found.count} solutions ({within}) among {figure(float(found.considered), 4)} combinations; {search}."
-        )
+    within = "exact" if not found.tolerance else f"within {figure(float(found.tolerance), 4)}"
+    search = "exhaustive search" if found.complete else "interrupted search"
+    summary.append(
+        f"{found.count} solutions ({within}) among {figure(float(found.considered), 4)} combinations; {search}."
+    )
     sections = [_solutions(found.solutions)] if found.solutions else []
     return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 from functools import cache
 
@@ -68,3 +69,13 @@ def test_a_circle_is_found() -> None:
     graph = nx.DiGraph((one, other) for one, other in arrows() if one != other)
     graph.add_edge("geartrain.dynamics.train_mechanics", "geartrain.dynamics.torques.train_torques")
     assert circles(graph) != []
+
+
+def test_no_sources_of_the_page_import_each_other() -> None:
+    folder = ROOT / "geartrain" / "viewer" / "src"
+    graph: nx.DiGraph[str] = nx.DiGraph()
+    for path in sorted(folder.rglob("*.js")):
+        for relative in re.findall(r'from "(\..+?\.js)"', path.read_text(encoding="utf-8")):
+            graph.add_edge(str(path.relative_to(folder)), str((path.parent / relative).resolve().relative_to(folder)))
+    assert graph.has_edge("plan.js", "extent.js")
+    assert circles(graph) == []

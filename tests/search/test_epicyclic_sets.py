@@ -159,38 +159,6 @@ def test_stepped_sets_are_those_of_a_loop_over_closed_forms(name: str) -> None:
 # what peers and textbooks print
 
 
-@pytest.mark.parametrize(
-    ("requested", "sun", "ring", "planet", "ratio"),
-    [
-        ("5.3", 20, 86, 33, F(53, 10)),
-        ("5.31", 26, 112, 43, F(69, 13)),
-        ("6.14", 14, 72, 29, F(43, 7)),
-        ("7.77", 17, 115, 49, F(132, 17)),
-    ],
-)
-def test_these_sets_of_up_to_120_teeth_are_the_best_by_a_loop_over_all_of_them(
-    requested: str, sun: int, ring: int, planet: int, ratio: Fraction
-) -> None:
-    errors = sorted(
-        (abs(1 + F(r, s) - F(requested)), s, r) for s in ALL for r in range(s + 2, 121) if (r - s) % 2 == 0
-    )  # fmt: skip
-    assert errors[0][1:] == (sun, ring)
-    assert errors[1][0] > errors[0][0]
-    found = best(requested, counts=ALL, spaced=False)
-    assert teeth(found, "s", "p", "r") == (sun, planet, ring)
-    assert found.ratio == ratio
-    assert found.error == ratio / F(requested) - 1
-
-
-@pytest.mark.parametrize(
-    ("ratio", "sets"),
-    [("4", [(s, s, 3 * s) for s in range(1, 41)]), ("3.6", [(5 * k, 4 * k, 13 * k) for k in range(1, 10)])],
-)
-def test_a_ratio_is_met_exactly_by_multiples_of_the_smallest_set(ratio: str, sets: list[tuple[int, ...]]) -> None:
-    found = find_sets(F(ratio), "planetary", "sun:carrier:ring", ALL, tolerance=F(0), best=200, spaced=False)
-    assert [teeth(x, "s", "p", "r") for x in found.solutions] == sets
-
-
 def test_a_wolfrom_set_of_142_is_found_exactly() -> None:
     found = find_sets(F(142), "wolfrom", tolerance=F(0))
     assert found.count == 1
@@ -218,18 +186,6 @@ def test_humpages_bevels_fit_their_planet() -> None:
     counts = {"s1": (20,), "s2": (76,), "p": (56,)}
     found = best("4.8", "bevel", "sun1:carrier:sun2", counts=counts, planets=2, spaced=False)
     assert found.ratio == F(24, 5)
-
-
-@pytest.mark.parametrize(
-    ("mode", "ratio"),
-    [("small:ring:carrier", F(12, 5)), ("small:ring:large", F(22, 15)), ("carrier:ring:large", F(2, 3)),
-     ("large:ring:carrier", F(-2))],
-)  # fmt: skip
-def test_a_ravigneaux_set_has_the_ratios_of_a_four_speed_overdrive(mode: str, ratio: Fraction) -> None:
-    counts = {"s1": (30,), "s2": (36,), "r": (72,), "ps": (18,), "pl": (18,)}
-    found = best("2", "ravigneaux", mode, counts=counts)
-    assert found.ratio == ratio
-    assert found.places == gcd(30 + 36, 36 + 72)
 
 
 # whether it goes together

@@ -94,29 +94,6 @@ def test_neighbouring_planets_clear_each_other_as_circles_do(number: int, cleara
             assert held == (room > 0)
 
 
-def test_known_sets_and_the_next_planet_too_many() -> None:
-    def fits(number: int, **counts: int) -> bool:
-        return passed(rules_of(epicyclic(*SIMPLE), planets=number, clearance=Fraction(0)), **counts)
-
-    # (24 + 18) sin(pi/5) = 24.7 and 20 are needed; with 6 it is 21, with 7 18.2
-    assert fits(6, s=24, p=18, r=60)
-    assert not fits(7, s=24, p=18, r=60)
-    # (7 + 7) sin(45 deg) = 9.9 and 9 are needed
-    assert fits(4, s=7, p=7, r=21)
-    # (21 + 43) sin(60 deg) = 55.4 and 45 are needed; with shift, for 21 + 2 43 is 107
-    rules = rules_of(epicyclic(*SIMPLE), planets=3, clearance=Fraction(1), shift=1)
-    assert passed(rules, s=21, p=43, r=108)
-    assert not passed(rules_of(epicyclic(*SIMPLE), planets=3, clearance=Fraction(12), shift=1), s=21, p=43, r=108)
-
-
-def test_the_larger_wheel_of_a_stepped_planet_needs_the_room() -> None:
-    data = epicyclic({"s": (20, False), "r": (60, True)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
-    rules = [rule for rule in rules_of(data, planets=4, clearance=Fraction(0), coaxial=True) if "gcd" not in rule.name]
-    for s, p, q in product(range(12, 40, 5), range(10, 40, 4), range(10, 40, 4)):
-        room = gap([((s + p) / 2, 0, max(p, q) / 2 + 1)], 4, [])
-        assert passed(rules, s=s, p=p, q=q, r=s + p + q) == (room > 0)
-
-
 def test_modules_weigh_the_tips_of_stepped_planets() -> None:
     data = epicyclic({"s": (20, False), "r": (60, True)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
     data["links"]["Ls"]["wheels"]["s"]["module"] = "1 mm"

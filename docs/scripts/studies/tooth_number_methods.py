@@ -16,8 +16,7 @@ from typing import Any, Literal
 
 from geartrain import GearTrain
 from geartrain.search import TargetRatio, approximants, find_stages, search_train
-from geartrain.search.ratio.gear_pair_search import find_pairs
-from geartrain.search.ratio.product_windows import expand, multisets
+from geartrain.search.ratio.product_windows import multisets
 from geartrain.search.tooth_count_ranges import Counts
 from geartrain.train import Train
 
@@ -108,11 +107,19 @@ def _cut(fraction: Fraction, case: RatioCase) -> tuple[Set, Set] | None:
     first = max(-(-(case.wheels[0] ** k) // p), -(-(case.pinions[0] ** k) // q))
     last = min(case.wheels[1] ** k // p, case.pinions[1] ** k // q)
     for m in range(first, min(last, first + _MULTIPLES - 1) + 1):
-        beneath = expand(m * q, tuple(case.beneath), k)
-        top = expand(m * p, tuple(case.top), k) if beneath else []
+        beneath = _multisets(m * q, case.beneath, k)
+        top = _multisets(m * p, case.top, k) if beneath else []
         if top:
             return top[0], beneath[0]
     return None
+
+
+def _multisets(product: int, counts: Sequence[int], size: int) -> list[Set]:
+    """All multisets of `size` counts with this product, each ascending."""
+    if size == 1:
+        return [(product,)] if product in counts else []
+    first = [(at, count) for at, count in enumerate(counts) if count**size <= product and product % count == 0]
+    return [(count, *rest) for at, count in first for rest in _multisets(product // count, counts[at:], size - 1)]
 
 
 def _smooth(number: int, most: int) -> bool:
@@ -156,9 +163,9 @@ def _shares(
 
 
 def _nearest_pairs(top: Counts, beneath: Counts, value: Fraction, number: int) -> list[Pair]:
-    """The nearest pairs of one stage, by the tree of Stern and Brocot."""
+    """The nearest pairs of one stage."""
     sides = (top, beneath) if value >= 1 else (beneath, top)
-    return [(one.top[0], one.beneath[0]) for one in find_pairs(TargetRatio(value), *sides, best=number)]
+    return [(one.top[0], one.beneath[0]) for one in find_stages(TargetRatio(value), 1, *sides, best=number)]
 
 
 # by geartrain --------------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, localcontext
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import combinations
 from math import pi, sqrt
 from typing import TYPE_CHECKING, Any
@@ -26,20 +26,20 @@ from geartrain.numerics.graphs import joined_groups
 from geartrain.search.constraints.constraint_options import ConstraintOptions, turns
 from geartrain.search.constraints.count_conditions import (
     Condition,
-    Coprime,
-    CountBounds,
     CountConstraint,
     CountEquation,
-    DifferentCount,
-    Divisible,
     LinearSum,
-    NearZero,
     WholeSum,
+    are_coprime,
+    are_divisible,
     counts_of,
     decimal,
     distance_of,
     equality,
     free_of,
+    is_bounded,
+    is_different,
+    is_near_zero,
     is_positive,
     plainest,
     sine,
@@ -47,6 +47,7 @@ from geartrain.search.constraints.count_conditions import (
     whole,
 )
 from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
+from geartrain.search.tooth_count_ranges import MOST_TEETH
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -106,21 +107,17 @@ class _ConstraintBuilder:
             if name not in self.fitting.free or wheel.kind == "worm":
                 continue
             if requested.minimum is not None:
-                yield Condition(
-                    f"'{name}' has at least {requested.minimum} teeth",
-                    (name,),
-                    CountBounds(name, minimum=requested.minimum),
-                )
+                yield _bounds(f"'{name}' has at least {requested.minimum} teeth", name, minimum=requested.minimum)
             if requested.maximum_teeth is not None:
                 what = f"'{name}' has at most {requested.maximum_teeth} teeth"
-                yield Condition(what, (name,), CountBounds(name, most=requested.maximum_teeth))
+                yield _bounds(what, name, most=requested.maximum_teeth)
             if requested.largest_radius is not None:
                 plain = "" if requested.largest_radius.unit else " modules"
                 what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
-                yield Condition(what, (name,), CountBounds(name, most=self._most(name, requested.largest_radius)))
+                yield _bounds(what, name, most=self._most(name, requested.largest_radius))
             if rack is not None and wheel.kind == "spur" and not wheel.internal:
                 what = f"'{name}' is not undercut: at least {rack} teeth at {requested.undercut}"
-                yield Condition(what, (name,), CountBounds(name, minimum=rack))
+                yield _bounds(what, name, minimum=rack)
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """Return the maximum tooth count z for which the pitch radius m z/2 does not exceed `radius`."""
@@ -171,7 +168,7 @@ class _ConstraintBuilder:
             return
         scaled, room = whole(total, LinearSum({}, Fraction(shift)))
         words = f"coaxial closure within {self.requested.shift} half modules: {equality(found)}"
-        yield Condition(words, scaled.wheels, NearZero(scaled, room.constant))
+        yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
         """Return whether the declared counts violate a constraint that was not requested explicitly.
@@ -205,7 +202,7 @@ class _ConstraintBuilder:
             for mesh in self.fitting.meshes:
                 if mesh.is_free:
                     words = f"hunting tooth: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' have no common divisor"
-                    yield Condition(words, free_of(*mesh.parts), Coprime(*mesh.parts))
+                    yield Condition(words, free_of(*mesh.parts), partial(are_coprime, *mesh.parts))
         if requested.different:
             yield from self._different()
 
@@ -224,11 +221,11 @@ class _ConstraintBuilder:
         for wheel in free:
             others = [self.fitting.part(other) for other in fixed if alike[wheel] != alike[other]]
             if others:
-                yield Condition(words, (wheel,), DifferentCount(wheel, tuple(dict.fromkeys(others))))
+                yield Condition(words, (wheel,), partial(is_different, wheel, tuple(dict.fromkeys(others))))
         for first, second in combinations(free, 2):
             # copies of one planet have equal counts by construction
             if alike[first] != alike[second]:
-                yield Condition(words, (first, second), DifferentCount(first, (second,)))
+                yield Condition(words, (first, second), partial(is_different, first, (second,)))
 
     @staticmethod
     def _copied(one: PlanetSet) -> Iterator[tuple[str, str]]:
@@ -291,6 +288,10 @@ class _ConstraintBuilder:
             yield from room.conditions(one, self.fitting)
 
 
+def _bounds(name: str, wheel: str, minimum: int = 0, most: int = MOST_TEETH) -> Condition:
+    return Condition(name, (wheel,), partial(is_bounded, wheel, minimum, most))
+
+
 def _unequal_distances(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
     return Problem(
         f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
@@ -326,46 +327,29 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 # ------------------------------------------------- declared positions: centre distances and the phasing of loops
 
 
-@dataclass(frozen=True, slots=True)
-class CentreDistanceMatch:
-    """Condition that two centre distances have the ratio of the distances between the declared positions.
+def is_in_proportion(teeth: WholeSum, other: WholeSum, ratio: float, most: float, columns: CandidateColumns) -> Bools:
+    """Return whether two centre distances have the ratio of the distances between the declared positions.
 
     The difference `teeth` - `ratio` x `other` must be within +-`most` [half modules].
     """
-
-    teeth: WholeSum
-    other: WholeSum
-    ratio: float
-    most: float
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether the distances match for each candidate, shape (candidates,)."""
-        return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
+    return np.asarray(np.abs(teeth.of(columns) - ratio * other.of(columns)) <= most)
 
 
-@dataclass(frozen=True)
-class LoopPhasing:
-    """Condition that the teeth of all loops mesh, tested candidate by candidate (about a millisecond each)."""
+def do_loops_close(
+    train: Train, tree: Tree, circuits: tuple[Circuit, ...], wheels: tuple[str, ...], columns: CandidateColumns
+) -> Bools:
+    """Return whether the teeth of all loops certainly mesh, tested candidate by candidate (about a millisecond each).
 
-    train: Train
-    """Train in which the counts of `wheels` are placeholders."""
-    tree: Tree
-    """Tree of joints of that train."""
-    circuits: tuple[Circuit, ...]
-    """Fundamental circuits in which the counts of `wheels` are placeholders."""
-    wheels: tuple[str, ...]
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether all loops certainly close for each candidate, shape (candidates,)."""
-        rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
-        # each distinct combination of counts is tested once
-        each, back = np.unique(rows, axis=0, return_inverse=True)
-        found = [self.holds(dict(zip(self.wheels, row, strict=True))) for row in each.tolist()]
-        return np.array(found, dtype=bool)[back.reshape(-1)]
-
-    def holds(self, counts: Mapping[str, int]) -> bool:
-        """Return whether all loops close with these counts."""
-        return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
+    train      train in which the counts of `wheels` are placeholders
+    tree       tree of joints of that train
+    circuits   fundamental circuits in which the counts of `wheels` are placeholders
+    """
+    rows = np.stack([columns[wheel] for wheel in wheels], axis=1)
+    # each distinct combination of counts is tested once
+    each, back = np.unique(rows, axis=0, return_inverse=True)
+    counts = (dict(zip(wheels, row, strict=True)) for row in each.tolist())
+    found = [bool(find_phasing(train, tree, [circuit.with_counts(one) for circuit in circuits])) for one in counts]
+    return np.array(found, dtype=bool)[back.reshape(-1)]
 
 
 @dataclass(frozen=True)
@@ -429,7 +413,7 @@ class DeclaredPositions:
         wheels = tuple(dict.fromkeys((*one.wheels, *two.wheels)))
         if wheels:
             name = f"declared positions: centre distance of '{mesh.name}' agrees with {what}"
-            yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
+            yield Condition(name, wheels, partial(is_in_proportion, one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
         """Return the distance between the two axes of a mesh [m, or number without a unit]; 0 if a position is not
@@ -459,12 +443,13 @@ class DeclaredPositions:
         if rule is None:
             train = self.fitting.train.model_copy()
             train._marks = None  # refers to a file, which other processes do not need
-            yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
+            test = partial(do_loops_close, train, self.fitting.tree, self.fitting.circuits, wheels)
+            yield Condition(name, wheels, test)
             return
         sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]
         requested = tuple(dict.fromkeys(wheel for _, total in sums for wheel in total.wheels))
         if requested:
-            yield Condition(f"{name}: {rule.text}", requested, Divisible(tuple(sums)))
+            yield Condition(f"{name}: {rule.text}", requested, partial(are_divisible, tuple(sums)))
 
     def _sum(self, terms: Mapping[str, int]) -> WholeSum:
         (total,) = whole(LinearSum.of((factor, self.fitting.part(wheel)) for wheel, factor in terms.items()))
@@ -538,44 +523,34 @@ def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floa
     return np.asarray(rooms[which.ravel()].reshape(planets.shape))
 
 
-@dataclass(frozen=True, slots=True)
-class OnInvolute:
-    """Exact condition that the tips of an external pair do not interfere: each meets the involute of its mate."""
-
-    first: CountRef
-    second: CountRef
-    pressure: Fraction
-    addendum: Fraction
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate is free of interference, shape (candidates,)."""
-        z1, z2 = counts_of(columns, self.first), counts_of(columns, self.second)
-        constants = _square(self.pressure), decimal(self.addendum)
-        one = is_positive(external_terms, [z1, z2], constants, False)
-        return np.asarray(one & is_positive(external_terms, [z2, z1], constants, False))
+def is_on_involute(
+    first: CountRef, second: CountRef, pressure: Fraction, addendum: Fraction, columns: CandidateColumns
+) -> Bools:
+    """Return whether the tips of an external pair do not interfere: each meets the involute of its mate. Exact."""
+    z1, z2 = counts_of(columns, first), counts_of(columns, second)
+    constants = _square(pressure), decimal(addendum)
+    one = is_positive(external_terms, [z1, z2], constants, False)
+    return np.asarray(one & is_positive(external_terms, [z2, z1], constants, False))
 
 
-@dataclass(frozen=True, slots=True)
-class InRing:
-    """Condition that the tips of a planet and a ring interfere neither with flanks nor with each other.
+def is_in_ring(
+    planet: CountRef,
+    ring: CountRef,
+    pressure: Fraction,
+    addendum: Fraction,
+    ring_addendum: Fraction,
+    columns: CandidateColumns,
+) -> Bools:
+    """Return whether the tips of a planet and a ring interfere neither with flanks nor with each other.
 
     Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
     """
-
-    planet: CountRef
-    ring: CountRef
-    pressure: Fraction
-    addendum: Fraction
-    ring_addendum: Fraction
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate is free of interference, shape (candidates,)."""
-        z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
-        # the planet is smaller, and the ring's tip circle has a positive radius
-        fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
-        fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
-        angle = float(self.pressure) * 2 * pi
-        return np.asarray(fits & (tip_margins(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
+    z1, z2 = counts_of(columns, planet), counts_of(columns, ring)
+    # the planet is smaller, and the ring's tip circle has a positive radius
+    fits = np.asarray((z2 > z1) & (z2 > float(2 * ring_addendum)))
+    fits &= is_positive(ring_terms, [z1, z2], [_square(pressure), decimal(ring_addendum)], False)
+    angle = float(pressure) * 2 * pi
+    return np.asarray(fits & (tip_margins(z1, z2, angle, float(addendum), float(ring_addendum)) > 1e-9))
 
 
 def _square(pressure: Fraction) -> Decimal:
@@ -596,7 +571,8 @@ def interference(
         return
     name = f"interference: '{mesh.wheels[0]}' and '{mesh.wheels[1]}' at {float(pressure * 360):g} deg"
     if mesh.ring is None:
-        yield Condition(name, wheels, OnInvolute(*mesh.parts, pressure, addendum))
+        yield Condition(name, wheels, partial(is_on_involute, *mesh.parts, pressure, addendum))
     else:
         planet, ring = mesh.parts[1 - mesh.ring], mesh.parts[mesh.ring]
-        yield Condition(name, wheels, InRing(planet, ring, pressure, addendum, ring_addendum))
+        test = partial(is_in_ring, planet, ring, pressure, addendum, ring_addendum)
+        yield Condition(name, wheels, test)

@@ -12,7 +12,7 @@ from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import reduce
 from math import gcd, lcm
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,11 +31,10 @@ CandidateColumns = Mapping[str, "Ints"]
 """Tooth counts of many candidates by wheel, int64 arrays of equal length."""
 
 
-class CandidateTest(Protocol):
-    """Predicate on candidates, an immutable object that can be pickled."""
-
-    def __call__(self, columns: CandidateColumns, /) -> Bools:
-        """Return whether each candidate passes, shape (candidates,)."""
+CandidateTest = Callable[[CandidateColumns], "Bools"]
+"""Predicate on candidates, which can be pickled: a partial function of this package without its last argument. It
+returns whether each candidate passes, shape (candidates,).
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,76 +198,29 @@ def equality(one: WholeSum) -> str:
 # ------------------------------------------------------------------------------------ conditions on counts and on sums
 
 
-@dataclass(frozen=True, slots=True)
-class CountBounds:
-    """Bounds of the tooth count of a wheel, inclusive; None for no bound."""
-
-    wheel: str
-    minimum: int | None = None
-    most: int | None = None
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate is within the bounds, shape (candidates,)."""
-        counts = columns[self.wheel]
-        found = np.ones(counts.shape, dtype=bool)
-        if self.minimum is not None:
-            found &= counts >= self.minimum
-        if self.most is not None:
-            found &= counts <= self.most
-        return found
+def is_bounded(wheel: str, minimum: int, most: int, columns: CandidateColumns) -> Bools:
+    """Return whether the tooth count of a wheel is from `minimum` to `most`."""
+    return np.asarray((columns[wheel] >= minimum) & (columns[wheel] <= most))
 
 
-@dataclass(frozen=True, slots=True)
-class Coprime:
-    """Condition that two counts are coprime, so that every tooth meets every tooth of its mate (hunting tooth)."""
-
-    first: CountRef
-    second: CountRef
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether the two counts of each candidate are coprime, shape (candidates,)."""
-        return np.asarray(np.gcd(counts_of(columns, self.first), counts_of(columns, self.second)) == 1)
+def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) -> Bools:
+    """Return whether two counts are coprime, so that every tooth meets every tooth of its mate (hunting tooth)."""
+    return np.asarray(np.gcd(counts_of(columns, first), counts_of(columns, second)) == 1)
 
 
-@dataclass(frozen=True, slots=True)
-class DifferentCount:
-    """Condition that the tooth count of a wheel differs from several other counts."""
-
-    wheel: str
-    others: tuple[CountRef, ...]
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether the count of each candidate differs from all others, shape (candidates,)."""
-        found = np.ones(columns[self.wheel].shape, dtype=bool)
-        for other in self.others:
-            found &= columns[self.wheel] != counts_of(columns, other)
-        return found
+def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
+    """Return whether the tooth count of a wheel differs from all other counts."""
+    return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))
 
 
-@dataclass(frozen=True, slots=True)
-class NearZero:
-    """Condition that the absolute value of a sum is at most `most`."""
-
-    total: WholeSum
-    most: int
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether the sum of each candidate is within the bound, shape (candidates,)."""
-        return np.asarray(np.abs(self.total.of(columns)) <= self.most)
+def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools:
+    """Return whether the absolute value of a sum is at most `most`."""
+    return np.asarray(np.abs(total.of(columns)) <= most)
 
 
-@dataclass(frozen=True, slots=True)
-class Divisible:
-    """Condition that each sum is a multiple of its modulus. `sums` has pairs (modulus, sum)."""
-
-    sums: tuple[tuple[int, WholeSum], ...]
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether all sums of each candidate are multiples of their moduli, shape (candidates,)."""
-        found = np.asarray(True)
-        for modulus, total in self.sums:
-            found = found & (total.of(columns) % modulus == 0)
-        return np.asarray(found)
+def are_divisible(sums: Sequence[tuple[int, WholeSum]], columns: CandidateColumns) -> Bools:
+    """Return whether each sum is a multiple of its modulus. `sums` has pairs (modulus, sum)."""
+    return np.asarray(np.all([total.of(columns) % modulus == 0 for modulus, total in sums], axis=0))
 
 
 def teeth_of(mesh: AssemblyMesh) -> LinearSum:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -41,25 +42,17 @@ if TYPE_CHECKING:
 # Assembly of equal, equally spaced planets.
 
 
-@dataclass(frozen=True, slots=True)
-class EqualPlanets:
-    """Condition that n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
+def can_mesh(number: int, first: PlanetArm, columns: CandidateColumns) -> Bools:
+    """Return whether n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
     The condition is that n divides each number of `phase_numbers`, which derives it.
     """
-
-    number: int
-    first: PlanetArm
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether the planets of each candidate can be assembled, shape (candidates,)."""
-        n = self.number
-        # b is only needed modulo n; reduced, so that products of counts fit int64
-        kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda number: number % n)
-        found = np.asarray(True)
-        for number in phase_numbers(self.first, kind):
-            found = found & (number % n == 0)
-        return np.asarray(found)
+    # b is only needed modulo n; reduced, so that products of counts fit int64
+    kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
+    found = np.asarray(True)
+    for each in phase_numbers(first, kind):
+        found = found & (each % number == 0)
+    return np.asarray(found)
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
@@ -89,7 +82,7 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
     if sum(len(planet.central) for planet in found.planets.walk()) < 2:
         return None
     wheels = free_of(*(part for contact in first.contacts() for part in (contact.own, contact.mate)))
-    return Condition(name, wheels, EqualPlanets(number, first)) if wheels else None
+    return Condition(name, wheels, partial(can_mesh, number, first)) if wheels else None
 
 
 def reason(found: PlanetSet, number: int) -> str:
@@ -108,59 +101,33 @@ def reason(found: PlanetSet, number: int) -> str:
 # Clearance between planets: neighbours on a carrier, and planets that mesh with each other.
 
 
-@dataclass(frozen=True, slots=True)
-class NeighbourClearance:
-    """Exact condition that the tip circles of neighbouring planets have more than the required clearance.
+def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
+    """Return whether the tip circles of neighbouring planets have more than the required clearance, exactly.
 
     `reach` is twice the distance of a planet's axis from the central axis, `tips` the tip diameter plus the clearance;
     see `neighbour_terms`.
     """
-
-    number: int
-    reach: WholeSum
-    tips: WholeSum
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate has sufficient clearance, shape (candidates,)."""
-        chord = sine(Fraction(1, 2 * self.number))
-        return is_positive(neighbour_terms, [self.reach.of(columns), self.tips.of(columns)], [chord], True)
+    chord = sine(Fraction(1, 2 * number))
+    return is_positive(neighbour_terms, [reach.of(columns), tips.of(columns)], [chord], True)
 
 
-@dataclass(frozen=True, slots=True)
-class PassingClearance:
-    """Condition that two meshing planets can be placed on their circles, and that each clears the other planets'
-    partners.
+def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
+    """Return whether two meshing planets can be placed on their circles, and each clears the other planets' partners.
 
     A, B and D are twice the radii of the two circles and twice the centre distance; see `passing_terms`.
     """
-
-    number: int
-    A: WholeSum
-    B: WholeSum
-    D: WholeSum
-    tips: WholeSum
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate satisfies both conditions, shape (candidates,)."""
-        A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
-        # the triangle of the central axis and the two planets must close
-        found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
-        # partners of all other planets, not only of the adjacent ones
-        for step in range(1, self.number):
-            turn = Fraction(step, self.number)
-            found = found & is_positive(passing_terms, [A, B, D, tips], [cosine(turn), sine(turn)], True)
-        return found
+    a, b, d, tip = (one.of(columns) for one in (A, B, D, tips))
+    # the triangle of the central axis and the two planets must close
+    found = np.asarray((np.abs(a - b) <= d) & (d <= a + b))
+    # partners of all other planets, not only of the adjacent ones
+    for turn in (Fraction(step, number) for step in range(1, number)):
+        found = found & is_positive(passing_terms, [a, b, d, tip], [cosine(turn), sine(turn)], True)
+    return found
 
 
-@dataclass(frozen=True, slots=True)
-class PositiveClearance:
-    """Condition that the clearance `room` is positive."""
-
-    room: WholeSum
-
-    def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return whether the clearance of each candidate is positive, shape (candidates,)."""
-        return np.asarray(self.room.of(columns) > 0)
+def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
+    """Return whether a clearance is positive."""
+    return np.asarray(room.of(columns) > 0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +163,7 @@ class PlanetClearance:
             assert mesh.module is not None
             tips = LinearSum.of([(1, part)]).plus(2 * self.addendum + self.clearance).times(mesh.module)
             name = f"neighbours: tip clearance of {self.number} planets '{wheel}' above {_shown(self.clearance)}"
-            yield from _condition(name, NeighbourClearance(self.number, *whole(reach, tips)))
+            yield from _condition(name, are_apart, self.number, *whole(reach, tips))
 
     def _passing_conditions(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
         A, B = _reach(planet), _reach(other)
@@ -206,7 +173,7 @@ class PlanetClearance:
         tips = teeth_of(mesh).plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
         pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
         name = f"neighbours: {pair} of {self.number} planets mesh, with tip clearance above {_shown(self.clearance)}"
-        yield from _condition(name, PassingClearance(self.number, *whole(A, B, distance_of(mesh), tips)))
+        yield from _condition(name, can_pass, self.number, *whole(A, B, distance_of(mesh), tips))
         for inner, outer in ((planet, other), (other, planet)):
             if _is_plain(inner, True) and _is_plain(outer, False):
                 yield from self._gap_conditions(inner, outer)
@@ -218,7 +185,7 @@ class PlanetClearance:
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
                 name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
-                yield from _condition(name, PositiveClearance(*whole(self._gap(planet, other, mesh))))
+                yield from _condition(name, is_above_zero, *whole(self._gap(planet, other, mesh)))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
         """Return twice the clearance of a planet from the central wheel of another one, minus twice the required
@@ -261,11 +228,11 @@ def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
     return [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
 
 
-def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveClearance) -> Iterator[Condition]:
-    sums = [one for one in (getattr(test, field) for field in test.__slots__) if not isinstance(one, int)]
+def _condition(name: str, test: Callable[..., Bools], *arguments: int | WholeSum) -> Iterator[Condition]:
+    sums = [one for one in arguments if not isinstance(one, int)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
     if wheels:
-        yield Condition(name, wheels, test)
+        yield Condition(name, wheels, partial(test, *arguments))
 
 
 def _shown(number: Fraction) -> str:

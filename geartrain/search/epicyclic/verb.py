@@ -12,10 +12,12 @@ from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,
+    Clearance,
     Per,
     Pick,
     Range,
     SearchAnswer,
+    Shift,
     Tolerance,
     check_number,
     read_tolerance,
@@ -42,16 +44,8 @@ def run(
         int | None,
         typer.Option("--planets", help="Require that this number of equal, equally spaced planets can be assembled."),
     ] = None,
-    clearance: Annotated[
-        str | None,
-        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
-    ] = None,
-    shift: Annotated[
-        int,
-        typer.Option(
-            "--centre-tolerance", min=0, help="Maximum difference between coaxial centre distances, in half modules."
-        ),
-    ] = 0,
+    clearance: Clearance = None,
+    shift: Shift = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[str, typer.Option("--sort", help="Order of the solutions: error, total or largest.")] = "error",
@@ -68,7 +62,6 @@ def run(
     from geartrain.search.epicyclic.set_search import find_sets
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
-    from geartrain.search.tooth_numbers_report import describe_sets, set_rows
 
     answer = SearchAnswer.of(json, out, force, pick)
     if kind == "list":
@@ -94,7 +87,7 @@ def run(
         clearance=room,
         slack=shift,
     )
-    answer.give(found, set_rows(found), describe_sets, lambda at: found.solutions[at].to_train())
+    answer.give(found, lambda at: found.solutions[at].to_train())
 
 
 def _list(answer: SearchAnswer) -> None:

@@ -12,14 +12,14 @@ from geartrain.kinematics.formulas.rational_functions import proportional_classe
 from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
-from geartrain.search.join.join_plan import JoinProblem, PlanNode, extents
+from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import (
     PolynomialConstraint,
     RelaxedInequality,
-    SolutionWindow,
     possible,
 )
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
+from geartrain.search.join.wheel_monomials import extent
 
 # Monomials through which some constraints depend on variables: assignments with equal values of all these monomials are
 # equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
@@ -110,7 +110,7 @@ class ExactJoin:
         # no tally exceeds the total, so that int64 cannot overflow below 2^62
         self.dtype: Any = np.int64 if question.total < 1 << 62 else object
         self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
-        self.extents = extents(question)
+        self.extents = [extent(recipe, question.domains) for recipe in question.recipes]
         self.constraints: list[CountConstraint | PolynomialConstraint] = [
             *question.rules,
             *question.polynomial_constraints,
@@ -250,11 +250,9 @@ class ExactJoin:
         assert isinstance(constraint, PolynomialConstraint)
         self.spend(rows.size)
         total = np.zeros(rows.size, dtype=self.dtype)
-        for number, window in enumerate(constraint.windows(rows, node.item)):
-            window = window.clipped(*self._run(node.item))
-            total += item.sums[window.sure_end] - item.sums[window.sure_start]
-            parents, indices = constraint.fringe(number, rows, node.item, window)
-            np.add.at(total, parents, item.times[indices])
+        for window in constraint.windows(rows, node.item):
+            start, end = (np.clip(one, *self._run(node.item)) for one in window)
+            total += item.sums[end] - item.sums[start]
         removed.charge(node.guide, at, self.full(node) - total)
         return total
 
@@ -266,16 +264,12 @@ class ExactJoin:
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
-        polynomial = node.guide >= len(self.question.rules)
         # all assignments are charged here; those that the guide accepts are subtracted below
         if node.guide >= 0 and removed is not None:
             removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
             grown = rows.plus(parents, node.item, indices)
             self.spend(grown.size)
-            if polynomial:
-                met = self._holds(node.guide, grown)
-                parents, indices, grown = parents[met], indices[met], grown.pick(met)
             if node.guide >= 0 and removed is not None:
                 removed.charge(node.guide, at[parents], times[indices] * -below)
             for number in node.checks:
@@ -287,7 +281,7 @@ class ExactJoin:
                 yield at[parents], grown
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
-        """Yield pairs (row, value) that the guide constraint of a node does not exclude, block by block."""
+        """Yield pairs (row, value) that the guide constraint of a node accepts, block by block."""
         first, last = self._run(node.item)
         if node.guide < 0:
             whole = np.zeros(rows.size, dtype=np.int64)
@@ -295,16 +289,9 @@ class ExactJoin:
             return
         guide = self.constraints[node.guide]
         if isinstance(guide, PolynomialConstraint):
-            previous_windows: list[SolutionWindow] = []
             for window in guide.windows(rows, node.item):
-                window = window.clipped(first, last)
-                for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
-                    # cases are mutually exclusive, but their windows overlap if bounds are closer than rounding
-                    for other in previous_windows:
-                        new = (indices < other.start[parents]) | (indices >= other.end[parents])
-                        parents, indices = parents[new], indices[new]
-                    yield parents, indices
-                previous_windows.append(window)
+                start, end = (np.clip(one, first, last) for one in window)
+                yield from spread_in_blocks(start, end, BLOCK)
         else:
             assert isinstance(guide, CountEquation)
             yield self._solved(guide, node.item, rows, first, last)

@@ -27,7 +27,6 @@ from geartrain.search.join.wheel_monomials import (
     Function,
     Interval,
     IntervalConstraint,
-    extent,
     find_polynomial_constraints,
     find_recipes,
     find_wheel_monomials,
@@ -278,11 +277,6 @@ class _Planner:
             if at >= len(self.rules) and self.polynomial_constraints[at - len(self.rules)].opens(item)
         ]
         return min(opening, key=lambda at: self.likely[at], default=-1)
-
-
-def extents(question: JoinProblem) -> list[tuple[float, float]]:
-    """Return the minimum and maximum value of each variable."""
-    return [extent(recipe, question.domains) for recipe in question.recipes]
 
 
 # Approximate share of the assignments that satisfy a constraint or rule. It affects the speed of a search only.

@@ -1,13 +1,11 @@
 """Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free variables.
 
 |N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is
-a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values. Entries
-that floats cannot decide are decided by exact signs.
+a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values, whose
+ends are determined by exact signs.
 
-With more free variables, these lie between bounds, and rows are dropped that no values within the bounds can satisfy.
-If a polynomial has at most two powers of each free variable, it is monotone in each after division by the lower powers,
-and its extremes are at the corners of the box of bounds. If no free variable is in two of its terms, each term has its
-own extremes. Otherwise, or with too many corners, the extremes of the terms are still valid bounds.
+With more free variables, these are between bounds, and rows are dropped that no values within the bounds can satisfy.
+Each term has its own extremes, whose sum bounds the polynomial.
 """
 
 from __future__ import annotations
@@ -16,8 +14,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
 from math import prod
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +23,7 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.bounded_polynomials import Monomial, sum_and_size
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
-from geartrain.search.integer_columns import spread
-from geartrain.search.join.product_lists import Item, PartialAssignments
+from geartrain.search.join.product_lists import PartialAssignments
 
 # Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the
 # variables: N/D <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all
@@ -37,7 +34,6 @@ from geartrain.search.join.product_lists import Item, PartialAssignments
 Signs = NDArray[np.int8]
 
 ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
-_WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 
 @dataclass(frozen=True)
@@ -133,41 +129,25 @@ class SignPolynomial:
         found: Signs = np.zeros(rows.size, dtype=np.int8)
         # a factor of two below the range of int64, because the bound itself is rounded
         short = minimum < 2.0**62
-        found[short] = np.sign(self._wrapped(rows.pick(short))).astype(np.int8)
-        for at in np.flatnonzero(~short):
-            found[at] = self._sign(rows.pick(np.array([at])))
+        for some, wide in ((short, False), (~short, True)):
+            found[some] = np.sign(self._whole(rows.pick(some), wide)).astype(np.int8)
         return found
 
-    def _wrapped(self, rows: PartialAssignments) -> Ints:
-        """Return the values times all denominators, modulo 2^64, as signed integers."""
-        # numpy's unsigned integers wrap without a warning; the true magnitude is below 2^63, so the sign is correct
-        total = np.zeros(rows.size, dtype=np.uint64)
+    def _whole(self, rows: PartialAssignments, wide: bool) -> NDArray[Any]:
+        """Return the values times all denominators as Python integers if `wide`, otherwise modulo 2^64 as int64."""
+        dtype: Any = object if wide else np.int64
+        total = np.zeros(rows.size, dtype=dtype)
         for coefficient, monomial in self.terms:
-            term = np.full(rows.size, coefficient & _WRAP, dtype=np.uint64)
-            powers = dict(monomial)
+            # int64 arrays wrap without a warning; the true magnitude is below 2^63, so the sign is correct
+            first = coefficient if wide else (coefficient + (1 << 63)) % (1 << 64) - (1 << 63)
+            term, powers = np.full(rows.size, first, dtype=dtype), dict(monomial)
             for item in self.items:
-                power = powers.get(item, 0)
-                top, bottom = rows.top(item).view(np.uint64), rows.bottom(item)
-                for _ in range(power):
-                    term *= top
+                power, bottom = powers.get(item, 0), rows.bottom(item)
+                term = term * rows.top(item).astype(dtype) ** power
                 if bottom is not None:
-                    for _ in range(self.degree(item) - power):
-                        term *= bottom.view(np.uint64)
-            total += term
-        return total.view(np.int64)
-
-    def _sign(self, row: PartialAssignments) -> int:
-        """Return the sign at one row, computed in Python integers."""
-        total = 0
-        for coefficient, monomial in self.terms:
-            powers = dict(monomial)
-            for item in self.items:
-                power, bottom = powers.get(item, 0), row.bottom(item)
-                coefficient *= int(row.top(item)[0]) ** power
-                if bottom is not None:
-                    coefficient *= int(bottom[0]) ** (self.degree(item) - power)
-            total += coefficient
-        return (total > 0) - (total < 0)
+                    term = term * bottom.astype(dtype) ** (self.degree(item) - power)
+            total = total + term
+        return total
 
 
 def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> Floats:
@@ -178,10 +158,9 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
     return term
 
 
-# The values of the free variable for which a polynomial keeps its sign are a ray of the sorted values, found by
-# binary search. After division by the lowest power of the variable the polynomial is A y + B, where y is a power of
-# the variable, and changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the
-# values that certainly satisfy the inequalities from those that may.
+# The values of the free variable for which a polynomial keeps its sign are a ray of the sorted values. Divided by
+# the lowest power of the variable the polynomial is A y + B, where y is a power of the variable, and changes its sign
+# at -B/A. Floats guess the end of the ray, and exact signs at the values beside it decide.
 
 
 @dataclass(frozen=True)
@@ -198,149 +177,52 @@ class PolynomialInequality:
         return found
 
 
-@dataclass(frozen=True)
-class SolutionWindow:
-    """Range of the values of a variable that may satisfy a case, and the inner range that certainly does, for
-    each row.
-    """
-
-    start: Ints
-    """Start of the outer range. Values before it certainly violate the case."""
-    end: Ints
-    """End of the outer range, exclusive. Values from it on certainly violate the case."""
-    sure_start: Ints
-    """Start of the inner range."""
-    sure_end: Ints
-    """End of the inner range, exclusive. The range is empty if sure_end <= sure_start."""
-
-    def clipped(self, first: int, last: int) -> SolutionWindow:
-        """Return the window restricted to the values with indices from `first` to `last`, exclusive."""
-        start, end = np.maximum(self.start, first), np.minimum(self.end, last)
-        end = np.maximum(start, end)
-        sure_start, sure_end = np.clip(self.sure_start, start, end), np.clip(self.sure_end, start, end)
-        return SolutionWindow(start, end, sure_start, np.maximum(sure_start, sure_end))
-
-
-def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of a case in its free variable, the intersection of the windows of its inequalities."""
+def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
+    """Return for each row the half-open range of the values of the free variable that satisfy a case, exactly."""
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
-    sure_start, sure_end = start.copy(), end.copy()
     for inequality in case:
-        ray = _ray(inequality, rows, item)
-        start, end = np.maximum(start, ray.start), np.minimum(end, ray.end)
-        sure_start, sure_end = np.maximum(sure_start, ray.sure_start), np.minimum(sure_end, ray.sure_end)
-    return SolutionWindow(start, end, sure_start, sure_end)
+        first, last = _ray(inequality, rows, item)
+        start, end = np.maximum(start, first), np.minimum(end, last)
+    return start, np.maximum(start, end)
 
 
-def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of one inequality, sense * (A y + B) >= 0, where y is a power of the variable.
-
-    The polynomial has been divided by the lowest power of the variable.
+def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
+    """Return the half-open range of the values that satisfy one inequality, which includes the first or the last value
+    unless it is empty.
     """
-    parts = inequality.polynomial.split(item)
-    most = len(rows.items[item])
+    polynomial, most = inequality.polynomial, len(rows.items[item])
+
+    def met(at: Ints, values: Ints) -> Bools:
+        return inequality.met(polynomial.signs(rows.plus(at, item, values)))
+
+    every = np.arange(rows.size)
+    # two neighbours, of which the first is before the end of the ray and the second behind it if the guess is correct
+    guess = _guess(polynomial, rows, item)
+    before, behind = np.clip(guess - 1, 0, most - 1), np.clip(guess, 0, most - 1)
+    first, last = met(every, before), met(every, behind)
+    wrong = np.flatnonzero(first == last)
+    before[wrong], behind[wrong] = 0, most - 1
+    first[wrong], last[wrong] = met(wrong, before[wrong]), met(wrong, behind[wrong])
+    while len(apart := np.flatnonzero((first != last) & (behind - before > 1))):
+        middle = (before[apart] + behind[apart]) // 2
+        early = met(apart, middle) == first[apart]
+        before[apart[early]], behind[apart[~early]] = middle[early], middle[~early]
+    return np.where(first, 0, np.where(last, behind, most)), np.where(last, most, np.where(first, behind, most))
+
+
+def _guess(polynomial: SignPolynomial, rows: PartialAssignments, item: int) -> Ints:
+    """Return for each row the index of the first value behind -B/A, up to rounding."""
+    parts = polynomial.split(item)
     if len(parts) < 2:
-        met = inequality.met(next(iter(parts.values()), inequality.polynomial).signs(rows))
-        return _all_or_nothing(met, most)
+        return np.zeros(rows.size, dtype=np.int64)
     (low, B), (high, A) = parts.items()
-    scale = inequality.polynomial.scale
-    a, size = A.values(rows, scale)
-    # four times the rounding error: then |a| minus its error is at least three quarters of |a|, and its sign is certain
-    known = np.abs(a) > 4 * A.rounding * size
-    if known.all():
-        return _certain_ray(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
-    return _uncertain_ray(inequality, rows, item, known, (A, B))
-
-
-def _certain_ray(
-    inequality: PolynomialInequality,
-    rows: PartialAssignments,
-    item: Item,
-    power: int,
-    slope: tuple[Floats, Floats],
-    rest: SignPolynomial,
-) -> SolutionWindow:
-    """Return the window if the sign of A is certain. It ends at -B/A up to rounding."""
-    a, off_a = slope
-    b, size = rest.values(rows, inequality.polynomial.scale)
-    end = -b / a
-    # first-order bound of the error of -b/a, and the rounding error of the power of the variable
-    off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
-    off += np.abs(end) * (8 * power + 8) * ROUNDING
-    minimum, maximum, y = end - off, end + off, item.powers(power)
-    rising = (a > 0) == (inequality.sense > 0)
-    if rising.all():
-        return _rising(y, minimum, maximum)
-    if not rising.any():
-        return _falling(y, minimum, maximum)
-    up, down = _rising(y, minimum, maximum), _falling(y, minimum, maximum)
-    return SolutionWindow(
-        np.where(rising, up.start, down.start),
-        np.where(rising, up.end, down.end),
-        np.where(rising, up.sure_start, down.sure_start),
-        np.where(rising, up.sure_end, down.sure_end),
-    )
-
-
-def _rising(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
-    """Return the window of all y above a threshold that is between `minimum` and `maximum`."""
-    start = np.searchsorted(y, minimum, side="left")
-    end = np.full(len(start), len(y))
-    sure = start.copy()
-    near = np.flatnonzero((start < len(y)) & (y[np.minimum(start, len(y) - 1)] <= maximum))
-    # values between the bounds of the threshold are uncertain
-    sure[near] = np.searchsorted(y, maximum[near], side="right")
-    return SolutionWindow(start, end, sure, end)
-
-
-def _falling(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
-    """Return the window of all y below a threshold that is between `minimum` and `maximum`."""
-    end = np.searchsorted(y, maximum, side="right")
-    start = np.zeros(len(end), dtype=np.int64)
-    sure = end.copy()
-    near = np.flatnonzero((end > 0) & (y[np.maximum(end - 1, 0)] >= minimum))
-    sure[near] = np.searchsorted(y, minimum[near], side="left")
-    return SolutionWindow(start, end, start, sure)
-
-
-def _all_or_nothing(met: Bools, most: int) -> SolutionWindow:
-    start = np.zeros(len(met), dtype=np.int64)
-    end = np.where(met, most, 0)
-    return SolutionWindow(start, end, start, end)
-
-
-def _uncertain_ray(
-    inequality: PolynomialInequality,
-    rows: PartialAssignments,
-    item: int,
-    known: Bools,
-    parts: tuple[SignPolynomial, SignPolynomial],
-) -> SolutionWindow:
-    """Return the window if the sign of A is uncertain in some rows.
-
-    In rows with A = 0 the sign of B decides. The other rows remain uncertain for all values.
-    """
-    A, B = parts
-    found = np.zeros((4, rows.size), dtype=np.int64)
-    found[1] = len(rows.items[item])
-    sure = np.flatnonzero(known)
-    if len(sure):
-        ray = _ray(inequality, rows.pick(sure), item)
-        found[:, sure] = ray.start, ray.end, ray.sure_start, ray.sure_end
-    doubtful = np.flatnonzero(~known)
-    flat = doubtful[A.signs(rows.pick(doubtful)) == 0]
-    if len(flat):
-        ray = _all_or_nothing(inequality.met(B.signs(rows.pick(flat))), len(rows.items[item]))
-        found[:, flat] = ray.start, ray.end, ray.sure_start, ray.sure_end
-    return SolutionWindow(*found)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        end = -B.values(rows, polynomial.scale)[0] / A.values(rows, polynomial.scale)[0]
+    return np.searchsorted(rows.items[item].powers(high - low), end)
 
 
 Corners = Mapping[int, tuple[float, float]]
 """Minimum and maximum value of each free variable."""
-
-_MOST_CORNERS = 64  # maximum number of corners of a box; beyond it, terms are bounded separately
-_SHORT = 4096
-"""Maximum number of rows for which a matrix product is faster than a loop over terms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -355,8 +237,6 @@ class RelaxedInequality:
     """Minimum over the box of each term's factor in the free variables, shape (terms,)."""
     highs: Floats
     """Maximum over the box of each term's factor in the free variables, shape (terms,)."""
-    points: Floats | None
-    """Factor of each term at each corner of the box, shape (terms, corners); None if terms are bounded separately."""
     slack: float
     """Upper bound of the rounding error, relative to the sum of the magnitudes of the terms."""
     scale: int
@@ -366,24 +246,11 @@ class RelaxedInequality:
         """Return whether each row can satisfy the inequality; False only if it fails for all values of the free
         variables.
         """
-        factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
-        minimum = np.zeros(rows.size)
-        for factor, high in zip(factors, self.highs, strict=True):
-            minimum -= self.slack * high * np.abs(factor)
-        if self.points is None:
-            best = np.zeros(rows.size)
-            for factor, low, high in zip(factors, self.lows, self.highs, strict=True):
-                best += np.maximum(low * factor, high * factor)
-            return np.asarray(best >= minimum)
-        if rows.size <= _SHORT:
-            return np.asarray((np.stack(factors, axis=1) @ self.points >= minimum[:, None]).any(axis=1))
-        found: Bools = np.zeros(rows.size, dtype=np.bool_)
-        for point in self.points.T:
-            values = np.zeros(rows.size)
-            for factor, size in zip(factors, point, strict=True):
-                values += size * factor
-            found |= values >= minimum
-        return found
+        best = np.zeros(rows.size)
+        for one, low, high in zip(self.rest, self.lows, self.highs, strict=True):
+            factor = self.sense * one.values(rows, self.scale)[0]
+            best += np.maximum(low * factor, high * factor) + self.slack * high * np.abs(factor)
+        return np.asarray(best >= 0)
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
@@ -391,22 +258,11 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
-    few = all(len(polynomial.powers(item)) <= 2 for item in inside) and 2 ** len(inside) <= _MOST_CORNERS
-    points = None
-    if few and not all(_is_in_one_term(polynomial, item) for item in inside):
-        ends = product(*(corners[item] for item in inside))
-        points = np.stack([_factors(polynomial, inside, point) for point in ends], axis=1)
     rest = tuple(
         SignPolynomial(((coefficient, tuple(pair for pair in monomial if pair[0] not in inside)),))
         for coefficient, monomial in polynomial.terms
     )
-    return RelaxedInequality(inequality.sense, rest, lows, highs, points, 2 * polynomial.rounding, polynomial.scale)
-
-
-def _is_in_one_term(polynomial: SignPolynomial, item: int) -> bool:
-    """Return whether at most one term has more than the lowest power of a variable."""
-    powers = [dict(monomial).get(item, 0) for _, monomial in polynomial.terms]
-    return sum(power > min(powers) for power in powers) <= 1
+    return RelaxedInequality(inequality.sense, rest, lows, highs, 2 * polynomial.rounding, polynomial.scale)
 
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
@@ -473,21 +329,9 @@ class PolynomialConstraint:
         """Return the inequalities of each case relaxed over the free variables, as arguments of `possible`."""
         return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
 
-    def windows(self, rows: PartialAssignments, item: int) -> list[SolutionWindow]:
-        """Return the window of the admissible values of the free variable, for each case."""
+    def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
+        """Return the half-open range of the admissible values of the free variable for each row, for each case."""
         return [find_window(case, rows, item) for case in self.cases]
-
-    def fringe(self, at: int, rows: PartialAssignments, item: int, window: SolutionWindow) -> tuple[Ints, Ints]:
-        """Return the rows and values in the uncertain part of a window that satisfy case number `at`."""
-        # without an inner range the whole window is uncertain
-        none = window.sure_end <= window.sure_start
-        starts = np.concatenate([window.start, np.where(none, window.end, window.sure_end)])
-        ends = np.concatenate([np.where(none, window.end, window.sure_start), window.end])
-        some = np.flatnonzero(ends > starts)
-        owner, indices = spread(starts[some], ends[some])
-        parents = some[owner] % rows.size if rows.size else owner
-        met = _case_holds(self.cases[at], rows.plus(parents, item, indices), {})
-        return parents[met], indices[met]
 
 
 def _case_holds(

@@ -8,11 +8,11 @@ wheel in a constraint on counts is a variable by itself.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from math import prod
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ BLOCK = 1 << 18
 """Number of rows in a block, which limits the memory of a join to about 50 MB in addition to its lists."""
 _LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
 _TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
-_REMEMBERED = 20_000_000  # maximum number of values in all cached lists
+_REMEMBERED = 20_000_000  # maximum number of values of all cached variables
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,41 +76,6 @@ def maximum(factors: Sequence[Sequence[int]]) -> int:
     return prod(max(some) for some in factors)
 
 
-class ProductLists:
-    """Distinct products of one number from each list, ascending, with the total weight of each product.
-
-    levels   products of the first 0, 1, 2, ... lists, int64
-    times    weights of the products of all lists, of the given dtype
-    """
-
-    def __init__(self, factors: Sequence[tuple[int, ...]], weights: Sequence[tuple[int, ...]], dtype: Any) -> None:
-        self.factors = [np.array(some, dtype=np.int64) for some in factors]
-        self.levels = [np.ones(1, dtype=np.int64)]
-        self.times: Tallies = np.ones(1, dtype=dtype)
-        for some, own in zip(self.factors, weights, strict=True):
-            values, self.times = _multiplied(self.levels[-1], self.times, some, np.array(own, dtype=dtype))
-            self.levels.append(values)
-
-
-Made = TypeVar("Made", "ProductLists", "Item")
-
-
-class ListCache(Generic[Made]):
-    """Least-recently-used cache of lists, limited by their total length."""
-
-    def __init__(self) -> None:
-        self._kept: OrderedDict[Hashable, Made] = OrderedDict()
-
-    def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return the cached entry of a key, or the result of `make` if it is not cached."""
-        if key not in self._kept:
-            self._kept[key] = make()
-        self._kept.move_to_end(key)
-        while len(self._kept) > 1 and sum(len(one.times) for one in self._kept.values()) > _REMEMBERED:
-            self._kept.popitem(last=False)
-        return self._kept[key]
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
     """Transitions from the products of some wheels to the products with one more wheel."""
@@ -143,11 +108,15 @@ class CountProducts:
 
     def __init__(self, wheels: Sequence[tuple[str, int]], domains: Domains, weights: Weights, dtype: Any) -> None:
         self.wheels = tuple(wheels)
-        factors = tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels)
-        own = tuple(weights.get(wheel, (1,) * len(domains[wheel])) for wheel, _ in wheels)
-        lists = _LISTS.get((factors, own, dtype is object), lambda: ProductLists(factors, own, dtype))
-        self.powers, self.levels, self.times = lists.factors, lists.levels, lists.times
         self.counts = [np.array(domains[wheel], dtype=np.int64) for wheel, _ in wheels]
+        self.powers = [counts**power for counts, (_, power) in zip(self.counts, wheels, strict=True)]
+        # products of the counts of the first 0, 1, 2, ... wheels
+        self.levels = [np.ones(1, dtype=np.int64)]
+        self.times: Tallies = np.ones(1, dtype=dtype)
+        for powers, (wheel, _) in zip(self.powers, wheels, strict=True):
+            own = np.array(weights.get(wheel, (1,) * len(powers)), dtype=dtype)
+            values, self.times = _multiplied(self.levels[-1], self.times, powers, own)
+            self.levels.append(values)
         self.values = self.levels[-1]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
@@ -173,7 +142,7 @@ class CountProducts:
     def _step(self, level: int, values: Ints) -> ProductStep | None:
         if level < 0:
             return None
-        children, choices, rest = _factored(values, self.powers[level], self.levels[level])
+        children, choices, rest = _divided(values, self.powers[level], self.levels[level])
         before, parents = np.unique(rest, return_inverse=True)
         return ProductStep(
             self.wheels[level][0], choices, children, parents, len(values), self._step(level - 1, before)
@@ -217,21 +186,6 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     return rows, columns, quotients
 
 
-def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the result of `_divided` for distinct ascending products, by the faster of two methods."""
-    if len(values) <= len(shorter):
-        return _divided(values, factors, shorter)
-    found = []
-    step = max(1, _LONGEST // len(factors))
-    for at in range(0, len(shorter), step):
-        products = np.multiply.outer(shorter[at : at + step], factors)
-        place = np.minimum(np.searchsorted(values, products), len(values) - 1)
-        rows, columns = np.nonzero(values[place] == products)
-        found.append((place[rows, columns], columns, shorter[rows + at]))
-    rows, columns, quotients = (np.concatenate(parts) for parts in zip(*found, strict=True))
-    return rows, columns, quotients
-
-
 class Item:
     """Values of a variable, numerator over denominator, ascending, with the total weight of each.
 
@@ -262,8 +216,8 @@ class Item:
         above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
         below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
         tops, bottoms = self._top.values[above], bottom.values[below]
-        # rounding may exchange almost equal quotients, which windows allow for
-        order = np.argsort(tops / bottoms, kind="stable")
+        # equal quotients of floats are ordered too: those of one numerator by their denominator
+        order = np.lexsort((-bottoms, tops / bottoms))
         self._at = above[order], below[order]
         self.tops, self.bottoms = tops[order], bottoms[order]
         self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]
@@ -292,14 +246,19 @@ class Item:
         return owner[further], {wheel: column[further] for wheel, column in found.items()} | more
 
 
-_LISTS: ListCache[ProductLists] = ListCache()
-_ITEMS: ListCache[Item] = ListCache()
+_ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
+"""Least-recently-used cache of variables, limited by their total length."""
 
 
 def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
     """Return the variable of a definition, from the cache if possible."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
-    return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))
+    if key not in _ITEMS:
+        _ITEMS[key] = Item(recipe, domains, weights, dtype)
+    _ITEMS.move_to_end(key)
+    while len(_ITEMS) > 1 and sum(map(len, _ITEMS.values())) > _REMEMBERED:
+        _ITEMS.popitem(last=False)
+    return _ITEMS[key]
 
 
 # ----------------------------------------------------------- rows over some variables, each with the index of its value

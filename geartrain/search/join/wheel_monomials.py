@@ -66,21 +66,8 @@ class IntervalConstraint:
     """True if the value itself is required, so that all wheels of the function must be assigned."""
 
 
-@dataclass(frozen=True, slots=True)
-class WheelMonomial:
-    """Monomial through which all functions depend on some wheels. The power of each wheel is not 0."""
-
-    powers: Mapping[str, int]
-
-    @property
-    def top(self) -> tuple[tuple[str, int], ...]:
-        """Wheels with positive powers."""
-        return tuple((wheel, power) for wheel, power in self.powers.items() if power > 0)
-
-    @property
-    def bottom(self) -> tuple[tuple[str, int], ...]:
-        """Wheels with negative powers, each with the magnitude of its power."""
-        return tuple((wheel, -power) for wheel, power in self.powers.items() if power < 0)
+WheelMonomial = Mapping[str, int]
+"""Monomial through which all functions depend on some wheels: power of each wheel, not 0."""
 
 
 def find_wheel_monomials(
@@ -101,11 +88,9 @@ def find_wheel_monomials(
     classes = proportional_classes((wheel, steps) for wheel, steps in lists.items() if wheel not in alone)
     single = ({wheel: 1} for wheel, steps in lists.items() if wheel in alone or not any(steps))
     found = sorted((*classes.values(), *single), key=lambda powers: wheels.index(next(iter(powers))))
-    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _inverted(powers)) for powers in found]
-
-
-def _inverted(powers: Mapping[str, int]) -> dict[str, int]:
-    return {wheel: -power for wheel, power in powers.items()}
+    # the first power is positive
+    signs = [1 if next(iter(powers.values())) > 0 else -1 for powers in found]
+    return [{w: sign * power for w, power in powers.items()} for sign, powers in zip(signs, found, strict=True)]
 
 
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
@@ -122,9 +107,14 @@ def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator
 
 
 def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    top, bottom = list(_listable_groups(bundle.top, domains)), list(_listable_groups(bundle.bottom, domains))
+    above = tuple((wheel, power) for wheel, power in bundle.items() if power > 0)
+    below = tuple((wheel, -power) for wheel, power in bundle.items() if power < 0)
+    top, bottom = list(_listable_groups(above, domains)), list(_listable_groups(below, domains))
     yield tuple(ItemRecipe(wheels) for wheels in top) + tuple(ItemRecipe((), wheels) for wheels in bottom)
-    if len(top) == len(bottom) == 1 and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
+    largest = math.prod(domains[wheel][-1] ** power for wheel, power in above + below)
+    # different quotients of such products are different floats, so their order is exact
+    short = largest < 1 << 52 and len(top) == len(bottom) == 1
+    if short and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
         yield (ItemRecipe(top[0], bottom[0]),)
 
 

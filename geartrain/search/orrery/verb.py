@@ -41,7 +41,6 @@ def run(
     """
     from geartrain.search.orrery.orrery_search import find_orrery
     from geartrain.search.tooth_count_ranges import read_counts
-    from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows
 
     answer = SearchAnswer.of(json, out, force)
     wanted = _periods(periods)
@@ -55,7 +54,7 @@ def run(
             walk=walk,
             tell=bar.reach,
         )
-    answer.give(found, orrery_rows(found), describe_orrery, lambda _: found.to_train())
+    answer.give(found, lambda _: found.to_train())
 
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -13,24 +12,17 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import count_digits
-from geartrain.numerics.rounding_bounds import split
 from geartrain.search.integer_columns import distinct_quotients, spread
 from geartrain.search.stern_brocot import farey_neighbours
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Floats
-
     Places = NDArray[np.int64]
     Ints = NDArray[Any]  # int64, or Python integers where those would overflow
 
 
 # Index ranges of products within windows of ratios, and relative errors of ratios.
-
-
-ROUNDING = 1e-28
-"""Upper bound of the absolute error of the results of `errors`; their relative error is at most 1e-12."""
 
 
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
@@ -75,37 +67,12 @@ def _wrapped(number: int) -> np.int64:
     return np.int64((number + (1 << 63)) % (1 << 64) - (1 << 63))
 
 
-def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
-    """Return the relative error top / (beneath value) - 1 of each pair, with an absolute error of about 1e-30.
-
-    It is computed with Dekker's double-double products.
-    """
-    # then the value and all products of its halves are within the range of float64
-    short = abs(value.numerator.bit_length() - value.denominator.bit_length()) < 300
-    if tops.dtype == object or beneaths.dtype == object or not short:
-        n, d = value.numerator, value.denominator
-        exact = [Fraction(int(p) * d, int(q) * n) - 1 for p, q in zip(tops, beneaths, strict=True)]
-        return np.array([float(error) for error in exact], dtype=np.float64)
-    head = float(value)
-    tail = float(value - Fraction(head))
-    q = beneaths.astype(np.float64)
-    product = q * head
-    q_high, q_low = split(q)
-    head_high, head_low = split(np.float64(head))
-    # largest first: in this order no addition has a rounding error
-    lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
-    return np.asarray(((tops - product) - (lost + q * tail)) / product)
-
-
-def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> tuple[list[Fraction], Places]:
-    """Return the distinct absolute errors of some pairs, exact and ascending, and for each pair the index of
-    its error.
-    """
+def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
+    """Return the ranks of the absolute errors of some pairs, compared exactly. Equal errors have equal ranks."""
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
-    ascending = sorted(set(misses))
-    places = {miss: at for at, miss in enumerate(ascending)}
-    return ascending, np.array([places[miss] for miss in misses], dtype=np.int64)[which]
+    places = {miss: at for at, miss in enumerate(sorted(set(misses)))}
+    return np.array([places[miss] for miss in misses], dtype=np.int64)[which]
 
 
 def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
@@ -161,54 +128,44 @@ class ProductWindows:
     step: int
     """Distance between the offsets, larger than any high part."""
 
-    @property
-    def total(self) -> int:
-        """Number of multisets."""
-        return multisets(len(self.counts), self.size)
-
-    @property
-    def minimum(self) -> int:
-        """Minimum product."""
-        return int(self.counts[0] ** self.size)
-
-    @property
-    def most(self) -> int:
-        """Maximum product."""
-        return int(self.counts[-1] ** self.size)
-
     def below(self, bound: int) -> int:
         """Return the exact number of multisets with a product less than `bound`."""
-        if bound <= self.minimum:
-            return 0
-        return self.total if bound > self.most else int((_ends(self, bound) - self.starts).sum())
+        return int((_ends(self, bound) - self.starts).sum())
 
-    def values(self, low: int, high: int) -> Ints:
-        """Return the products in [low, high), ascending. A product occurs once for each multiset."""
-        row, column = self._places(low, high)
+    def values(self, low: int, high: int) -> tuple[Ints, Places]:
+        """Return the distinct products in [low, high), ascending, shape (n,), and the number of multisets with smaller
+        products in the window, shape (n + 1,).
+        """
+        row, column = spread(_ends(self, low), _ends(self, high))
         found = self.rows[row]
         # in place, because a window is the largest array of the search
         found *= self.highs[column]
         found.sort()
-        return found
+        starts = np.flatnonzero(np.append(True, found[1:] != found[:-1]))
+        return found[starts], np.append(starts, len(found))
 
     def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
-        """Return the products in [low, high) that are in `among` (ascending), shape (n,), and their counts, shape (n,
-        k).
+        """Return the products in [low, high) that are in `among` (ascending, not empty), ascending, shape (n,), and
+        their counts, ascending in each row, shape (n, size).
         """
-        row, column = self._places(low, high)
-        found = self.rows[row] * self.highs[column]
-        if not len(among):
-            return found[:0], np.empty((0, self.size), dtype=self.lows.dtype)
+        row, column = spread(_ends(self, low), _ends(self, high))
+        products = self.rows[row] * self.highs[column]
         # clipped, so that products above all of `among` have a valid index
-        at = np.minimum(np.searchsorted(among, found), len(among) - 1)
-        here = np.flatnonzero(among[at] == found)
-        here = here[np.argsort(found[here], kind="stable")]
-        return found[here], np.concatenate([self.lows[row[here]], self.uppers[column[here]]], axis=1)
+        at = np.minimum(np.searchsorted(among, products), len(among) - 1)
+        here = np.flatnonzero(among[at] == products)
+        here = here[np.argsort(products[here])]
+        counts = np.concatenate([self.lows[row[here]], self.uppers[column[here]]], axis=1)
+        return products[here], counts.astype(np.int64)
 
-    def _places(self, low: int, high: int) -> tuple[Places, Places]:
-        """Return the index of the row and of the high part of every product in [low, high)."""
-        first = _ends(self, low)
-        return spread(first, _ends(self, high))
+
+@lru_cache(maxsize=4)
+def _ends(products: ProductWindows, bound: int) -> Places:
+    """Return for each row the index after the last high part whose product with the row is below `bound`, shape
+    (rows,).
+    """
+    # one binary search for all tables: the offset of a row selects its table
+    most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
+    return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 
 
 def multisets(number: int, size: int) -> int:
@@ -261,58 +218,6 @@ def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
 
 def _by_product(chosen: Ints) -> Ints:
     return np.asarray(chosen[np.argsort(row_products(chosen), kind="stable")])
-
-
-def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, ...]]:
-    """Return all multisets of `size` counts with a given product, each ascending, in lexicographic order.
-
-    >>> expand(3600, tuple(range(12, 101)), 2)
-    [(36, 100), (40, 90), (45, 80), (48, 75), (50, 72), (60, 60)]
-    """
-    numbers = _array(counts)
-    # larger products do not fit int64; then all counts are tried
-    here = [int(count) for count in numbers[product % numbers == 0]] if product < PLAIN else list(counts)
-    found: list[tuple[int, ...]] = []
-    _factor(product, here, 0, size, (), found)
-    return found
-
-
-def _factor(
-    rest: int, counts: list[int], start: int, size: int, chosen: tuple[int, ...], found: list[tuple[int, ...]]
-) -> None:
-    """Append every ascending choice from counts[start:] whose product is `rest` to `found`."""
-    if size == 1:
-        if _find(counts, rest, start):
-            found.append((*chosen, rest))
-        return
-    for at in range(start, len(counts)):
-        count = counts[at]
-        # counts ascend, so all further products exceed `rest`
-        if count**size > rest:
-            return
-        # the other counts must be able to reach the quotient
-        if rest % count == 0 and rest // count <= counts[-1] ** (size - 1):
-            _factor(rest // count, counts, at, size - 1, (*chosen, count), found)
-
-
-def _find(counts: list[int], count: int, start: int) -> bool:
-    at = bisect_left(counts, count, start)
-    return at < len(counts) and counts[at] == count
-
-
-@lru_cache(maxsize=8)
-def _array(counts: tuple[int, ...]) -> Ints:
-    return np.array(counts, dtype=np.int64)
-
-
-@lru_cache(maxsize=4)
-def _ends(products: ProductWindows, bound: int) -> Places:
-    """Return for each row the index after the last high part whose product with the row is below `bound`, shape
-    (rows,).
-    """
-    # one binary search for all tables: the offset of a row selects its table
-    most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
-    return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:

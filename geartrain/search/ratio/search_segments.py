@@ -1,171 +1,165 @@
-"""Search of one segment of the denominator products for the numerator products that match them.
+"""Search of the denominator products, segment by segment, for the numerator products that match them.
 
-`lay_out` divides a search into segments of about equal work. Segments are independent, their problems and results are
-plain JSON data, and the division has no influence on the result.
+Segments are independent, and their problems and results are plain JSON data. The division into segments does not
+influence the result.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import ceil, exp, isqrt, log
+from itertools import combinations_with_replacement, pairwise
+from math import ceil, comb, factorial, isqrt, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.search.integer_columns import spread, spread_in_blocks
-from geartrain.search.ratio.product_windows import ProductWindows, cuts, error_places, errors, expand, multisets
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.work import Execution
+from geartrain.search.integer_columns import spread_in_blocks
+from geartrain.search.ratio.product_windows import (
+    ProductWindows,
+    cuts,
+    multisets,
+    reach_of_errors,
+    rounded_up,
+    row_products,
+)
 from geartrain.search.ratio.stage_problem import (
     BestStages,
-    RankedStages,
     StageProblem,
     StageRank,
     first_of,
     key_of,
-    margin,
-    merged,
+    pairings,
     stage_problem_of,
-    suited,
 )
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Bools, Floats
-    from geartrain.search.ratio.stage_problem import FeasiblePairings
-
     Ints = NDArray[Any]
-    Span = tuple[Ints, Ints]
-
-
-_BINS = 256  # number of bins of the histogram of logarithms of counts
-
-
-@dataclass(frozen=True, slots=True)
-class SegmentPlan:
-    """Division of the denominator products into segments, and the density of pairs of multisets."""
-
-    bounds: tuple[int, ...]
-    """Bounds of the denominator products, ascending. Segment n is [bounds[n], bounds[n + 1])."""
-    densest: int
-    """Index of the segment with the most pairs near the requested ratio."""
-    density: float
-    """Estimated number of pairs of multisets per unit of absolute relative error, over all segments."""
-
-    @property
-    def segments(self) -> tuple[tuple[int, int], ...]:
-        """First product and end (exclusive) of each segment."""
-        return tuple(zip(self.bounds, self.bounds[1:], strict=False))
-
-    def tolerance_for(self, number: float) -> Fraction:
-        """Return an absolute relative error within which about `number` pairs of multisets are expected."""
-        # without a density the search starts with a narrow tolerance, which is then widened
-        return Fraction(number / self.density) if self.density * 1e18 > number else Fraction(1, 10**18)
-
-
-def lay_out(question: StageProblem) -> SegmentPlan:
-    """Divide the search into segments of about two blocks of products each, counting numerators and denominators."""
-    size, value = question.stages, question.value
-    spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
-    # a single count has a span of 0
-    width = max(*spans, 1e-6) / _BINS
-    over, under = (_spread(counts, size, width) for counts in (question.top, question.beneath))
-    start = size * log(question.beneath[0])
-    # offset between the bins of numerators and denominators with the requested ratio
-    shift = (size * log(question.beneath[0] / question.top[0]) + log(value.numerator) - log(value.denominator)) / width
-    at = np.arange(len(under))
-    beside = np.interp(at + shift, np.arange(len(over)), over, left=0.0, right=0.0)
-    used = np.flatnonzero((at + shift > -1) & (at + shift < len(over)))
-    minimum, most = question.beneath[0] ** size, question.beneath[-1] ** size
-    if not len(used):
-        return SegmentPlan((minimum, most + 1), 0, 0.0)
-    # the cost of a segment is the number of its products on both sides
-    work = np.cumsum((under + beside)[used])
-    number = max(ceil(work[-1] / (2 * block_of(question))), 1)
-    places = np.searchsorted(work, work[-1] * np.arange(1, number) / number) + used[0] + 1
-    middle = {min(max(ceil(exp(start + place * width)), minimum + 1), most) for place in places.tolist()}
-    bounds = (minimum, *sorted(middle - {minimum}), most + 1)
-    both = under * beside
-    peak = ceil(exp(start + (int(both.argmax()) + 0.5) * width))
-    densest = int(np.searchsorted(np.array(bounds[1:-1], dtype=np.float64), float(peak), side="right"))
-    # factor 2: an absolute error includes both sides of the ratio
-    return SegmentPlan(bounds, densest, float(2 * both.sum() / width))
-
-
-def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
-    """Return a histogram of the multisets by the logarithm of their product, in bins of `width` from the minimum."""
-    places = np.array([log(count / counts[0]) / width for count in counts])
-    one = np.bincount(places.astype(np.int64)).astype(np.float64)
-    found = np.ones(1)
-    for _ in range(size):
-        found = np.convolve(found, one)
-    # the convolution counts sequences; scaled to the number of multisets
-    return np.asarray(found * (multisets(len(counts), size) / found.sum()))
-
 
 BLOCK = 1 << 21
 """Maximum number of products of one side in memory."""
 PER_ROW = 3
 """Minimum number of products per row of the tables in a block, because each row costs a binary search."""
-_FEW = 1000  # solutions that may be factored individually from their products
+CHUNK = 1 << 19
+"""Number of pairings of pairs of multisets processed in one vectorised step."""
+_WIDER = 16  # factor between tolerances; all passes before the last then cost little
+_ENOUGH = 2 * 10**9
+"""Number of tested pairs of multisets at which a search without a tolerance stops to widen its tolerance."""
+_SLACK = 1e-12  # relative margin of float comparisons
+_MOST = 1e11
+"""Maximum number of pairs of multisets that may be tested one by one."""
 
 Range = tuple[int, int]
-
-
-def task_of(
-    question: StageProblem, low: int, high: int, hint: Fraction, bound: tuple[int, Fraction, int] | None = None
-) -> dict[str, Any]:
-    """Return the plain data of the search of one segment.
-
-    low, high  range of the denominator products, half-open
-    hint       a tolerance within which some of the best solutions are expected
-    bound      rank value, absolute error and sum of a solution that is not better than the last one kept
-    """
-    plain = [bound[0], str(bound[1]), bound[2]] if bound else None
-    return {"question": question.plain(), "low": low, "high": high, "hint": str(hint), "bound": plain}
 
 
 def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
     """Count the solutions of a segment exactly, and return the best of them.
 
-    The result has the keys `count`; `removed`, the number of pairs of multisets within the tolerance that are not
-    solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator counts].
+    The task has the keys `question`; `low` and `high`, the half-open range of the denominator products (or of the sums
+    of stages with equal sums); and `near`, the tolerance within which solutions are listed. The result has the keys
+    `count`; `listed`, the number of solutions within `near`; `removed`, the number of pairs of multisets within the
+    tolerance that are not solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator
+    counts].
     """
     question = stage_problem_of(task["question"])
-    plain = task["bound"]
-    bound = (plain[0], Fraction(plain[1]), plain[2]) if plain else None
-    by_value = listed_by_value(question)
-    finder = ValueFinder(question, Fraction(task["hint"]), bound) if by_value else RowFinder(question, bound)
+    near = replace(question, tolerance=Fraction(task["near"]))
+    if question.of_equal_sums:
+        return _search_sums(question, task["low"], task["high"])
+    judge, count = StageFilter(question), 0
+    chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
     for beneath, top in blocks(question, task["low"], task["high"]):
-        finder.look(beneath, top)
-    return finder.result()
+        (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
+        first, last = cuts(p, q, *question.edges)
+        count += int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
+        if near.tolerance < question.tolerance:
+            first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
+        used = last > first
+        if used.any():
+            # products within some window: number of windows opened minus number closed so far
+            opened, closed = (np.bincount(ends, minlength=len(p) + 1) for ends in (first, last))
+            q, beneaths = question.under.members(*beneath, q[used])
+            p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
+            for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
+                judge.see(tops[j], beneaths[i], p[j], q[i])
+    return {
+        "count": count if question.loose else judge.count,
+        "listed": judge.count,
+        "removed": judge.removed,
+        "rows": judge.best.plain(),
+    }
 
 
-def listed_by_value(question: StageProblem) -> bool:
-    """Return whether solutions can be ranked by their products, without a test of each solution."""
-    return question.by == "error" and question.loose and question.best <= _FEW
+def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
+    """Search the reverted trains whose stages have a sum of counts in [low, high), with the result of `search_segment`.
+
+    Every multiset of stages with this sum is generated once, from a lower and an upper half, by a meet in the middle on
+    the ratios. Floats select the candidates, and near the tolerance Fractions decide.
+    """
+    judge, size = StageFilter(question), question.stages
+    first, last = map(float, question.edges)
+    for total in range(low, high):
+        stages = np.array(question.stages_of(total), dtype=np.int64).reshape(-1, 2)
+        ratios = stages[:, 0] / stages[:, 1]
+        lower, upper = (_multisets(len(stages), part) for part in (size // 2, size - size // 2))
+        below = ratios[lower].prod(axis=1)
+        upper = upper[np.argsort(ratios[upper].prod(axis=1))]
+        above = ratios[upper].prod(axis=1)
+        starts = np.searchsorted(above, first * (1 - _SLACK) / below)
+        ends = np.searchsorted(above, last * (1 + _SLACK) / below, side="right")
+        for i, j in spread_in_blocks(starts, ends, CHUNK):
+            # only halves in ascending order, so that each multiset occurs once
+            once = lower[i, -1] <= upper[j, 0] if size > 1 else np.full(len(i), True)
+            chosen = stages[np.concatenate([lower[i[once]], upper[j[once]]], axis=1)]
+            tops, beneaths = np.sort(chosen[:, :, 0], axis=1), np.sort(chosen[:, :, 1], axis=1)
+            p, q = (row_products(each.astype(question.over.rows.dtype)) for each in (tops, beneaths))
+            inside = _are_within(p, q, question)
+            judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
+    return {
+        "count": judge.count,
+        "listed": judge.count,
+        "removed": judge.removed,
+        "rows": judge.best.plain(),
+    }
 
 
-def block_of(question: StageProblem) -> int:
-    """Return the maximum number of products of one side in a block: `BLOCK`, or more if the tables have many rows."""
-    numbers = max(len(question.top), len(question.beneath))
-    return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
+def _multisets(number: int, size: int) -> Ints:
+    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, shape (n, size)."""
+    found = list(combinations_with_replacement(range(number), size))
+    return np.array(found, dtype=np.int64).reshape(len(found), size)
+
+
+def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
+    """Return whether each ratio over / under is within the tolerance. Floats decide except near the tolerance."""
+    limit, value = float(question.tolerance), question.value
+    errors = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
+    inside = np.asarray(errors <= limit)
+    for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
+        inside[at] = abs(Fraction(int(over[at]), int(under[at])) / value - 1) <= question.tolerance
+    return inside
 
 
 def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
     """Yield ranges of denominator and numerator products that cover every pair within the tolerance once."""
-    if not question.reachable:
-        return
-    most = block_of(question)
+    most = _block(question)
     for beneath in pieces(question.under, *question.beneath_within(low, high), most):
         for top in pieces(question.over, *question.tops_for(*beneath), most):
             yield beneath, top
 
 
+def _block(question: StageProblem) -> int:
+    """Return the maximum number of products of one side in a block: `BLOCK`, or more if the tables have many rows."""
+    numbers = max(len(question.top), len(question.beneath))
+    return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
+
+
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
     """Split [low, high) into ascending ranges of at most `most` products each; empty ranges are omitted."""
-    low, high = max(low, products.minimum), min(high, products.most + 1)
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
         # the geometric mean, because the logarithms of products are about uniform
@@ -176,287 +170,37 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
         yield low, high
 
 
-# The best ratios by error only: compared as values, and factored into counts only if listed.
-
-
-_MANY = 1 << 20  # pairs of products in one vectorised step
-_CLOSE = Fraction(1, 10**40)  # at this distance only pairs with the same ratio remain
-
-
-class ValueFinder:
-    """Search that counts solutions by runs of equal products and lists the best by error, sum and largest count."""
-
-    def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
-        self.question, self.hint = question, hint
-        self.most = (bound[1], bound[2]) if bound else None
-        self.count = 0
-        self.keys: list[StageRank] = []
-
-    def result(self) -> dict[str, Any]:
-        """Return the result as plain data, in the format of `search_segment`."""
-        rows = [[0, list(key[4]), list(key[5])] for key in self.keys]
-        return {"count": self.count, "removed": {}, "rows": rows}
-
-    def look(self, beneath: Range, top: Range) -> None:
-        """Count and rank all pairs of denominator and numerator products in two ranges."""
-        under, over = distinct(self.question.under.values(*beneath)), distinct(self.question.over.values(*top))
-        low, high = self.question.edges
-        whole = cuts(over[0], under[0], low, high)
-        found = weight(under, over, whole)
-        self.count += found
-        if found:
-            self._keep(*self._nearest(under, over, whole))
-
-    def _nearest(self, under: Span, over: Span, whole: Span) -> tuple[Ints, Ints, Ints]:
-        """Return pairs of products that include the best of the block.
-
-        The arrays are numerator products, denominator products, and the number of pairs of multisets with these
-        products.
-        """
-        best, limit = self.question.best, self.question.tolerance
-        if self.most:
-            limit = min(limit, self.most[0])
-        tolerance = min(self.hint, limit)
-        span = self._span(under, over, whole, tolerance)
-        # widened until the best of the block are certainly within
-        while weight(under, over, span) < best and tolerance < limit:
-            tolerance = min(8 * tolerance, limit)
-            span = self._span(under, over, whole, tolerance)
-        fewer = Fraction(0)
-        while _pairs(span) > _MANY and tolerance - fewer > _CLOSE:
-            # the start was too wide: bisect between enough and too few
-            middle = (tolerance + fewer) / 2
-            inner = self._span(under, over, whole, middle)
-            if weight(under, over, inner) < best:
-                fewer = middle
-            else:
-                tolerance, span = middle, inner
-        i, j = spread(*span)
-        # multisets with these two products
-        sets = (under[1][i + 1] - under[1][i]) * (over[1][j + 1] - over[1][j])
-        return over[0][j], under[0][i], sets
-
-    def _span(self, under: Span, over: Span, whole: Span, tolerance: Fraction) -> Span:
-        """Return for each denominator product the index range of the numerator products within a narrower tolerance."""
-        value, (low, high) = self.question.value, self.question.edges
-        if tolerance >= self.question.tolerance:
-            return whole
-        low, high = max(low, value * (1 - tolerance)), min(high, value * (1 + tolerance))
-        return cuts(over[0], under[0], low, high) if low <= high else (whole[0], whole[0])
-
-    def _keep(self, over: Ints, under: Ints, sets: Ints) -> None:
-        """Merge the best of these pairs of products into the list of solutions."""
-        value, size, best = self.question.value, self.question.stages, self.question.best
-        error = np.abs(errors(over, under, value))
-        order = np.argsort(error, kind="stable")
-        last = int(np.searchsorted(np.cumsum(sets[order]), best))
-        if last < len(order):
-            order = np.flatnonzero(error <= margin(float(error[order[last]])))
-        over, under = over[order], under[order]
-        minimum = _minimum_sums(over, under, size)
-        misses, place = error_places(over, under, value)
-        fresh: list[StageRank] = []
-        # by error, then by the minimum possible sum: all after the first that is too late are too late
-        for at in np.lexsort((minimum, place)).tolist():
-            miss, total = misses[place[at]], float(minimum[at])
-            if self._too_late(miss, total):
-                break
-            # as far away as the known bound, but with a larger sum
-            if self.most and miss == self.most[0] and total > self.most[1]:
-                continue
-            beneaths = expand(int(under[at]), self.question.beneath, size)
-            tops = expand(int(over[at]), self.question.top, size)
-            fresh += [key_of(0, top, beneath, value) for top in tops for beneath in beneaths]
-            # merged in batches, which limits the cost of sorting
-            if len(fresh) >= best:
-                self.keys, fresh = merged([*self.keys, *fresh], best), []
-        self.keys = merged([*self.keys, *fresh], best)
-
-    def _too_late(self, miss: Fraction, total: float) -> bool:
-        """Return whether neither this pair nor any later one can be among the best."""
-        if self.most and miss > self.most[0]:
-            return True
-        if len(self.keys) < self.question.best:
-            return False
-        return (miss, total) > (self.keys[-1][1], self.keys[-1][2])
-
-
-def distinct(values: Ints) -> Span:
-    """Return the distinct values of an ascending array, shape (n,), and the index of the first of each, shape (n + 1,).
-
-    The last index is the length of the array.
-    """
-    fresh = np.ones(len(values), dtype=bool)
-    fresh[1:] = values[1:] != values[:-1]
-    at = np.flatnonzero(fresh)
-    return values[at], np.append(at, len(values))
-
-
-def weight(under: Span, over: Span, span: Span) -> int:
-    """Count the pairs of multisets in which the numerator product is in the range of the denominator product."""
-    return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
-
-
-def _pairs(span: Span) -> int:
-    return int((span[1] - span[0]).sum())
-
-
-def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
-    """Return a lower bound of the sum of all counts from their products, by the AM-GM inequality."""
-    root = 1.0 / size
-    sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
-    # reduced by the rounding error of the roots, because a lower bound must not be too large
-    return np.asarray(sums * (1 - 1e-12))
-
-
-# Individual tests of solutions, vectorised: constraints on the counts, and orders other than by error.
-
-
-CHUNK = 1 << 16
-"""Number of pairs processed in one vectorised step."""
-
-
-class RowFinder:
-    """Search that tests every pair of multisets within the tolerance."""
-
-    def __init__(self, question: StageProblem, bound: tuple[int, Fraction, int] | None) -> None:
-        self.question = question
-        self.loose = question.loose
-        self.judge = StageFilter(question, (bound[0], margin(float(bound[1]))) if bound else None)
-        self.count = 0
-
-    def result(self) -> dict[str, Any]:
-        """Return the result as plain data, in the format of `search_segment`."""
-        found = self.judge.result()
-        return {**found, "count": self.count} if self.loose else found
-
-    def look(self, beneath: Range, top: Range) -> None:
-        """Test and rank all pairs of multisets with denominator and numerator products in two ranges."""
-        question, (low, high) = self.question, self.question.edges
-        below, above = distinct(question.under.values(*beneath)), distinct(question.over.values(*top))
-        span = cuts(above[0], below[0], low, high)
-        self.count += weight(below, above, span)
-        # denominators with at least one numerator within the tolerance
-        used = span[1] > span[0]
-        if not used.any():
-            return
-        # numerator products within some window: number of windows opened minus number closed so far
-        opened, closed = (np.bincount(ends, minlength=len(above[0]) + 1) for ends in span)
-        needed = np.cumsum(opened - closed)[:-1] > 0
-        under = self._prune(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
-        over = self._prune(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
-        if len(over.products) and len(under.products):
-            first, last = cuts(over.products, under.products, low, high)
-            for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
-                self.judge.see(over, under, j, i)
-
-    def _prune(self, sets: CountSets, minimum: int) -> CountSets:
-        """Remove multisets that cannot be part of a better solution than those listed, if every pair is a solution."""
-        bound, by = self.judge.best.bound, self.question.by
-        if not self.loose or bound is None or by not in ("total", "largest"):
-            return sets
-        first = sets.sums + self.question.stages * minimum if by == "total" else sets.largest
-        return sets.taken(np.flatnonzero(first <= bound[0]))
-
-
-@dataclass(frozen=True, slots=True)
-class CountSets:
-    """Multisets of counts of one side: products, shape (n,), counts, shape (n, k), sums and largest counts,
-    shape (n,).
-    """
-
-    products: Ints
-    counts: Ints
-    sums: Ints
-    largest: Ints
-
-    def taken(self, at: Ints) -> CountSets:
-        """Return the multisets at the given indices."""
-        return CountSets(self.products[at], self.counts[at], self.sums[at], self.largest[at])
-
-
-def sets_of(products: Ints, counts: Ints) -> CountSets:
-    """Build multisets from their products and counts, which must be ascending in each row."""
-    counts = counts.astype(np.int64)
-    return CountSets(products, counts, counts.sum(axis=1), counts[:, -1])
-
-
 class StageFilter:
     """Filter of pairs of multisets by the constraints. It counts the solutions and keeps the best."""
 
-    def __init__(self, question: StageProblem, bound: tuple[int, float] | None = None) -> None:
-        self.question, self.fit = question, question.fit
-        self.quick = question.loose and question.by in ("error", "total", "largest")
-        self.best = BestStages(question.best, question.value, bound)
+    def __init__(self, question: StageProblem) -> None:
+        self.question = question
+        self.best = BestStages(question.best, question.value)
         self.removed: dict[str, int] = {}
         self.count = 0
 
-    def result(self) -> dict[str, Any]:
-        """Return the result as plain data, in the format of `search_segment`."""
-        rows = self.best.rows()
-        plain = zip(rows.first.tolist(), rows.top.tolist(), rows.beneath.tolist(), strict=True) if rows else ()
-        return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}
-
-    def see(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> None:
-        """Test and rank the pairs of the numerator multisets with indices j and the denominator multisets with indices
-        i.
-        """
-        bound = self.best.bound
-        if self.quick and bound:
-            # solutions that are certainly not among the best need no test of their counts
-            self.count += len(j)
-            near = np.flatnonzero(self._first(over, under, j, i) <= bound[0])
-            self._rank(over, under, j[near], i[near], None)
-        else:
-            good, found = self._feasible(over, under, j, i)
-            self.count += len(good)
-            self._rank(over, under, j[good], i[good], found)
-
-    def _first(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> Ints:
-        """Return the primary sort criterion of each pair, computed only from sums and largest counts."""
-        if self.question.by == "total":
-            return np.asarray(over.sums[j] + under.sums[i])
-        if self.question.by == "largest":
-            return np.maximum(over.largest[j], under.largest[i])
-        return np.zeros(len(j), dtype=np.int64)
-
-    def _rank(self, over: CountSets, under: CountSets, j: Ints, i: Ints, found: FeasiblePairings | None) -> None:
-        top, beneath = over.counts[j], under.counts[i]
-        first = first_of(self.question.by, top, beneath, self.fit, found)
-        p, q = over.products[j], under.products[i]
-        rows = RankedStages(top, beneath, p, q, first, np.abs(errors(p, q, self.question.value)))
-        if self.best.bound:
-            most, error = self.best.bound
-            rows = rows.taken(np.flatnonzero((first < most) | ((first == most) & (rows.error <= error))))
-        if len(rows):
-            self.best.add(rows)
-
-    def _feasible(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
-        """Return the indices of the pairs that satisfy the constraints, and their pairings; count the others by
-        reason.
-        """
-        fit, at = self.fit, np.arange(len(j))
-        top, beneath = over.counts[j], under.counts[i]
+    def see(self, tops: Ints, beneaths: Ints, over: Ints, under: Ints) -> None:
+        """Test and rank pairs of multisets: counts of both sides, shape (n, k) each, and their products, shape (n,)."""
+        fit, at = self.question.fit, np.arange(len(over))
         if fit.different:
             # equal counts are neighbours after sorting
-            both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
-            at = self._filter(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "repeated count")
+            both = np.sort(np.concatenate([tops, beneaths], axis=1), axis=1)
+            at = self._filter(at, np.asarray((both[:, 1:] != both[:, :-1]).all(axis=1)), "repeated count")
         if fit.totals_matter:
-            total, (minimum, most) = top[at].sum(axis=1) + beneath[at].sum(axis=1), fit.totals
+            total, (minimum, most) = tops[at].sum(axis=1) + beneaths[at].sum(axis=1), fit.totals
             at = self._filter(at, (total >= minimum) & (total <= most), "sum of counts out of bounds")
-        by = self.question.by
-        if not fit.pairs_matter and by not in ("hunting", "centres"):
-            return at, None
-        found = suited(top[at], beneath[at], fit, coprime=by == "hunting", centres=by == "centres")
-        good = np.flatnonzero(found.possible)
-        at = self._filter(at, found.possible, pairing_reason(self.question))
-        return at, found.taken(good)
+        if fit.pairs_matter:
+            possible, _, _ = pairings(tops[at], beneaths[at], fit)
+            at = self._filter(at, np.asarray(possible.any(axis=1)), pairing_reason(self.question))
+        self.count += len(at)
+        if len(at):
+            first = first_of(self.question.by, tops[at], beneaths[at], fit)
+            self.best.add((first, tops[at], beneaths[at], over[at], under[at]))
 
-    def _filter(self, at: Ints, good: Bools, reason: str) -> Ints:
+    def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
         """Return the indices for which `good` is true, and count the others under the reason."""
-        gone = len(at) - int(good.sum())
-        if gone:
-            self.removed[reason] = self.removed.get(reason, 0) + gone
+        if not good.all():
+            self.removed[reason] = self.removed.get(reason, 0) + int((~good).sum())
         return at[good]
 
 
@@ -469,3 +213,108 @@ def pairing_reason(question: StageProblem) -> str:
         *([f"a ring larger than its pinion in {fit.internal} of the stages"] if fit.internal else []),
     ]
     return f"no pairing with {' and '.join(requested)}"
+
+
+@dataclass(frozen=True, slots=True)
+class SweepOutcome:
+    """Solutions of all segments within `tolerance`."""
+
+    tolerance: Fraction
+    count: int = 0
+    listed: int = 0
+    """Number of solutions from which the best were selected."""
+    removed: Mapping[str, int] = field(default_factory=dict)
+    keys: Sequence[StageRank] = ()
+    complete: bool = True
+    """True if every segment was searched."""
+    note: str = ""
+    """Reason why fewer solutions were found than may exist; "" otherwise."""
+
+
+def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
+    """Count all solutions within a tolerance, and keep the best; without a tolerance, find the best by absolute error.
+
+    The tolerance of the problem is ignored. If there are many solutions, only those near the ratio are listed. The
+    tolerance of the list is increased until it includes enough solutions, so all other solutions have larger errors.
+    """
+    minimum, most = reach_of_errors(question.value, *question.reach)
+    if tolerance is not None:
+        most = tolerance
+        if not (question.by == "error" and replace(question, tolerance=tolerance).loose):
+            _check(question, tolerance)
+            minimum = tolerance
+    step = _start(question)
+    while True:
+        # the nearest possible ratio may be far away; the tolerance starts there
+        near = min(minimum + step, most)
+        found = _sweep(replace(question, tolerance=near if tolerance is None else tolerance), near, means)
+        means = replace(means, journal=None)  # the journal belongs to the first tolerance only
+        if found.listed >= question.best or near >= most or not found.complete:
+            return found
+        inside = found.listed + sum(found.removed.values())
+        if _WIDER * inside > _ENOUGH:
+            note = f"only {found.count} solutions are within {float(near):.3g}, among {inside} candidates; "
+            return replace(found, note=note + "give a tolerance to search further")
+        step *= _WIDER
+
+
+def _density(question: StageProblem) -> float:
+    """Estimate the number of candidates per unit of absolute relative error."""
+    span = log(question.top[-1] / question.top[0]) + log(question.beneath[-1] / question.beneath[0])
+    return 2 * question.candidates / max(question.stages * span, 1e-3)
+
+
+def _start(question: StageProblem) -> Fraction:
+    """Return a tolerance within which about 16 times the requested number of pairs is expected."""
+    return rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
+
+
+def _check(question: StageProblem, tolerance: Fraction) -> None:
+    """Raise `RangeError` if too many pairs of multisets must be tested one by one."""
+    pairs = float(tolerance) * _density(question)
+    if pairs > _MOST:
+        raise RangeError(
+            Problem(
+                f"about {pairs:.1g} candidates are within the tolerance",
+                f"constraints, order or list length require a test of each, and at most {_MOST:.0g} are tested",
+                f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
+            )
+        )
+
+
+def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
+    """Search all segments and merge their results. After a keyboard interrupt return the results obtained so far."""
+    plain = question.plain()
+    tasks = [{"question": plain, "low": low, "high": high, "near": str(near)} for low, high in _segments(question)]
+    # a single task runs in this process, without the overhead of an executor
+    results = map(search_segment, tasks) if len(tasks) < 2 else means.run(search_segment, tasks)
+    count, listed, keys, complete = 0, 0, list[StageRank](), True
+    removed = Counter[str]()
+    try:
+        for result in results:
+            count += result["count"]
+            listed += result["listed"]
+            removed.update(result["removed"])
+            keys += [key_of(first, top, beneath, question.value) for first, top, beneath in result["rows"]]
+            keys = sorted(keys)[: question.best]
+    except KeyboardInterrupt:
+        complete = False
+    return SweepOutcome(question.tolerance, count, listed, removed, keys, complete)
+
+
+def _segments(question: StageProblem) -> list[Range]:
+    """Divide the denominator products into segments of about two blocks of products, counting both sides.
+
+    Stages with equal sums are divided by their sum: eight sums for four and more stages, which are slow, or all.
+    """
+    size = question.stages
+    if question.of_equal_sums:
+        low, high = question.top[0] + question.beneath[0], question.top[-1] + question.beneath[-1] + 1
+        return [(at, min(at + 8, high)) for at in range(low, high, 8)] if size > 3 else [(low, high)]
+    low, high = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
+    if not question.reachable or low >= high:
+        return []
+    products = multisets(len(question.top), size) + multisets(len(question.beneath), size)
+    number = ceil(products / (2 * _block(question)))
+    inner = {int(low * (high / low) ** (at / number)) for at in range(1, number)}
+    return list(pairwise(sorted({low, high, *inner})))

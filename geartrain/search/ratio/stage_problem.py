@@ -5,12 +5,13 @@ The orders are total, and do not depend on the sequence in which solutions are f
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from itertools import combinations, permutations
-from math import gcd, prod
+from itertools import combinations, permutations, product
+from math import prod
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
@@ -18,20 +19,20 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.results import Result
-from geartrain.search.ratio.product_windows import PLAIN, ROUNDING, ProductWindows, error_places, multisets, products_of
+from geartrain.search.ratio.product_windows import PLAIN, ProductWindows, error_places, multisets, products_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.numerics.arrays import Bools
 
     Ints = NDArray[Any]
+    RankedRows = tuple[Ints, Ints, Ints, Ints, Ints]
 
 
 Set = tuple[int, ...]
 Pairs = tuple[tuple[int, int], ...]
-_CHUNK = 1 << 18  # numbers in one vectorised step
-_TABLE = 1024  # maximum count of the lookup table of coprime pairs
+_MARGIN = 1e-14  # relative bound of the rounding error of a ratio
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,6 +177,24 @@ class StageProblem:
         """Number of pairs of multisets, one for the numerator and one for the denominator."""
         return multisets(len(self.top), self.stages) * multisets(len(self.beneath), self.stages)
 
+    @property
+    def of_equal_sums(self) -> bool:
+        """True if all stages must have the same sum of counts."""
+        return self.fit.reverted and not self.fit.internal
+
+    @property
+    def candidates(self) -> int:
+        """Number of pairs of multisets; for stages with equal sums, number of multisets of stages."""
+        if not self.of_equal_sums:
+            return self.considered
+        sums = Counter(a + b for a in self.top for b in self.beneath)
+        return sum(multisets(stages, self.stages) for stages in sums.values())
+
+    def stages_of(self, total: int) -> list[tuple[int, int]]:
+        """Return all stages (numerator count, denominator count) with a given sum of counts."""
+        beneath = set(self.beneath)
+        return [(count, total - count) for count in self.top if total - count in beneath]
+
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
         """Return the part of the range [low, high) of denominator products in which a numerator product can match."""
         first, last = self.edges
@@ -231,112 +250,36 @@ def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
 # ------------------------------------------------------------ pairings of the counts of two multisets to stages
 
 
-@dataclass(frozen=True, slots=True)
-class FeasiblePairings:
-    """Best properties of the feasible pairings of numerator and denominator counts, for n pairs of multisets."""
-
-    possible: Bools
-    """True if some pairing satisfies the constraints, shape (n,)."""
-    coprime: Ints
-    """Maximum number of stages with coprime counts over the feasible pairings, shape (n,); 0 if no pairing
-    is feasible.
-    """
-    centres: Ints
-    """Minimum number of distinct centre distances over the feasible pairings, shape (n,); 2 k if no pairing is
-    feasible.
-    """
-
-    def taken(self, at: Ints) -> FeasiblePairings:
-        """Return the rows at the given indices."""
-        return FeasiblePairings(self.possible[at], self.coprime[at], self.centres[at])
-
-
-def suited(
-    tops: Ints, beneaths: Ints, fit: StageConstraints, *, coprime: bool = True, centres: bool = True
-) -> FeasiblePairings:
+def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, Ints, Ints]:
     """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of internal
     meshes.
 
-    coprime, centres   False if this property is not needed; it is then not evaluated
+    The columns of the result are those of `_arrangements`: whether the pairing satisfies the constraints, the number of
+    stages with coprime counts, and the number of distinct centre distances, shape (n, arrangements) each.
     """
-    size = tops.shape[1]
-    step = max(_CHUNK // (len(_arrangements(size, fit.internal)[0]) * size), 1)
-    # at least one chunk, so that an empty result has its columns too
-    parts = [
-        _evaluate_chunk(tops[at : at + step], beneaths[at : at + step], fit, coprime, centres)
-        for at in range(0, max(len(tops), 1), step)
-    ]
-    return FeasiblePairings(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-
-
-def _evaluate_chunk(
-    tops: Ints, beneaths: Ints, fit: StageConstraints, coprime: bool, centres: bool
-) -> tuple[Bools, Ints, Ints]:
-    """Return the columns of `FeasiblePairings` for some rows of numerator and denominator counts."""
-    size = tops.shape[1]
-    orders, rings, meshes, ringed = _arrangements(size, fit.internal)
-    possible = np.ones((len(tops), len(orders)), dtype=bool)
-    alone = kinds = np.zeros(possible.shape, dtype=np.int64)
-    if fit.hunting or coprime:
-        # pairs as a bit mask: one `and` tests an arrangement
-        alone = np.bitwise_count(_code(_coprime(tops, beneaths))[:, None] & meshes).astype(np.int64)
-        if fit.hunting:
-            possible &= alone == size
-    if fit.internal:
-        # a ring and its pinion must have different counts
-        possible &= (_code(tops[:, :, None] != beneaths[:, None, :])[:, None] & ringed) == ringed
-    if fit.reverted or centres:
-        tall, short = tops[:, None, :], beneaths[:, orders]
-        # twice the centre distance in modules
-        distances = np.where(rings, np.abs(tall - short), tall + short)
-        if fit.reverted:
-            possible &= (distances[:, :, 1:] == distances[:, :, :1]).all(axis=2)
-        if centres:
-            distances.sort(axis=2)
-            kinds = 1 + (distances[:, :, 1:] != distances[:, :, :-1]).sum(axis=2)
-    return (
-        np.asarray(possible.any(axis=1)),
-        np.where(possible, alone, 0).max(axis=1),
-        np.where(possible, kinds, 2 * size).min(axis=1),
-    )
-
-
-def _code(table: Bools) -> Ints:
-    """Encode a boolean table of size x size as a bit mask, in which bit size i + j is entry (i, j).
-
-    Entry (i, j) belongs to numerator count i and denominator count j.
-    """
-    size = table.shape[1]
-    return table.reshape(len(table), size * size) @ (1 << np.arange(size * size, dtype=np.int64))
-
-
-def _coprime(tops: Ints, beneaths: Ints) -> Bools:
-    """Return whether each numerator count is coprime to each denominator count, shape (n, k, k)."""
-    most = int(max(tops.max(initial=1), beneaths.max(initial=1)))
-    if most > _TABLE:
-        return np.asarray(np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)
-    return np.asarray(_coprime_table()[tops[:, :, None], beneaths[:, None, :]])
-
-
-@lru_cache(maxsize=1)
-def _coprime_table() -> Bools:
-    numbers = np.arange(_TABLE + 1)
-    return np.asarray(np.gcd(numbers[:, None], numbers) == 1)
+    orders, rings = _arrangements(tops.shape[1], fit.internal)
+    tall, short = tops[:, None, :], beneaths[:, orders]
+    coprime = (np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)[:, np.arange(tops.shape[1]), orders].sum(axis=2)
+    # twice the centre distance in modules; 0 for a ring and a pinion with equal counts
+    distances = np.sort(np.where(rings, np.abs(tall - short), tall + short), axis=2)
+    centres = 1 + (distances[:, :, 1:] != distances[:, :, :-1]).sum(axis=2)
+    possible = distances[:, :, 0] > 0
+    if fit.hunting:
+        possible &= coprime == tops.shape[1]
+    if fit.reverted:
+        possible &= centres == 1
+    return np.asarray(possible), np.asarray(coprime), np.asarray(centres)
 
 
 @lru_cache(maxsize=32)
-def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
+def _arrangements(size: int, internal: int) -> tuple[Ints, Bools]:
     """Return every permutation of the denominator counts with every choice of the internal stages.
 
-    The arrays are permutations and choices, shape (arrangements, size) each, and the bit masks of all meshes and of the
-    internal meshes, shape (arrangements,) each, encoded as by `_code`.
+    The arrays are permutations and choices, shape (arrangements, size) each.
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
-    both = [(order, choice) for order in permutations(range(size)) for choice in choices]
-    orders = np.array([order for order, _ in both], dtype=np.int64)
-    rings = np.array([choice for _, choice in both], dtype=bool)
-    bits = 1 << (size * np.arange(size) + orders)
-    return orders, rings, bits.sum(axis=1), (bits * rings).sum(axis=1)
+    both = list(product(permutations(range(size)), choices))
+    return np.array([order for order, _ in both], dtype=np.int64), np.array([rings for _, rings in both], dtype=bool)
 
 
 def best_pairing(
@@ -352,52 +295,21 @@ def best_pairing(
     ((39, 34), (73, 15), (91, 38))
     """
     fit = fit or StageConstraints()
-    found: dict[Pairs, tuple[int, int]] = {}
-    # a set, because repeated counts give equal permutations
-    for order in set(permutations(beneath)):
-        stages = tuple(zip(top, order, strict=True))
-        for chosen in combinations(range(len(stages)), fit.internal):
-            pairs = _sorted(stages, chosen)
-            merit = _merit(pairs, fit, centres)
-            if merit:
-                found[pairs] = merit
-    if not found:
-        return None
-    # a common multiple of the denominators, so that ratios are compared as integers
-    minimum, scale = min(found.values()), prod(beneath)
-    return min((_spread(pairs, scale), pairs) for pairs, merit in found.items() if merit == minimum)[1]
+    orders, rings = _arrangements(len(top), fit.internal)
+    possible, coprime, kinds = (each[0] for each in pairings(np.array([top]), np.array([beneath]), fit))
+    merits = (len(top) + 1) * kinds * centres - coprime
+    # a set, because repeated counts give equal pairings
+    best: set[Pairs] = set()
+    for at in np.flatnonzero(possible & (merits == merits[possible].min(initial=np.iinfo(np.int64).max))).tolist():
+        stages = zip(rings[at].tolist(), top, (beneath[own] for own in orders[at]), strict=True)
+        best.add(tuple((a, b) for _, a, b in sorted(stages)))
+    return min(best, key=lambda pairs: (_spread(pairs), pairs), default=None)
 
 
-def _sorted(stages: Pairs, chosen: tuple[int, ...]) -> Pairs:
-    """Return the external pairs, ascending, followed by the internal pairs, ascending."""
-    if not chosen:
-        return tuple(sorted(stages))
-    plain = sorted(pair for at, pair in enumerate(stages) if at not in chosen)
-    return (*plain, *sorted(stages[at] for at in chosen))
-
-
-def _merit(pairs: Pairs, fit: StageConstraints, centres: bool) -> tuple[int, int] | None:
-    """Return the sort key of a pairing: number of centre distances, minus number of coprime stages; None if
-    infeasible.
-    """
-    border = len(pairs) - fit.internal
-    coprime = sum(gcd(a, b) == 1 for a, b in pairs)
-    if (fit.hunting and coprime < len(pairs)) or any(a == b for a, b in pairs[border:]):
-        return None
-    distances = 0
-    if fit.reverted or centres:
-        distances = len({a + b if at < border else abs(a - b) for at, (a, b) in enumerate(pairs)})
-        if fit.reverted and distances > 1:
-            return None
-    return distances if centres else 0, -coprime
-
-
-def _spread(pairs: Pairs, scale: int) -> Fraction:
-    """Return the quotient of the maximum and minimum ratio of a stage; `scale` is a multiple of all denominator
-    counts.
-    """
-    ratios = [a * (scale // b) for a, b in pairs]
-    return Fraction(max(ratios), min(ratios))
+def _spread(pairs: Pairs) -> Fraction:
+    """Return the quotient of the maximum and minimum ratio of a stage."""
+    ratios = [Fraction(a, b) for a, b in pairs]
+    return max(ratios) / min(ratios)
 
 
 # ----------------------------------------------------------------------------------------------------- total orders
@@ -426,43 +338,13 @@ def check_order(by: str) -> None:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class RankedStages:
-    """Candidate solutions as columns of n rows, with k tooth counts on each side."""
-
-    top: Ints
-    """Numerator counts, ascending in each row, shape (n, k)."""
-    beneath: Ints
-    """Denominator counts, ascending in each row, shape (n, k)."""
-    over: Ints
-    """Products of the numerator counts, shape (n,)."""
-    under: Ints
-    """Products of the denominator counts, shape (n,)."""
-    first: Ints
-    """Primary criterion of the order; smaller is better, shape (n,)."""
-    error: Floats
-    """Approximate absolute relative error, used for pruning, shape (n,)."""
-
-    def __len__(self) -> int:
-        return len(self.first)
-
-    def taken(self, at: Ints) -> RankedStages:
-        """Return the rows at the given indices."""
-        columns = (self.top, self.beneath, self.over, self.under, self.first, self.error)
-        return RankedStages(*(column[at] for column in columns))
-
-    @classmethod
-    def joined(cls, parts: Sequence[RankedStages]) -> RankedStages:
-        """Join the rows of all parts into one set of arrays."""
-        names = cls.__slots__
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
-
-
-def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: FeasiblePairings | None = None) -> Ints:
+def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints:
     """Return the primary sort criterion (smaller is better) for numerator and denominator counts, shape (n, k) each."""
     if by in ("hunting", "centres"):
-        found = found or suited(tops, beneaths, fit, coprime=by == "hunting", centres=by == "centres")
-        return -found.coprime if by == "hunting" else found.centres
+        possible, coprime, centres = pairings(tops, beneaths, fit)
+        if by == "hunting":
+            return np.asarray(-np.where(possible, coprime, 0).max(axis=1))
+        return np.asarray(np.where(possible, centres, 2 * tops.shape[1]).min(axis=1))
     if by == "total":
         return np.asarray(tops.sum(axis=1) + beneaths.sum(axis=1))
     if by == "largest":
@@ -473,28 +355,26 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: 
     return np.zeros(len(tops), dtype=np.int64)
 
 
-def margin(error: float) -> float:
-    """Return an upper bound of an exact error whose approximation is `error`."""
-    # much larger than the relative error of 1e-12 of the approximations
-    return error * (1 + 1e-9) + 2 * ROUNDING
-
-
-def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
+def cut(rows: RankedRows, best: int, value: Fraction) -> RankedRows:
     """Return the first `best` rows in their exact order."""
-    if len(rows) > best:
-        # approximate errors select slightly too many, which are then compared as Fractions
-        order = np.lexsort((rows.error, rows.first))
-        last = order[best - 1]
-        first, error = rows.first[last], margin(float(rows.error[last]))
-        rows = rows.taken(np.flatnonzero((rows.first < first) | ((rows.first == first) & (rows.error <= error))))
-    sums = rows.top.sum(axis=1) + rows.beneath.sum(axis=1)
-    largest = np.maximum(rows.top[:, -1], rows.beneath[:, -1])
+    first, _, _, over, under = rows
+    if len(first) > best:
+        # errors in floats select slightly too many rows, which are then compared as Fractions
+        error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
+        last = np.lexsort((error, first))[best - 1]
+        near = error <= error[last] + _MARGIN * (1 + error[last])
+        at = np.flatnonzero((first < first[last]) | ((first == first[last]) & near))
+        rows = _rows_at(rows, at)
+    first, top, beneath, over, under = rows
+    sizes = np.maximum(top[:, -1], beneath[:, -1]), top.sum(axis=1) + beneath.sum(axis=1)
     # lexsort takes its last key first
-    counts = [np.asarray(each, dtype=np.int64) for each in [*rows.top.T, *rows.beneath.T][::-1]]
-    sizes = [np.asarray(each, dtype=np.int64) for each in (largest, sums)]
-    _, errors = error_places(rows.over, rows.under, value)
-    order = np.lexsort((*counts, *sizes, errors, rows.first))
-    return rows.taken(order[:best])
+    order = np.lexsort((*[*top.T, *beneath.T][::-1], *sizes, error_places(over, under, value), first))
+    return _rows_at(rows, order[:best])
+
+
+def _rows_at(rows: RankedRows, at: Ints) -> RankedRows:
+    first, top, beneath, over, under = (column[at] for column in rows)
+    return first, top, beneath, over, under
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
@@ -503,43 +383,29 @@ def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fracti
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)
 
 
-def merged(keys: Iterable[StageRank], best: int) -> list[StageRank]:
-    """Return the first `best` keys, sorted."""
-    return sorted(keys)[:best]
-
-
 class BestStages:
-    """List of the n best of all rows that are added, in bounded memory."""
+    """List of the n best of all rows that are added, in bounded memory.
 
-    def __init__(self, best: int, value: Fraction, bound: tuple[int, float] | None = None) -> None:
+    Rows are columns: primary criterion of the order, smaller is better, shape (n,); counts of numerator and
+    denominator, ascending in each row, shape (n, k) each; and their products, shape (n,) each.
+    """
+
+    def __init__(self, best: int, value: Fraction) -> None:
         self.best, self.value = best, value
-        self._bound = bound
-        self._parts: list[RankedStages] = []
-        self._held = 0
+        self._parts: list[RankedRows] = []
 
-    @property
-    def bound(self) -> tuple[int, float] | None:
-        """Primary criterion and error beyond which rows cannot be among the n best; None if unknown."""
-        return self._bound
-
-    def add(self, rows: RankedStages) -> None:
+    def add(self, rows: RankedRows) -> None:
         """Add candidate rows to the list."""
         self._parts.append(rows)
-        self._held += len(rows)
         # several times the list length is stored between two sorts, which amortises their cost
-        if self._held > max(4 * self.best, 1 << 17):
-            self._settle()
+        if sum(len(part[0]) for part in self._parts) > max(4 * self.best, 1 << 17):
+            self._parts = [self._settled()]
 
-    def rows(self) -> RankedStages | None:
-        """Return the n best rows in order; None if no row was added."""
-        if not self._parts:
-            return None
-        self._settle()
-        return self._parts[0]
+    def plain(self) -> list[list[Any]]:
+        """Return the n best rows in order as plain data: criterion, numerator counts, denominator counts."""
+        first, top, beneath, *_ = self._settled() if self._parts else ([],) * 3
+        return [list(row) for row in zip(*(np.asarray(each).tolist() for each in (first, top, beneath)), strict=True)]
 
-    def _settle(self) -> None:
-        rows = cut(RankedStages.joined(self._parts), self.best, self.value)
-        self._parts, self._held = [rows], len(rows)
-        if len(rows) == self.best:
-            reached = int(rows.first[-1]), margin(float(rows.error[rows.first == rows.first[-1]].max()))
-            self._bound = min(self._bound, reached) if self._bound else reached
+    def _settled(self) -> RankedRows:
+        first, top, beneath, over, under = (np.concatenate(columns) for columns in zip(*self._parts, strict=True))
+        return cut((first, top, beneath, over, under), self.best, self.value)

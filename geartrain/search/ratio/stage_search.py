@@ -21,9 +21,8 @@ from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
-from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_memory, multisets, rounded_up
-from geartrain.search.ratio.segment_sweep import SweepOutcome, nearest, tally, within
+from geartrain.search.ratio.search_segments import SweepOutcome, solve
 from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem, StageRank, best_pairing, check_order
 from geartrain.search.search_outcome import GearStages, Shortfall
 from geartrain.search.target_ratio import TargetRatio
@@ -33,7 +32,6 @@ OUTSIDE = "outside the tolerance"
 SENSE = "opposite sense of rotation"
 DEFAULT_TOLERANCE = Fraction(1, 10**6)
 _FAR = 10**12  # factor beyond the ratios of all counts
-_LONG = 100_000  # number of counts of a wheel beyond which single pairs are found without tables
 _QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more stage
 
 
@@ -91,16 +89,14 @@ class StageFindings(Tabular, Result):
     """Constraints on the counts."""
     by: str
     """Order in which `solutions` are listed."""
-    tolerance: Fraction | None
+    tolerance: Fraction
     """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best is
     proved complete.
-
-    It is None if the best pairs of long ranges were found without a tolerance.
     """
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
-    count: int | None
-    """Number of solutions within the tolerance, exact if `complete`; None without a tolerance."""
+    count: int
+    """Number of solutions within the tolerance, exact if `complete`."""
     solutions: tuple[GearStages, ...]
     """Best solutions, in the order `by`."""
     shortfall: Shortfall
@@ -215,11 +211,6 @@ def find_stages(
     (76, ((30, 19), (127, 15)), True)
     """
     fit = fit or StageConstraints()
-    larger, smaller = CountRuns.of(wheels), CountRuns.of(pinions)
-    # a single external pair reverses the sense, so a positive sense has no solution
-    plain = by == "error" and fit == StageConstraints() and wanted.sense <= 0
-    if stages == 1 and plain and max(len(larger), len(smaller)) > _LONG:
-        return _long_ranges(wanted, larger, smaller, tolerance, best)
     question, considered, note = _question(wanted, stages, (wheels, pinions), tolerance, best, by, fit)
     if wanted.sense and wanted.sense != fit.sense(stages):
         return _findings(wanted, question, SweepOutcome(question.tolerance), _wrong_sense(question, considered), note)
@@ -227,26 +218,12 @@ def find_stages(
         return _findings(wanted, question, SweepOutcome(question.tolerance), _too_large(question, considered), note)
     _check_reach(question)
     means = Execution(executor, journal, tell)
-    open_ended = tolerance is None and by == "error"
     try:
-        outcome = nearest(question, means) if open_ended else within(question, means)
+        outcome = solve(question, None if tolerance is None and by == "error" else question.tolerance, means)
     except KeyboardInterrupt:
         outcome = SweepOutcome(question.tolerance, complete=False)
     shortfall = explain(question, considered, outcome, wanted.sense, means)
     return _findings(wanted, question, outcome, shortfall, note or outcome.note)
-
-
-def _long_ranges(
-    wanted: TargetRatio, wheels: CountRuns, pinions: CountRuns, tolerance: Fraction | None, best: int
-) -> StageFindings:
-    """Return the solutions by a single pair in long ranges, without an enumeration of the tooth counts."""
-    solutions = find_pairs(wanted, wheels, pinions, tolerance, best)
-    count = None if tolerance is None else count_pairs(wanted, wheels, pinions, tolerance)
-    top, beneath = (wheels, pinions) if wanted.value >= 1 else (pinions, wheels)
-    considered = len(top) * len(beneath)
-    shortfall = Shortfall(considered, {} if count is None else {OUTSIDE: considered - count})
-    fit = StageConstraints()
-    return StageFindings(wanted, 1, top, beneath, fit, "error", tolerance, True, count, solutions, shortfall)
 
 
 def _question(
@@ -367,13 +344,9 @@ def tolerance_text(tolerance: Fraction) -> str:
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
     """Return the number of rejected pairs of multisets by reason. With the solutions they add up to `considered`."""
     removed = {f"count above {question.fit.largest}": considered - question.considered}
-    known = dict(outcome.removed)
-    if question.fit.reverted and not question.fit.internal:
-        removed.update(tally(question))
-    removed[OUTSIDE] = considered - sum(removed.values()) - sum(known.values()) - outcome.count
-    for reason, number in known.items():
-        removed[reason] = removed.get(reason, 0) + number
-    return {reason: number for reason, number in removed.items() if number}
+    removed["no pairing with equal centre distances"] = question.considered - question.candidates
+    removed[OUTSIDE] = question.candidates - sum(outcome.removed.values()) - outcome.count
+    return {reason: number for reason, number in {**removed, **outcome.removed}.items() if number}
 
 
 def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
@@ -386,8 +359,8 @@ def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sens
     # the journal belongs to the search itself, not to its explanation
     one, means = replace(question, by="error", best=1), replace(means, journal=None)
     try:
-        miss = nearest(one, means)
-        plain = miss if question.fit.free else nearest(replace(one, fit=StageConstraints()), means)
+        miss = solve(one, None, means)
+        plain = miss if question.fit.free else solve(replace(one, fit=StageConstraints()), None, means)
         advice = "; ".join(_advice(question, miss, removed, sense))
     except KeyboardInterrupt:  # the result is complete, only its explanation is interrupted
         return Shortfall(considered, removed)
@@ -419,7 +392,7 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
     if miss.keys and miss.complete:
         yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
     for reason, number in removed.items():
-        if reason not in (OUTSIDE, f"count above {question.fit.largest}") and not question.fit.reverted:
+        if reason not in (OUTSIDE, f"count above {question.fit.largest}"):
             yield f"relax the constraint that rejected {number} candidates within the tolerance ({reason})"
     if question.stages < MOST_STAGES:
         yield from _one_more(question, sense)
@@ -435,7 +408,7 @@ def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
         yield f"try {size} stages"
         return
     try:
-        count = within(more, Execution()).count
+        count = solve(more, more.tolerance, Execution()).count
     except RangeError:
         return
     if count:

@@ -12,6 +12,8 @@ from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,
+    Different,
+    Hunting,
     Per,
     Pinions,
     Range,
@@ -23,7 +25,6 @@ from geartrain.search.teeth_verb import (
     read_tolerance,
 )
 
-Flag = bool
 context_settings = NEGATIVE_NUMBERS
 
 
@@ -43,9 +44,9 @@ def run(
     internal: Annotated[
         int, typer.Option("--internal", min=0, help="Number of internal gear pairs, which keep the sense of rotation.")
     ] = 0,
-    hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
-    reverted: Annotated[Flag, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
-    different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
+    hunting: Hunting = False,
+    reverted: Annotated[bool, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
+    different: Different = False,
     maximum_total: Annotated[
         int | None, typer.Option("--max-total", min=2, help="Maximum sum of all tooth counts.")
     ] = None,
@@ -63,7 +64,6 @@ def run(
     from geartrain.search.ratio.stage_search import find_stages
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
-    from geartrain.search.tooth_numbers_report import describe_stages, stage_rows
 
     answer = SearchAnswer.of(json, out, force)
     wanted = read_ratio(check_number(context, ratio), per)
@@ -101,4 +101,4 @@ def run(
             tell=given.tell,
         )
         close_journal(given.journal, cut=not found.complete)
-    answer.give(found, stage_rows(found), describe_stages)
+    answer.give(found)

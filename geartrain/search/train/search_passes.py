@@ -1,7 +1,6 @@
 """One pass of a search over a part of a train: its requirements as a join, divided into tasks, and run.
 
-If there are very many assignments only the best are kept. Bounds in floats discard most others, and exact errors sort
-the rest.
+If there are very many assignments only the best are kept, by exact errors.
 """
 
 from __future__ import annotations
@@ -13,20 +12,18 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, partial
-from math import ceil, inf, prod
+from math import ceil, prod
 from typing import Any, cast
 
 import numpy as np
 
-from geartrain.numerics.arrays import Bools, Floats, Ints
-from geartrain.numerics.bounded_polynomials import BoundedQuotient, WholeTerm, products_of
-from geartrain.numerics.exact import as_float
+from geartrain.numerics.arrays import Ints
+from geartrain.numerics.bounded_polynomials import WholeTerm
 from geartrain.numerics.work import Journal, run
 from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.search.integer_columns import distinct_quotients
 from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
-from geartrain.search.join.polynomial_constraints import ROUNDING
 from geartrain.search.join.product_lists import Domains, Tallies
 from geartrain.search.join.wheel_monomials import IntervalConstraint, quotients
 from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
@@ -431,7 +428,7 @@ class AssignmentOrder:
         return Assignment(dict(teeth), outputs, changed)
 
     def first(self, columns: AssignmentColumns) -> Ints:
-        """Return the primary criterion of many assignments; 0 for the error, which `errors` bounds instead."""
+        """Return the primary criterion of many assignments; 0 for the error, which `ranks` compares."""
         table = np.stack(list(columns.values()))
         if self.by == "total":
             return np.asarray(table.sum(axis=0))
@@ -445,16 +442,6 @@ class AssignmentOrder:
             return np.asarray(sum(changes, np.zeros(table.shape[1], dtype=np.int64)))
         return np.zeros(table.shape[1], dtype=np.int64)
 
-    def errors(self, columns: AssignmentColumns) -> tuple[Floats, Floats]:
-        """Return lower and upper bounds of the maximum absolute relative error over the outputs."""
-        size = len(next(iter(columns.values())))
-        minimum, maximum = np.zeros(size), np.zeros(size)
-        if not self.level:
-            for requirement in self.requirements:
-                low, high = _errors(requirement, columns)
-                minimum, maximum = np.maximum(minimum, low), np.maximum(maximum, high)
-        return minimum, maximum
-
     def ranks(self, columns: AssignmentColumns) -> Ints:
         """Return integer ranks by the maximum absolute error, compared exactly. Equal errors have equal ranks."""
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
@@ -465,30 +452,6 @@ class AssignmentOrder:
         for errors, which in exact:
             found = np.maximum(found, np.array([rank[error] for error in errors], dtype=np.int64)[which])
         return found
-
-
-def _errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
-    """Return lower and upper bounds of the absolute relative error of one output, for each assignment."""
-    function = requirement.function
-    # a count is rounded at most once, if it exceeds 2^53
-    quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
-    speed, off = quotient.bounded(products_of([columns[wheel].astype(np.float64) for wheel in function.wheels]))
-    size = len(next(iter(columns.values())))
-    minimum, maximum = np.zeros(size), np.zeros(size)
-    for demand in (demand for demand in requirement.demands if demand.graded):
-        wanted = as_float(demand.wanted)
-        if wanted is None:
-            return np.zeros(size), np.full(size, inf)
-        if wanted:
-            error = np.abs((speed if demand.signed else np.abs(speed)) / wanted - 1)
-            slack = off / abs(wanted) + 4 * ROUNDING * (1 + error)
-        else:
-            error, slack = np.abs(speed), off
-        # an error that is not finite has no bound, so it excludes nothing
-        slack = np.where(np.isfinite(error), slack, inf)
-        error = np.where(np.isfinite(error), error, 0.0)
-        minimum, maximum = np.maximum(minimum, error - slack), np.maximum(maximum, error + slack)
-    return minimum, maximum
 
 
 def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
@@ -530,41 +493,25 @@ class BestAssignments:
         self._new.append(np.stack([columns[wheel] for wheel in self.wheels]))
         if sum(table.shape[1] for table in self._new) > _POOL:
             self._gather()
-            self._drop()
-            if self._table.shape[1] > max(4 * self.order.best, _POOL // 4):
-                self._sort()
 
     def best(self) -> list[list[int]]:
         """Return the counts of the best assignments, best first."""
         self._gather()
-        self._drop()
-        self._sort()
         found: list[list[int]] = self._table.T.tolist()
         return found
 
     def _gather(self) -> None:
-        self._table = np.concatenate([self._table, *self._new], axis=1)
+        """Sort all candidates exactly, and discard all but the best."""
+        table = np.concatenate([self._table, *self._new], axis=1)
         self._new = []
-
-    def _columns(self) -> AssignmentColumns:
-        return dict(zip(self.wheels, self._table, strict=True))
-
-    def _drop(self) -> None:
-        """Discard assignments whose lower error bound excludes them from the best."""
-        best = self.order.best
-        if self._table.shape[1] <= best or self.order.level:
-            return
-        first = self.order.first(self._columns())
-        minimum, maximum = self.order.errors(self._columns())
-        # n-th smallest upper bound: larger lower bounds exclude an assignment from the best n
-        last = np.lexsort((maximum, first))[best - 1]
-        kept: Bools = (first < first[last]) | ((first == first[last]) & (minimum <= maximum[last]))
-        self._table = self._table[:, kept]
-
-    def _sort(self) -> None:
-        if self._table.shape[1]:
-            columns = self._columns()
-            sizes = self._table.max(axis=0), self._table.sum(axis=0)
+        if table.shape[1] > self.order.best:
+            # errors are compared only among those that the primary criterion does not exclude
+            first = self.order.first(dict(zip(self.wheels, table, strict=True)))
+            table = table[:, first <= np.partition(first, self.order.best - 1)[self.order.best - 1]]
+        if table.shape[1]:
+            columns = dict(zip(self.wheels, table, strict=True))
+            sizes = table.max(axis=0), table.sum(axis=0)
             # lexsort takes its last key first
-            keys = (*self._table[::-1], *sizes, self.order.ranks(columns), self.order.first(columns))
-            self._table = self._table[:, np.lexsort(keys)[: self.order.best]]
+            keys = (*table[::-1], *sizes, self.order.ranks(columns), self.order.first(columns))
+            table = table[:, np.lexsort(keys)[: self.order.best]]
+        self._table = table

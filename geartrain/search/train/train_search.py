@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import ceil, floor, prod, sqrt
-from typing import Any
+from math import ceil, floor, prod
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.bounded_polynomials import WholeTerm
 from geartrain.numerics.exact import decimal, log10
-from geartrain.numerics.work import Execution, Journal
+from geartrain.numerics.work import Journal
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import CountConstraint
@@ -50,29 +49,18 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.tally.listed or not passed.complete:
         return passed, passed.tally.best, passed.tally.listed and passed.complete
-    # geometric mean of the number needed and the number that can be listed
-    top, some = _error_bound(search), ceil(sqrt(search.order.best * _list_limit(search)))
-    # with one inexact output the number of solutions is about proportional to the tolerance
-    guess = top * Fraction(some, passed.tally.count) if _count_inexact(search) == 1 else top / 10
-    narrowed = _fitting(search, guess, top, some)
+    narrowed = widened(search)
     return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Run passes with increasing tolerance until they include the requested number of assignments, or all."""
-    return _fitting(search, _initial_tolerance(search), None, 3 * search.order.best)
-
-
-def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: int) -> PassResult:
-    """Return a pass whose tolerance includes enough assignments, all of them listed.
-
-    long   a tolerance that includes too many to list; None if none is known
-    some   approximate number of assignments it should include
+    """Return a pass whose tolerance includes the requested number of assignments, or all, and all of them are listed.
 
     If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
     enumerate within its limit.
     """
-    short = Fraction(0)
+    guess, short = _initial_tolerance(search), Fraction(0)
+    long: Fraction | None = None  # a tolerance that includes too many to list
     for _ in range(_TRIES):
         share = _rounded(guess)
         if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
@@ -86,7 +74,7 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
             guess = long / 8
         else:
             short = share
-            guess = share * _growth(search, passed.tally.count, some)
+            guess = share * _growth(search, passed.tally.count)
         if short and long is not None:
             # bisection of the logarithm, between too few and too many
             guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
@@ -114,28 +102,16 @@ def _initial_tolerance(search: PartSearch) -> Fraction:
     return Fraction(min(max(guess, 1e-12), 1.0))
 
 
-def _growth(search: PartSearch, count: int, some: int) -> Fraction:
+def _growth(search: PartSearch, count: int) -> Fraction:
     """Return the factor by which to increase the tolerance if only `count` assignments were found."""
     # nothing found: the maximum step
-    missing = some / count if count else 1e9
+    missing = 3 * search.order.best / count if count else 1e9
     return Fraction(min(10.0, max(1.5, missing ** (1 / max(_count_inexact(search), 1)))))
 
 
 def _rounded(share: Fraction) -> Fraction:
     """Round a tolerance to two significant digits, so that it is easy to print."""
     return Fraction(f"{float(share):.1e}")
-
-
-def _error_bound(search: PartSearch) -> Fraction:
-    """Return an upper bound of the relative error of all solutions."""
-    largest = Fraction(0)
-    for requirement in search.part.requirements:
-        requested = requirement.requested(None)
-        for interval in requested.intervals if requested else ():
-            for end in interval:
-                errors = [abs(one.error(end)) for one in requirement.demands if one.graded and end is not None]
-                largest = max([largest, *errors])
-    return largest or Fraction(1)
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
@@ -274,59 +250,6 @@ def _rounded_up(error: Fraction) -> str:
 
 LIMIT = 10**9
 """Default maximum number of steps (partial assignments examined) of a pass, which take a few minutes."""
-
-
-@dataclass(frozen=True, slots=True)
-class TrainSearchRequest:
-    """Arguments of `search_train` as one object."""
-
-    train: Train
-    state: str | None = None
-    free: str | tuple[str, ...] = "search"
-    rules: ConstraintOptions = field(default_factory=ConstraintOptions)
-    tolerance: Fraction | None = None
-    best: int = 20
-    by: By = "error"
-    where: tuple[Mapping[str, int], ...] = ()
-    """Assignments whose ranks are also requested."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data that are equal for two requests that need the same computation."""
-        return {
-            "train": self.train.model_dump(mode="json"),
-            "state": self.state,
-            "free": self.free,
-            "rules": self.rules.to_dict(),
-            "tolerance": str(self.tolerance),
-            "best": self.best,
-            "by": self.by,
-        }
-
-
-def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
-    """Run a request: return the solutions of `search_train`, and the ranks of the queried assignments.
-
-    Parameters
-    ----------
-    request : TrainSearchRequest
-        Request of the search.
-    execution : Execution, optional
-        Execution of the tasks; by default in this process.
-    """
-    run = execution or Execution()
-    found = search_train(
-        request.train,
-        request.state,
-        free=request.free,
-        rules=request.rules,
-        tolerance=request.tolerance,
-        best=request.best,
-        by=request.by,
-        executor=run.executor,
-        journal=run.journal,
-        tell=run.tell,
-    )
-    return replace(found, where=tuple(place for teeth in request.where for place in found.standing(teeth)))
 
 
 def search_train(

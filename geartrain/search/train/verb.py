@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -9,9 +10,17 @@ import typer
 
 from geartrain.cli.common import File, Force, Json, Names, Out, StateName, option_error
 from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.search.teeth_verb import Best, Pick, SearchAnswer, Tolerance, read_tolerance
-
-Flag = bool
+from geartrain.search.teeth_verb import (
+    Best,
+    Clearance,
+    Different,
+    Hunting,
+    Pick,
+    SearchAnswer,
+    Shift,
+    Tolerance,
+    read_tolerance,
+)
 
 
 def run(
@@ -37,10 +46,7 @@ def run(
             help="Number of equal, equally spaced planets, such as 3, or by carrier, such as arm=3,inner=4.",
         ),
     ] = None,
-    clearance: Annotated[
-        str | None,
-        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
-    ] = None,
+    clearance: Clearance = None,
     undercut: Annotated[
         str | None,
         typer.Option("--undercut", help="Pressure angle, such as 20deg, at which no external wheel may be undercut."),
@@ -64,12 +70,7 @@ def run(
     maximum_teeth: Annotated[
         int | None, typer.Option("--max-teeth", help="Maximum tooth count of a varied wheel.")
     ] = None,
-    shift: Annotated[
-        int,
-        typer.Option(
-            "--centre-tolerance", min=0, help="Maximum difference between coaxial centre distances, in half modules."
-        ),
-    ] = 0,
+    shift: Shift = 0,
     coaxial: Annotated[
         bool | None,
         typer.Option(
@@ -77,10 +78,10 @@ def run(
             help="Require equal centre distances for all pairs that connect the same two axes.",
         ),
     ] = None,
-    hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
-    different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
+    hunting: Hunting = False,
+    different: Different = False,
     closure: Annotated[
-        Flag,
+        bool,
         typer.Option(
             "--closure",
             help="Require that wheels touch and the teeth of loops mesh at the declared positions of the axes.",
@@ -106,47 +107,56 @@ def run(
     Example: `geartrain teeth train pennestri-2002-missing --best 5`.
     """
     from geartrain.search.constraints.constraint_options import read_constraint_options
-    from geartrain.search.tooth_numbers_report import assignment_rows, describe_assignments
-    from geartrain.search.train.train_search import TrainSearchRequest, answer_search
+    from geartrain.search.train.train_search import search_train
     from geartrain.train.declaration_files import read_declaration
 
     answer = SearchAnswer.of(json, out, force, pick)
     train = read_declaration(file)
     _check_kept(file, answer.out.path)
-    request = TrainSearchRequest(
-        train,
-        state,
-        free=free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(",")),
-        rules=read_constraint_options(
-            planets=planets,
-            clearance=clearance,
-            undercut=undercut,
-            interference=interference,
-            largest_radius=largest_radius,
-            addendum=addendum,
-            ring_addendum=ring_addendum,
-            minimum=minimum,
-            maximum_teeth=maximum_teeth,
-            shift=shift,
-            coaxial=coaxial,
-            hunting=hunting,
-            different=different,
-            closure=closure,
-        ),
-        tolerance=read_tolerance(tolerance),
-        best=best,
-        by=by,  # type: ignore[arg-type]
-        where=tuple(_assignment(text) for text in where or ()),
+    varied = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
+    rules = read_constraint_options(
+        planets=planets,
+        clearance=clearance,
+        undercut=undercut,
+        interference=interference,
+        largest_radius=largest_radius,
+        addendum=addendum,
+        ring_addendum=ring_addendum,
+        minimum=minimum,
+        maximum_teeth=maximum_teeth,
+        shift=shift,
+        coaxial=coaxial,
+        hunting=hunting,
+        different=different,
+        closure=closure,
     )
-    with long_run("teeth", request.to_dict(), out, RunOptions(workers, resume)) as given:
-        found = answer_search(request, given)
+    most_error = read_tolerance(tolerance)
+    assignments = [_assignment(text) for text in where or ()]
+    question = {
+        "train": train.model_dump(mode="json"),
+        "state": state,
+        "free": varied,
+        "rules": rules.to_dict(),
+        "tolerance": str(most_error),
+        "best": best,
+        "by": by,
+    }
+    with long_run("teeth", question, out, RunOptions(workers, resume)) as given:
+        found = search_train(
+            train,
+            state,
+            free=varied,
+            rules=rules,
+            tolerance=most_error,
+            best=best,
+            by=by,  # type: ignore[arg-type]
+            executor=given.executor,
+            journal=given.journal,
+            tell=given.tell,
+        )
+        found = replace(found, where=tuple(place for teeth in assignments for place in found.standing(teeth)))
         close_journal(given.journal, cut=found.ended == "interrupted")
-    answer.give(
-        found,
-        assignment_rows(found),
-        describe_assignments,
-        lambda at: found.declaration(found.solutions[at], _parent(file, answer.out.path)),
-    )
+    answer.give(found, lambda at: found.declaration(found.solutions[at], _parent(file, answer.out.path)))
 
 
 def _assignment(text: str) -> dict[str, int]:

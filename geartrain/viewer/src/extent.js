@@ -3,7 +3,6 @@
 import { Box3, Sphere, Vector3 } from "three";
 
 import { across, along, isParallel, onAxis, vector } from "./space.js";
-import { ringRim } from "./wheels.js";
 
 const ROUND = 16; // points of a circle
 const LEAST_DEEP = 0.6; // of a train taken apart, over its width
@@ -26,6 +25,9 @@ export function circlesOf(scene, shiftOf = STILL) {
 
 /** The circles that hold the middle plane of a wheel wherever it is carried, as `circlesOf`. */
 export const discsOf = (scene, wheel) => carriedRound(scene, wheel, { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), body: wheel.body }, STILL);
+
+/** Outer radius of a ring wheel [mm], which is not declared. */
+export const ringRim = ({ root, radius, module }) => Math.max(root, radius) + 2 * Math.max(module, 0.02 * radius);
 
 /** How far a wheel reaches from its axis. */
 export const rimOf = (wheel) => (wheel.kind === "ring" ? ringRim(wheel) : Math.max(wheel.tip, wheel.radius));

@@ -1,13 +1,12 @@
 // A train as a plan of lines that turns, where the browser has no WebGL. It does what a `Stage` does, in SVG: pitch
 // circles with a spoke each, dials with their hands, seen from a side without perspective.
 
-import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf } from "./extent.js";
+import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf, ringRim } from "./extent.js";
 import { Fraction } from "./fraction.js";
 import { Looks } from "./looks.js";
 import { Poses } from "./poses.js";
 import { frameAt, isParallel, vector } from "./space.js";
 import { svg } from "./ui/element.js";
-import { ringRim } from "./wheels.js";
 
 const ROUND = 48; // corners of a circle
 const MOSTLY = 0.75; // of the wheels lie in the plane of a flat train

@@ -1,6 +1,7 @@
 // A wheel as drawn: its body, its teeth as copies of one tooth, and a plain rim for when teeth are not wanted.
 
 import { coneShape, discShape, lanternShape, plainRimShape, rimShape, wormShape } from "./blanks.js";
+import { ringRim } from "./extent.js";
 import { flatShape } from "./parts.js";
 import { frameAt, vector } from "./space.js";
 import { blankOf, pinShape, toothShape } from "./tooth.js";
@@ -9,9 +10,6 @@ const MOST_TEETH = 2000; // of a wheel: more cannot be distinguished
 const MANY_TEETH = 12000; // of a train: beyond, all are drawn more simply
 const SEEN = 0.0005; // of a train's size: bends of a tooth that are slighter are not drawn
 const GLOSS = 0.75;
-
-/** Outer radius of a ring wheel (mm), which nothing declares. */
-export const ringRim = ({ root, radius, module }) => Math.max(root, radius) + 2 * Math.max(module, 0.02 * radius);
 
 export class WheelPart {
   /** index   of the wheel in the scene; `hub`, radius of its arbor (mm); `size`, of the train (mm) */

@@ -123,17 +123,18 @@ class _Naming:
     def name(self, arbor: Arbor) -> NamedArbor:
         link = arbor.name if arbor.name is not None else self.free.link(arbor.dials)
         driven = self._wheel(arbor, link, arbor.driven) if arbor.driven is not None else None
-        drives = [(driven, arbor.passes), *((None, children) for _, children in arbor.drives)]
-        children = [(self._first(child), at, child) for at, (_, below) in enumerate(drives) for child in below]
+        # the driven wheel first, then the driving wheels
+        drives = [arbor.passes, *(below for _, below in arbor.drives)]
+        children = [(self._first(child), at, child) for at, below in enumerate(drives) for child in below]
         children.sort(key=lambda one: one[:2])
-        named = {0: driven}
+        named = {} if driven is None else {0: driven}
         for _, at, _ in children:
             if at not in named:
                 wheel = arbor.drives[at - 1][0]
                 same = driven is not None and wheel.name == driven.name
-                named[at] = driven if same else self._wheel(arbor, link, wheel)
-        below = tuple((named[at], self.name(child)) for _, at, child in children)
-        return NamedArbor(link, arbor.name is None, driven, arbor.dials, below)
+                named[at] = driven if same and driven is not None else self._wheel(arbor, link, wheel)
+        driving = tuple((named[at], self.name(child)) for _, at, child in children)
+        return NamedArbor(link, arbor.name is None, driven, arbor.dials, driving)
 
     def _first(self, arbor: Arbor) -> int:
         """Return the index of the first dial in the subtree of an arbor."""

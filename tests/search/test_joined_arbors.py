@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from concrete_trees import concrete, random_problem, with_rings
-from joined_trees import explanations_with_couplings, group, parted
+from concrete_trees import concrete, explanations, group, parted, random_problem, with_rings
 from sampling import first_few
 
 from geartrain import GearTrain, GearTrainError
@@ -20,7 +19,7 @@ def test_small_questions_with_couplings_have_the_answers_of_plain_growth(start: 
     for seed in range(start, start + 20):
         problem = random_problem(seed, idlers=True)
         problem, pairs = parted(with_rings(problem, seed) if seed % 3 == 0 else problem, seed)
-        right = explanations_with_couplings(problem, pairs)
+        right = [each.solutions for each in explanations(problem, pairs)]
         names = [arbor.name for arbor in (problem.input, *problem.arbors)]
         groups = {name: sorted(group(name, pairs), key=names.index) for name in names}
         joined = {links[0]: tuple(links) for links in groups.values() if len(links) > 1}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from geartrain import GearTrain, load
 from geartrain.kinematics.formulas import with_counts
 from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem, find_priors
-from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch
+from geartrain.search.posterior.sampled_posterior import LikelihoodBatch
 
 Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
@@ -58,11 +57,6 @@ class Counted:
         return LikelihoodBatch(self.question)
 
     @cached_property
-    def teller(self) -> LikelihoodBatch:
-        """Tells the speeds of all outputs too."""
-        return LikelihoodBatch(self.question, every=True)
-
-    @cached_property
     def counts(self) -> dict[str, Ints]:
         """Wheel -> its counts in every combination; one in two is as declared but for one wheel."""
         rng, found = np.random.default_rng(self.seed), {}
@@ -73,20 +67,19 @@ class Counted:
             found[wheel] = np.where(near & (odd != at), doubt.declared or drawn, drawn)
         return found
 
-    def _blocks(self) -> Iterator[dict[str, Ints]]:
-        for start in range(0, self.combinations, BLOCK):
-            yield {wheel: column[start : start + BLOCK] for wheel, column in self.counts.items()}
-
     # ------------------------------------------------------------------------------------------------------------ ways
 
     def decided(self) -> Bools:
         """Whether each combination fits, decided exactly, (combinations,)."""
-        return np.concatenate([self.judge.judged(self.judge.columns(block))[0] for block in self._blocks()])
+        return self.judge.judged(self.counts)[0]
 
     def told(self) -> dict[str, tuple[Floats, Floats]]:
         """Output -> its speed in every combination, and a bound on its error."""
-        parts = [self.teller.speeds(self.teller.columns(block)) for block in self._blocks()]
-        return {name: (_joined(parts, name, 0), _joined(parts, name, 1)) for name in parts[0]}
+        found = {}
+        for name, formula in self.question.outputs.items():
+            speeds = formula.values(self.counts)
+            found[name] = speeds, formula.accuracy(self.counts) * np.abs(speeds)
+        return found
 
     def singly(self, combinations: int) -> Singles:
         """The first combinations by a plain loop over whole solutions."""
@@ -113,8 +106,3 @@ class Counted:
     def differing(self, singles: Singles) -> int:
         """Combinations on which the loop decides otherwise."""
         return int((self.decided()[: len(singles)] != np.array([fits for _, fits in singles])).sum())
-
-
-def _joined(parts: list[dict[str, tuple[Floats, Floats]]], name: str, which: int) -> Floats:
-    """Speeds or bounds of one output over all blocks; an output of few wheels may come as one number a block."""
-    return np.concatenate([np.broadcast_to(part[name][which], part[name][0].shape) for part in parts])

@@ -303,7 +303,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
     floats = _weights(uncertainties, True)
     return PosteriorSummary(
         steps,
-        _probability(question, uncertainties, share),
+        _probability(question, share),
         turning_of(question, limit),
         None if question.soft else _fits(question, sums),
         {
@@ -321,15 +321,12 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
     """Return the evidence: the prior mean of the likelihood. Raise `BudgetSpentError` beyond `limit` steps."""
-    uncertainties = question.moved
     if question.soft:
         root, _ = _recorded(question, limit)
-        return _probability(
-            question, uncertainties, float(AssignmentSums(root, True).total(_weights(uncertainties, True)))
-        )
+        return _probability(question, float(AssignmentSums(root, True).total(_weights(question.moved, True))))
     join = ExactJoin(_join_problem(question, graded=False), budget=limit)
     counted, _ = join.count(join.question.plan, join.start())
-    return _probability(question, uncertainties, int(counted[0]))
+    return _probability(question, int(counted[0]))
 
 
 def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
@@ -378,12 +375,10 @@ def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
     return int(sums.total(_weights(alike, False))) * prod(len(uncertainty.counts) for uncertainty in idle)
 
 
-def _probability(
-    question: InferenceProblem, uncertainties: Mapping[str, ToothCountPrior], share: int | float
-) -> CountProbability:
+def _probability(question: InferenceProblem, share: int | float) -> CountProbability:
     if question.soft:
         return CountProbability(float(share))
-    return CountProbability(Fraction(int(share), prod(uncertainty.total for uncertainty in uncertainties.values())))
+    return CountProbability(Fraction(int(share), prod(uncertainty.total for uncertainty in question.moved.values())))
 
 
 # ------------------------------------------------------------------------------------------------------ pairs of wheels

@@ -278,14 +278,14 @@ def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
         if not 0 < count <= MOST_TEETH:
             why = "a tooth count is an integer from 1 to 10^12"
             raise QuestionError(Problem(f"{count} is not a tooth count", why, f"correct the counts of wheel '{name}'"))
-    if len(found) > MOST_COUNTS:
-        raise _too_many_counts(name, len(found), "")
+    _check_width(name, len(found))
     return found
 
 
-def _check_width(name: str, count: int, place: str) -> None:
+def _check_width(name: str, count: int, place: str = "") -> None:
     if count > MOST_COUNTS:
-        raise _too_many_counts(name, count, place)
+        what = f"wheel '{name}' has {count} possible counts"
+        raise RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow its range", place))
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
@@ -302,11 +302,6 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     return ToothCountPrior(
         name, tuple(probabilities), tuple(whole_multiple(probabilities.values())), teeth.value, f"{kind}{source}{said}"
     )
-
-
-def _too_many_counts(name: str, count: int, place: str) -> RangeError:
-    what = f"wheel '{name}' has {count} possible counts"
-    return RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow its range", place))
 
 
 # --------------------------------------------------------------------- observations: known speeds with their tolerances
@@ -419,10 +414,7 @@ def observations_of(
     kind     "targets" without `expect` and `published`, "figures" for only those, or "all"
     factor   factor of every tolerance
     """
-    return tuple(claim.scaled(factor) for claim in _claims(demands, kind))
-
-
-def _claims(demands: Sequence[SpeedRequirement], kind: LikelihoodKind) -> Iterator[Observation]:
+    found = []
     for demand in demands:
         if (
             demand.allowed is None
@@ -436,4 +428,5 @@ def _claims(demands: Sequence[SpeedRequirement], kind: LikelihoodKind) -> Iterat
             assert most is not None, "a target has a tolerance"
             # symmetric about the observed magnitude
             intervals = ((2 * demand.wanted - most, most),)
-        yield Observation(demand.label, demand.wanted, demand.signed, intervals)
+        found.append(Observation(demand.label, demand.wanted, demand.signed, intervals).scaled(factor))
+    return tuple(found)

@@ -5,9 +5,10 @@ The order of the best combinations does not depend on rounding or on the method.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from math import exp, isqrt, prod, sqrt
 from typing import Any
 
@@ -178,24 +179,15 @@ def wheel_posterior(
     total     sum of the weights
     trials    effective number of sampled combinations, if the weights are from a sample
     """
-    if not total:
-        return WheelPosterior(uncertainty, (), weights is None)
-    if weights is None:
-        return WheelPosterior(uncertainty, tuple(CountProbability(prior) for prior in uncertainty.priors), True)
-    if trials is not None:
-        shares = [float(weight) / float(total) for weight in weights]
-        return WheelPosterior(
-            uncertainty,
-            tuple(CountProbability(share, *wilson(share * trials, trials)) for share in shares),
-            False,
-        )
-    if isinstance(total, float | np.floating):
-        return WheelPosterior(
-            uncertainty, tuple(CountProbability(float(weight) / float(total)) for weight in weights), False
-        )
-    return WheelPosterior(
-        uncertainty, tuple(CountProbability(Fraction(int(weight), int(total))) for weight in weights), False
-    )
+    found: Iterable[CountProbability] = ()
+    if total and weights is None:
+        found = map(CountProbability, uncertainty.priors)
+    elif total and weights is not None and trials is None and not isinstance(total, float | np.floating):
+        found = (CountProbability(Fraction(int(weight), int(total))) for weight in weights)
+    elif total and weights is not None:
+        shares = (float(weight) / float(total) for weight in weights)
+        found = (CountProbability(share, *(wilson(share * trials, trials) if trials else ())) for share in shares)
+    return WheelPosterior(uncertainty, tuple(found), weights is None)
 
 
 def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
@@ -294,24 +286,17 @@ def _monomials(formula: Formula) -> Monomials:
     return [(Fraction(above, below), tuple(map(int.__sub__, powers, lowest))) for above, powers in formula.numerator]
 
 
-class _Means:
-    """Prior means of powers of one tooth count, cached."""
-
-    def __init__(self, uncertainty: ToothCountPrior) -> None:
-        self._pairs = list(zip(uncertainty.counts, uncertainty.priors, strict=True))
-        self._known: dict[int, Fraction] = {}
-
-    def __call__(self, power: int) -> Fraction:
-        if power not in self._known:
-            self._known[power] = sum((prior * Fraction(count) ** power for count, prior in self._pairs), Fraction(0))
-        return self._known[power]
+def _means(uncertainty: ToothCountPrior) -> Callable[[int], Fraction]:
+    """Return a function from powers to the prior mean of this power of a tooth count, cached."""
+    pairs = list(zip(uncertainty.counts, uncertainty.priors, strict=True))
+    return cache(lambda power: sum((prior * Fraction(count) ** power for count, prior in pairs), Fraction(0)))
 
 
 def _exact_indices(
     name: str, wheels: Sequence[str], terms: Monomials, uncertainties: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
     """Compute the Sobol indices of a sum of monomials exactly, from products of means over all pairs of terms."""
-    means = [_Means(uncertainty) for uncertainty in uncertainties]
+    means = [_means(uncertainty) for uncertainty in uncertainties]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
     joint = [[m(i + j) for m, i, j in zip(means, p, q, strict=True)] for _, p, q in pairs]

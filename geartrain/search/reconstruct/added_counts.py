@@ -204,34 +204,22 @@ class AddedCounts:
         self.range = minimum, maximum
         self._count = lru_cache(maxsize=1 << 18)(self._count_groups)
 
-    @property
-    def _choices(self) -> int:
-        return self.range[1] - self.range[0] + 1
-
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
         """Count the assignments that give all dials their speeds. Wheels are distinguishable."""
         alike = _merged_dials(added.groups, wanted)
-        return int(self._count(added.groups, alike) * self._choices**added.idle) if alike is not None else 0
+        minimum, maximum = self.range
+        return int(self._count(added.groups, alike) * (maximum - minimum + 1) ** added.idle) if alike is not None else 0
 
     def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
         """Count the assignments if some wheels have a smaller maximum count because they mesh with a ring."""
         if not limits:
             return self.count(added, wanted)
         limit, others = limits[0], limits[1:]
-        minimum, maximum = self.range
-        left = added.without(limit)
+        allowed, left = range(self.range[0], limit.most + 1), added.without(limit)
         if not limit.dials:
-            return max(0, limit.most - minimum + 1) * self.count_limited(left, wanted, others)
-
-        def among(counts: range) -> int:
-            quotients_of = (Fraction(count) if limit.drives else Fraction(1, count) for count in counts)
-            return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in quotients_of)
-
-        allowed, ruled_out = range(minimum, limit.most + 1), range(max(minimum, limit.most + 1), maximum + 1)
-        # the shorter of the two sums
-        if len(allowed) <= len(ruled_out):
-            return among(allowed)
-        return self.count_limited(added, wanted, others) - among(ruled_out)
+            return len(allowed) * self.count_limited(left, wanted, others)
+        tried = (Fraction(count) if limit.drives else Fraction(1, count) for count in allowed)
+        return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in tried)
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
         """Yield the assignments, each as counts of the groups and counts of wheels that change no speed."""

@@ -9,8 +9,10 @@ from typing import NamedTuple
 
 from geartrain.search.reconstruct.added_counts import AddedKind, Counts
 from geartrain.search.reconstruct.candidate_names import (
+    NamedArbor,
     NamedBranching,
     NamedChain,
+    NamedWheel,
     TopologyArbor,
     TopologyWheel,
 )
@@ -124,11 +126,6 @@ class MeshFacts:
         """Return the known meshes of a problem."""
         return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
-    @property
-    def are_any(self) -> bool:
-        """True if any fact is known."""
-        return bool(self.meshes or self.apart or self.coaxial or self.rings)
-
     def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
         """Return the known mesh that a mesh satisfies, as a set of at most one pair; None if the mesh is excluded."""
         assert driven is not None
@@ -194,7 +191,7 @@ def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: M
     chains = topology.chains
     for chosen in product(*map(sequences, chains)):
         orders = {id(chain): steps for chain, steps in zip(chains, chosen, strict=True)}
-        if not facts.are_any or _agrees(topology, orders, facts):
+        if _agrees(topology, orders, facts):
             arbor = _Assembly(orders, counts, idle).branching(topology.root, ())
             if rings_mesh(arbor, facts.rings):
                 yield arbor
@@ -287,11 +284,11 @@ _NamedDriving = tuple[TopologyArbor, TopologyWheel]
 
 
 class NamedMesh(NamedTuple):
-    """Mesh of named parts: driving arbor, driving wheel, driven arbor."""
+    """Mesh of named parts, of a topology or of a candidate: driving arbor, driving wheel, driven arbor."""
 
-    arbor: TopologyArbor
-    wheel: TopologyWheel
-    driven: TopologyArbor
+    arbor: TopologyArbor | NamedArbor
+    wheel: TopologyWheel | NamedWheel
+    driven: TopologyArbor | NamedArbor
 
 
 class AddedPlace(NamedTuple):

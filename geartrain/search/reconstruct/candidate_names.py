@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Container, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -119,42 +119,27 @@ class _Naming:
 
     dials: tuple[str, ...]
     free: FreeNames
-    firsts: dict[int, int] = field(default_factory=dict)
 
     def name(self, arbor: Arbor) -> NamedArbor:
-        link = arbor.name if arbor.name is not None else self._link(arbor)
+        link = arbor.name if arbor.name is not None else self.free.link(arbor.dials)
         driven = self._wheel(arbor, link, arbor.driven) if arbor.driven is not None else None
-        named: dict[int, NamedWheel] = {}
-        below = []
-        for _, at, wheel, child in sorted(self._drives(arbor), key=lambda one: one[:2]):
+        # the driven wheel first, then the driving wheels
+        drives = [arbor.passes, *(below for _, below in arbor.drives)]
+        children = [(self._first(child), at, child) for at, below in enumerate(drives) for child in below]
+        children.sort(key=lambda one: one[:2])
+        named = {} if driven is None else {0: driven}
+        for _, at, _ in children:
             if at not in named:
-                same = driven is not None and (at < 0 or wheel.name == driven.name)
+                wheel = arbor.drives[at - 1][0]
+                same = driven is not None and wheel.name == driven.name
                 named[at] = driven if same and driven is not None else self._wheel(arbor, link, wheel)
-            below.append((named[at], child))
-        drives = tuple((wheel, self.name(child)) for wheel, child in below)
-        return NamedArbor(link, arbor.name is None, driven, arbor.dials, drives)
-
-    def _drives(self, arbor: Arbor) -> Iterator[tuple[int, int, PlacedWheel, Arbor]]:
-        """Yield every driven arbor with its sort key and its driving wheel.
-
-        The key is the first dial of the driven subtree, and the index of the driving wheel (-1 for the driven wheel).
-        """
-        for child in arbor.passes:
-            assert arbor.driven is not None
-            yield self._first(child), -1, arbor.driven, child
-        for at, (wheel, children) in enumerate(arbor.drives):
-            for child in children:
-                yield self._first(child), at, wheel, child
+        driving = tuple((named[at], self.name(child)) for _, at, child in children)
+        return NamedArbor(link, arbor.name is None, driven, arbor.dials, driving)
 
     def _first(self, arbor: Arbor) -> int:
-        if id(arbor) not in self.firsts:
-            below = [self._first(child) for _, children in arbor.drives for child in children]
-            below += map(self._first, arbor.passes)
-            self.firsts[id(arbor)] = min([*map(self.dials.index, arbor.dials), *below], default=len(self.dials))
-        return self.firsts[id(arbor)]
-
-    def _link(self, arbor: Arbor) -> str:
-        return self.free.link(arbor.dials)
+        """Return the index of the first dial in the subtree of an arbor."""
+        shown = (self.dials.index(dial) for each in arbor.arbors() for dial in each.dials)
+        return min(shown, default=len(self.dials))
 
     def _wheel(self, arbor: Arbor, link: str, wheel: PlacedWheel) -> NamedWheel:
         if wheel.name is not None:
@@ -172,6 +157,11 @@ class TopologyWheel(NamedTuple):
     name: str
     placed: PlacedWheel
     kind: AddedKind | None
+
+    @property
+    def added(self) -> bool:
+        """True for an added wheel."""
+        return self.kind is not None
 
 
 class TopologyArbor(NamedTuple):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
 from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
@@ -116,22 +115,8 @@ class NextFact(Result):
     """Other facts that partition the candidates in the same way."""
 
 
-@dataclass(frozen=True)
-class WeighedTrains:
-    """Candidates in descending order of weight, with integer weights, so that sums are exact and fast."""
-
-    trains: tuple[NamedArbor, ...]
-    weights: tuple[int, ...]
-
-    @classmethod
-    def of(cls, trains: Iterable[NamedArbor], weights: Iterable[Fraction | float]) -> WeighedTrains:
-        """Convert weights of any sum to proportional integers."""
-        return cls(tuple(trains), tuple(whole_multiple([Fraction(weight) for weight in weights])))
-
-    @cached_property
-    def whole(self) -> int:
-        """Sum of all weights."""
-        return sum(self.weights)
+WeighedTrains = Sequence[tuple[NamedArbor, int]]
+"""Candidates in descending order of weight, with integer weights, so that sums are exact and fast."""
 
 
 class FactTally:
@@ -191,7 +176,7 @@ class ExplainedFacts:
         self._listed: dict[Fact, dict[str, list[int]]] = {}
         lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
         own = FactTally(problem)
-        for index, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True)):
+        for index, (train, weight) in enumerate(weighed):
             own.add_trains(weight)
             for fact, answer in train_facts(train, doubtful, lost):
                 self._listed.setdefault(fact, {}).setdefault(answer, []).append(index)
@@ -223,7 +208,7 @@ class ExplainedFacts:
         """Return the partition of the listed trains by a fact, with the sums over all trains of each set."""
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
-        rest = frozenset(range(len(self._weighed.trains))).difference(*parts)
+        rest = frozenset(range(len(self._weighed))).difference(*parts)
         found = frozenset([*parts, *([rest] if rest else [])])
         if len(found) < len(one.answers):  # the listed trains do not show the whole partition
             return fact
@@ -248,13 +233,8 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
             yield Fact("count", wheel.name), str(wheel.teeth)
     for teeth in {wheel.teeth for wheel in wheels if wheel.added}:
         yield Fact("needed", str(teeth)), YES
-    for driving, wheel, arbor in train.meshes():
-        assert arbor.driven is not None
-        yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
-        if not (wheel.added or arbor.driven.added):
-            yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
-        if not arbor.added:
-            yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
+    for mesh in train.meshes():
+        yield from _mesh_facts(NamedMesh(*mesh))
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
@@ -335,7 +315,7 @@ def _mesh_facts(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
     driving, wheel, arbor = mesh
     assert arbor.driven is not None
     yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
-    if wheel.placed.name is not None and arbor.driven.placed.name is not None:
+    if not (wheel.added or arbor.driven.added):
         yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
     if not arbor.added:
         yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
@@ -385,10 +365,10 @@ def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tu
 
     doubtful   names of surviving wheels whose tooth counts are included
     """
-    root = _Node()
-    for rank, (train, weight) in enumerate(zip(weighed.trains, weighed.weights, strict=True), 1):
-        root.add(train, weight, FamilyTrain(rank, Fraction(weight, weighed.whole), _counts(train, doubtful)))
-    return tuple(_branches(root)) if weighed.trains else ()
+    root, whole = _Node(), sum(weight for _, weight in weighed)
+    for rank, (train, weight) in enumerate(weighed, 1):
+        root.add(train, weight, FamilyTrain(rank, Fraction(weight, whole), _counts(train, doubtful)))
+    return tuple(_branches(root))
 
 
 @dataclass
@@ -489,8 +469,8 @@ def find_facts(
     candidates = found.candidates
     if not candidates:
         return CandidateFindings(assumptions=assumptions)
-    trains = (named_candidate(evidence, one.arbor) for one in candidates)
-    weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
+    weights = whole_multiple([Fraction(one.weight) for one in candidates])
+    weighed = [(named_candidate(evidence, one.arbor), each) for one, each in zip(candidates, weights, strict=True)]
     tally = None
     if found.topologies and sum(each.solutions for each in found.topologies) <= MOST_SUMMED:
         every = ((each.topology, topology_prior(each.topology, problem)) for each in found.topologies)

@@ -102,16 +102,7 @@ def find_telling_facts(
     wanted = train_key(candidate)
     which = next(at for at, one in enumerate(found.candidates) if train_key(one.arbor) == wanted)
     trains = [named_candidate(evidence, one.arbor) for one in found.candidates]
-    return single_out(trains, which, uncertain_wheels(problem), lost_pointers(problem))
-
-
-def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], lost: set[str]) -> TellingFacts:
-    """Find facts that distinguish one train from the others of a list.
-
-    which     index of the train
-    doubtful  surviving wheels with uncertain tooth counts
-    lost      dials whose arbor is not known
-    """
+    doubtful, lost = uncertain_wheels(problem), lost_pointers(problem)
     said = [dict(_observable_facts(train, doubtful, lost)) for train in trains]
     left: dict[TellingFact, frozenset[int]] = {}
     for fact, answer in said[which].items():
@@ -268,41 +259,24 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
     Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
     depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.
     """
-    added = candidate.added_wheels
-    counts = {count.added: count.solutions for count in found.counts}
-    if not counts.get(added):
-        return None
-    if not found.weights:
-        return _listed_place(candidate, found)
-    weight = train_prior(candidate, problem)
+    if found.topologies:
+        weight = train_prior(candidate, problem)
+    else:
+        ranks = rank_of(candidate, found)
+        if ranks is None:
+            return None
+        weight = Fraction(found.candidates[ranks[0] - 1].weight)
     every = [(each.weight, each.solutions) for each in found.weights]
-    alike = [(each.weight, each.solutions) for each in found.weights if each.added == added]
-    whole = sum(own * number for own, number in every)
+    alike = [(each.weight, each.solutions) for each in found.weights if each.added == candidate.added_wheels]
+    if weight not in dict(alike):
+        return None
     return TrainPlace(
         weight_ranks(every)[weight],
-        sum(counts.values()),
+        sum(number for _, number in every),
         weight_ranks(alike)[weight],
-        counts[added],
-        float(weight / whole),
+        sum(number for _, number in alike),
+        float(weight / sum(own * number for own, number in every)),
         max(own for own, _ in every) / weight,
-    )
-
-
-def _listed_place(candidate: Arbor, found: Reconstructions) -> TrainPlace | None:
-    """Return the rank and probability of an explanation if all explanations are weighted one by one and listed."""
-    ranks = rank_of(candidate, found)
-    if ranks is None:
-        return None
-    added = candidate.added_wheels
-    weight = found.candidates[ranks[0] - 1].weight
-    alike = [(one.weight, 1) for one in found.candidates if one.added == added]
-    return TrainPlace(
-        ranks,
-        len(found.candidates),
-        weight_ranks(alike)[weight],
-        len(alike),
-        weight,
-        Fraction(found.candidates[0].weight) / Fraction(weight),
     )
 
 

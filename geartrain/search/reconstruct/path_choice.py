@@ -103,13 +103,16 @@ class PathColumns:
         number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
         self.codes = np.ascontiguousarray(paths.codes.T)
         self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
-        self.driven = np.ascontiguousarray(paths.driven_at(np.arange(len(paths))).T.astype(np.int16)) + np.int16(1)
+        self.driven = np.zeros(self.codes.shape, dtype=np.int16)
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
         self.ends = np.zeros(len(paths), dtype=np.int64)
         self.passes_added = paths.idlers > 0
         for at, passes in enumerate(paths.passes):
             taken = self.codes[at]
+            # the numbers of driven wheels are the same in the lists of all dials
+            driven = sorted({each.driven for each in passes}, key=repr)
+            self.driven[at] = np.array([0, *(1 + driven.index(each.driven) for each in passes)], dtype=np.int16)[taken]
             drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
             self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
             wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]

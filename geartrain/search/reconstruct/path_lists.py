@@ -252,10 +252,9 @@ class PathList:
 
     along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
 
-    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; , shape
+    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; shape
                          (rows, arbors)
     arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
-    idle                 bit mask of the arbors with unused surviving wheels that must mesh
     ends_new             True if the arbor of the dial is added
     compounds, idlers    numbers of added arbors before the last
     wheels, new          numbers of added wheels and of added arbors
@@ -282,7 +281,6 @@ class PathList:
         bits = np.int64(1) << np.arange(len(every) - 1, dtype=np.int64)
         self.codes = growth.codes[rows]
         self.arbors = (self.codes[:, 1:] > 0) @ bits
-        self.idle = self._passed_by()[:, 1:] @ bits
         self.ends_new = ~growth.ended[rows]
         self.compounds = np.array([plan.compounds for plan in plans], dtype=np.int64)[taken]
         self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
@@ -291,25 +289,8 @@ class PathList:
         self.powers = growth.powers[rows]
         self.new = self.compounds + self.idlers + self.ends_new
 
-        self._driven = [np.array([-1, *_numbered_wheels(passes)]) for passes in self.passes]
-
-    def driven_at(self, rows: Rows) -> NDArray[np.int64]:
-        """Return a number of the driven wheel and its count for each row and arbor; -1 if the path avoids the arbor."""
-        codes = self.codes[rows]
-        found = np.empty(codes.shape, dtype=np.int64)
-        for at, driven in enumerate(self._driven):
-            found[:, at] = driven[codes[:, at]]
-        return found
-
     def __len__(self) -> int:
         return len(self.codes)
-
-    def _passed_by(self) -> NDArray[np.bool_]:
-        found = np.zeros(self.codes.shape, dtype=bool)
-        if self.problem.use == "wheels":
-            for at, passes in enumerate(self.passes):
-                found[:, at] = np.array([False, *(each.idle > 0 for each in passes)])[self.codes[:, at]]
-        return found
 
     def _passes(self, at: int) -> Iterator[ArborPass]:
         problem = self.problem
@@ -326,7 +307,7 @@ class PathList:
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
         """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
-        growth = PathGrowth.start(len(self.passes), self._wanted_key, self._wanted_powers)
+        growth = PathGrowth.start(len(self.passes), self.keys.key(self._wanted), self._powers(self._wanted))
         self._examined = 0
         found = []
         for piece in self._grown(growth, self._seen.order):
@@ -424,14 +405,6 @@ class PathList:
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
 
-    @property
-    def _wanted_key(self) -> int:
-        return self.keys.key(self._wanted)
-
-    @property
-    def _wanted_powers(self) -> NDArray[np.int8]:
-        return self._powers(self._wanted)
-
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
@@ -502,28 +475,17 @@ class PathList:
         minimum = np.where(turned, float(turned_low), float(low))
         return minimum / known, np.where(turned, float(turned_high), float(high)) / known
 
-    def known_ratio(self, row: int) -> Fraction:
-        """Return the product of surviving driving counts divided by the product of surviving driven counts on a
-        path.
-        """
-        taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
-        taken = [each for each in taken if not each.idler]
-        return Fraction(
-            prod(_known_count(each.driver) for each in taken), prod(_known_count(each.driven) for each in taken)
-        )
-
-    def turns(self, row: int) -> bool:
-        """Return whether the dial turns opposite to the input on a path."""
-        return bool(self._turned(self.codes[row : row + 1], self.new[row : row + 1])[0])
-
     def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Return for each path whether the dial turns opposite to the input, for given numbers of added arbors."""
         return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
         """Return the minimum and maximum quotient of the added wheels on a path."""
-        known = abs(self.known_ratio(row) * self.problem.input_speed)
-        low, high = self._magnitudes(self.turns(row))
+        taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
+        ratios = (Fraction(_known_count(each.driver), _known_count(each.driven)) for each in taken if not each.idler)
+        known = prod(ratios, start=abs(self.problem.input_speed))
+        (turned,) = self._turned(self.codes[[row]], self.new[[row]])
+        low, high = self._magnitudes(bool(turned))
         return low / known, high / known
 
 
@@ -531,14 +493,6 @@ def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
     for compounds in range(wheels // 2 + 1):
         for single in range(wheels - 2 * compounds + 1 if idlers else 1):
             yield AddedArbors(compounds, single)
-
-
-def _numbered_wheels(passes: tuple[ArborPass, ...]) -> Iterator[int]:
-    """Yield a number of the driven wheel of each pass, which is the same in the lists of all dials."""
-    numbers = dict.fromkeys(each.driven for each in passes)
-    known = {wheel: number for number, wheel in enumerate(sorted(numbers, key=repr))}
-    for each in passes:
-        yield known[each.driven]
 
 
 def _known_count(wheel: object) -> int:

@@ -7,11 +7,13 @@ each chain, the added arbors at which paths separate, and the shared added drivi
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import reduce
 from itertools import combinations, product
-from operator import and_, or_
+from operator import and_
 from typing import NamedTuple
 
+from geartrain.numerics.graphs import joined_groups
 from geartrain.search.reconstruct.path_lists import PathList
 from geartrain.search.reconstruct.reconstruction_problem import PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Dials, Topology
@@ -66,14 +68,8 @@ def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials,
 
 def _connected_dials(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
     """Return the connected components of dials, where dials with a common surviving arbor are connected."""
-    groups: list[tuple[int, Dials]] = []
-    for dial in dials:
-        joined = [group for group in groups if group[0] & arbors[dial]]
-        groups = [group for group in groups if not group[0] & arbors[dial]]
-        bits = reduce(or_, (own for own, _ in joined), arbors[dial])
-        groups.append((bits, (*(one for _, group in joined for one in group), dial)))
-    first = dials.index
-    return tuple(sorted((group for _, group in groups), key=lambda group: min(map(first, group))))
+    joined = (pair for pair in combinations(dials, 2) if arbors[pair[0]] & arbors[pair[1]])
+    return tuple(map(tuple, joined_groups(dials, joined)))
 
 
 def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
@@ -195,58 +191,45 @@ class PathTrees:
         if found is None:
             return
         through, end = found
-        added = sum(paths_first(paths).passes[at].added for at in through)
+        for trunk, after, below in self._trunks(paths, through, left):
+            if end is None:
+                if trunk.arbors:
+                    yield from _with_ends(trunk, self._forest(below, after, 2))
+                yield from _with_ends(trunk, self._new_branching(below, after))
+            else:
+                yield from _with_ends(trunk, self._branching(end, below, after))
+        for last in through if end is None else ():
+            # the paths leave this surviving arbor by several added wheels
+            each = paths_first(paths).passes[last]
+            if each.driver == ADDED and not each.idler:
+                others = tuple(at for at in through if at != last)
+                for trunk, after, below in self._trunks(paths, others, left):
+                    yield from _with_ends(trunk, self._branching(last, below, after))
+
+    def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
+        """Yield each chain of given surviving arbors and some added ones that all paths can share, without its end.
+
+        The second and third entry are the additions and the parts of the paths that remain after it.
+        """
+        passes = paths_first(paths).passes
+        named = tuple((self.names[at], passes[at]) for at in through)
         for compounds, idlers in product(
             range(min(path.compounds for path in paths.values()) + 1),
             range(min(path.idlers for path in paths.values()) + 1),
         ):
-            after = left.without(added + 2 * compounds + idlers, compounds + idlers)
-            if not after.is_possible:
-                continue
-            below = _below(paths, through, compounds, idlers)
-            if end is not None:
-                yield from self._with_ends(
-                    tuple(paths), paths, through, compounds, idlers, self._branching(end, below, after)
-                )
-                continue
-            if through or compounds or idlers:
-                forests = self._forest(below, after, 2)
-                yield from self._with_ends(tuple(paths), paths, through, compounds, idlers, forests)
-            yield from self._with_ends(
-                tuple(paths), paths, through, compounds, idlers, self._new_branching(below, after)
-            )
-        if end is None:
-            yield from self._split_by_added(paths, through, left)
-
-    def _split_by_added(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        """Yield chains that end at a surviving arbor which the paths leave by several added wheels."""
-        for end in through:
-            if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
-                continue
-            others = tuple(at for at in through if at != end)
-            added = sum(paths_first(paths).passes[at].added for at in others)
-            for compounds, idlers in product(
-                range(min(path.compounds for path in paths.values()) + 1),
-                range(min(path.idlers for path in paths.values()) + 1),
-            ):
-                after = left.without(added + 2 * compounds + idlers, compounds + idlers)
-                if after.is_possible:
-                    branchings = self._branching(end, _below(paths, others, compounds, idlers), after)
-                    yield from self._with_ends(tuple(paths), paths, others, compounds, idlers, branchings)
-
-    def _with_ends(
-        self,
-        dials: Dials,
-        paths: Paths,
-        through: tuple[int, ...],
-        compounds: int,
-        idlers: int,
-        ends: Iterator[tuple[Branching, _Budget]] | Iterator[tuple[tuple[Chain, ...], _Budget]],
-    ) -> Iterator[tuple[Chain, _Budget]]:
-        passes = paths_first(paths).passes
-        named = tuple((self.names[at], passes[at]) for at in through)
-        for end, after in ends:
-            yield Chain(dials, named, compounds, idlers, end), after
+            wheels = sum(passes[at].added for at in through) + 2 * compounds + idlers
+            after = left.without(wheels, compounds + idlers)
+            if after.is_possible:
+                below = {
+                    dial: path._replace(
+                        arbors=path.arbors & ~sum(1 << (at - 1) for at in through),
+                        compounds=path.compounds - compounds,
+                        idlers=path.idlers - idlers,
+                        wheels=path.wheels - wheels,
+                    )
+                    for dial, path in paths.items()
+                }
+                yield Chain(tuple(paths), named, compounds, idlers, ()), after, below
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
         """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate.
@@ -375,19 +358,10 @@ def _are_disjoint(blocks: Sequence[Dials], paths: Paths) -> bool:
     return not any(one & other for one, other in combinations(masks, 2))
 
 
-def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) -> Paths:
-    """Return the parts of the paths that remain after a chain."""
-    bits = sum(1 << (at - 1) for at in through)
-    added = sum(paths_first(paths).passes[at].added for at in through) + 2 * compounds + idlers
-    return {
-        dial: path._replace(
-            arbors=path.arbors & ~bits,
-            compounds=path.compounds - compounds,
-            idlers=path.idlers - idlers,
-            wheels=path.wheels - added,
-        )
-        for dial, path in paths.items()
-    }
+def _with_ends(
+    trunk: Chain, ends: Iterator[tuple[Branching, _Budget]] | Iterator[tuple[tuple[Chain, ...], _Budget]]
+) -> Iterator[tuple[Chain, _Budget]]:
+    yield from ((replace(trunk, end=end), after) for end, after in ends)
 
 
 def _ways_from_added(path: DialPath) -> Iterator[str]:

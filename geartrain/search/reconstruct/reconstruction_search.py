@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import astuple, dataclass
 from fractions import Fraction
 from itertools import groupby, islice
 from random import Random
@@ -87,12 +87,12 @@ class Candidate(Result):
 
 @dataclass(frozen=True, slots=True)
 class WeightClass(Result):
-    """Explanations with the same prior weight."""
+    """Explanations with the same number of added wheels and the same weight."""
 
     added: int
     """Number of added wheels of each explanation."""
     weight: Fraction
-    """Prior weight of each explanation, up to a common factor."""
+    """Weight of each explanation, up to a common factor."""
     solutions: int
     """Number of explanations with this weight."""
 
@@ -117,9 +117,7 @@ class Reconstructions(Result):
     topologies: tuple[CountedTopology, ...] = ()
     """All topologies with the numbers of their trains; empty if trains are weighted individually."""
     weights: tuple[WeightClass, ...] = ()
-    """Number of trains by added wheels and prior weight, in descending order; empty if trains are weighted
-    individually.
-    """
+    """Number of trains by added wheels and weight, in descending order."""
 
     def _summary(self) -> str:
         listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
@@ -167,10 +165,10 @@ def find_reconstructions(
     geometry = problem.geometry
     one_by_one = prior_of == "class" or bool(geometry.wheels or geometry.arbors)
     try:
-        for part in count_topologies(problem, execution):
-            found[part.added] += part.topologies
-            if part.last:
-                whole.add(part.added)
+        for task, topologies in count_topologies(problem, execution):
+            found[task.added] += topologies
+            if task.part + 1 == task.parts:
+                whole.add(task.added)
     except KeyboardInterrupt:
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
@@ -178,18 +176,19 @@ def find_reconstructions(
         return _weighed_one_by_one(problem, found, complete, prior_of)
     counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
-    weights = tuple(_weight_classes(problem, found))
-    return Reconstructions(counts, complete, tuple(_best(problem, found, listed)), every, weights)
+    weighed = ((each.topology.added.number, topology_prior(each.topology, problem), each.solutions) for each in every)
+    return Reconstructions(
+        counts, complete, tuple(_best(problem, found, listed)), every, tuple(_weight_classes(weighed))
+    )
 
 
-def _weight_classes(
-    problem: ReconstructionProblem, found: Mapping[int, Sequence[CountedTopology]]
-) -> Iterator[WeightClass]:
-    for added, topologies in found.items():
-        alike = Counter[Fraction]()
-        for each in topologies:
-            alike[topology_prior(each.topology, problem)] += each.solutions
-        yield from (WeightClass(added, weight, alike[weight]) for weight in sorted(alike, reverse=True))
+def _weight_classes(weighed: Iterable[tuple[int, Fraction, int]]) -> Iterator[WeightClass]:
+    """Yield the classes of explanations, from triples (added wheels, weight, number of explanations)."""
+    alike = Counter[tuple[int, Fraction]]()
+    for added, weight, number in weighed:
+        alike[added, weight] += number
+    for added, weight in sorted(alike, key=lambda one: (one[0], -one[1])):
+        yield WeightClass(added, weight, alike[added, weight])
 
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
@@ -230,17 +229,8 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), _written_out(arbor)
-
-
-def _written_out(value: object) -> str:
-    """Return a candidate with all its parts as text, used to order candidates of equal weight and size."""
-    if isinstance(value, Arbor | PlacedWheel):
-        parts = (f"{each.name}={_written_out(getattr(value, each.name))}" for each in fields(value))
-        return f"{type(value).__name__}({', '.join(parts)})"
-    if isinstance(value, tuple):
-        return f"({', '.join(map(_written_out, value))}{',' * (len(value) == 1)})"
-    return repr(value)
+    """Return a sort key of candidates of equal weight."""
+    return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(astuple(arbor))
 
 
 def _weighed_one_by_one(
@@ -275,7 +265,8 @@ def _weighed_one_by_one(
     whole = sum(weight for weight, _, _ in weighed)
     ranks = weight_ranks((weight, 1) for weight, _, _ in weighed)
     candidates = tuple(Candidate(arbor, added, weight / whole, ranks[weight]) for weight, added, arbor in weighed)
-    return Reconstructions(tuple(counts), complete, candidates)
+    weights = _weight_classes((one.added, Fraction(one.weight), 1) for one in candidates)
+    return Reconstructions(tuple(counts), complete, candidates, weights=tuple(weights))
 
 
 def draw_candidates(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 from itertools import accumulate
 from math import floor, log10
 from random import Random
@@ -29,9 +29,6 @@ from geartrain.search.reconstruct.arbor_orders import (
 )
 from geartrain.search.reconstruct.candidate_names import (
     NamedArbor,
-    NamedWheel,
-    TopologyArbor,
-    TopologyWheel,
     name_topology,
     name_train,
 )
@@ -43,9 +40,8 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     Arbor,
     PlacedWheel,
     ReconstructionProblem,
-    question_digest,
 )
-from geartrain.search.reconstruct.train_topology import Topology, plain_topology, topology_of
+from geartrain.search.reconstruct.train_topology import TOPOLOGIES, Topology
 from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives, draw_index
 
 QUICK = 2
@@ -101,8 +97,6 @@ class TopologyTrains:
 
     def count(self, topology: Topology) -> int:
         """Count the trains of a topology."""
-        if not self._facts.are_any:
-            return topology.orders * self.counts.total(OpenCounts(topology.added, topology.wanted))
         return sum(part.choices * part.orders.total for part in self.parts(topology))
 
     def parts(self, topology: Topology) -> list[OrderPart]:
@@ -126,7 +120,8 @@ class TopologyTrains:
         def each(_: Hashable) -> Iterator[Alternative[Hashable]]:
             for arbor in arbors:
                 named = name_train(arbor, *self._names)
-                yield Alternative(1, (*_meshes(named), *self._places(tokens, arbor, named), arbor))
+                meshes = (NamedMesh(*mesh) for mesh in named.meshes())
+                yield Alternative(1, (*meshes, *self._places(tokens, arbor, named), arbor))
 
         return WeightedAlternatives((), each)
 
@@ -157,20 +152,6 @@ class TopologyTrains:
         return _with_counts(arbor, counts)
 
 
-def _meshes(named: NamedArbor) -> Iterator[NamedMesh]:
-    for driving, wheel, driven in named.meshes():
-        assert driven.driven is not None
-        yield NamedMesh(_arbor(driving, None), _wheel(wheel), _arbor(driven, _wheel(driven.driven)))
-
-
-def _arbor(named: NamedArbor, driven: TopologyWheel | None) -> TopologyArbor:
-    return TopologyArbor(named.name, named.added, driven, None)
-
-
-def _wheel(named: NamedWheel) -> TopologyWheel:
-    return TopologyWheel(named.name, PlacedWheel(None if named.added else named.name, named.teeth), None)
-
-
 def _tokens(arbor: Arbor) -> Iterator[int]:
     own = [wheel for wheel, _ in arbor.drives] + ([] if arbor.driven is None else [arbor.driven])
     yield from (wheel.teeth for wheel in own if wheel.name is None)
@@ -193,38 +174,25 @@ def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
 
 
 class TopologySearch:
-    """Enumeration of all topologies of a problem with a given number of added wheels.
+    """Enumeration of all topologies of a problem, with the numbers of their trains.
 
-    Parameters
-    ----------
-    counts : AddedCountSums
-        Counter of the choices of added tooth counts.
+    paths   list of the paths to each dial
     """
 
-    def __init__(self, problem: ReconstructionProblem, counts: AddedCountSums) -> None:
-        self.problem, self._counts = problem, counts
-        self._keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
+    def __init__(self, problem: ReconstructionProblem) -> None:
+        keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
+        dials = sorted(problem.dials, key=lambda dial: dial.name)
+        self.paths = {dial.name: PathList(dial, problem, keys) for dial in dials}
+        self._choice, self._trees = PathChoice(problem, self.paths, keys), PathTrees(problem, self.paths)
+        self._trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
 
-    @cached_property
-    def paths(self) -> dict[str, PathList]:
-        """List of the paths to each dial."""
-        dials = sorted(self.problem.dials, key=lambda dial: dial.name)
-        return {dial.name: PathList(dial, self.problem, self._keys) for dial in dials}
-
-    @cached_property
-    def _by_paths(self) -> tuple[PathChoice, PathTrees]:
-        return PathChoice(self.problem, self.paths, self._keys), PathTrees(self.problem, self.paths)
-
-    def topologies(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Topology, int]]:
-        """Yield topologies with exactly `added` added wheels in one part of the search, each with its number of
-        choices.
-        """
-        choice, trees = self._by_paths
-        for chosen in choice.choices(added, part, parts):
-            for topology in trees.topologies(chosen, added):
-                choices = self._counts.total(OpenCounts(topology.added, topology.wanted))
-                if choices:
-                    yield topology, choices
+    def counted(self, task: TopologyTask) -> Iterator[CountedTopology]:
+        """Yield the topologies of one part of the search that have trains."""
+        for chosen in self._choice.choices(task.added, task.part, task.parts):
+            for topology in self._trees.topologies(chosen, task.added):
+                choices = self._trains.counts.total(OpenCounts(topology.added, topology.wanted))
+                if choices and (trains := self._trains.count(topology)):
+                    yield CountedTopology(topology, choices, trains)
 
 
 # Independent parts of the search for topologies, which any process can run.
@@ -248,16 +216,6 @@ class TopologyTask(NamedTuple):
     parts: int
 
 
-class CountedPart(NamedTuple):
-    """Result of one part of the search."""
-
-    added: int
-    last: bool
-    """True for the last part with this number of added wheels."""
-    topologies: list[CountedTopology]
-    """Topologies with their numbers of trains."""
-
-
 def topology_tasks(problem: ReconstructionProblem) -> list[TopologyTask]:
     """Return all parts of the search, in ascending order of the number of added wheels."""
     return [
@@ -268,19 +226,20 @@ def topology_tasks(problem: ReconstructionProblem) -> list[TopologyTask]:
     ]
 
 
-def count_topologies(problem: ReconstructionProblem, execution: Execution | None = None) -> Iterator[CountedPart]:
-    """Yield the result of each part of the search."""
+def count_topologies(
+    problem: ReconstructionProblem, execution: Execution | None = None
+) -> Iterator[tuple[TopologyTask, list[CountedTopology]]]:
+    """Yield each part of the search with its topologies."""
     tasks = topology_tasks(problem)
     answers = (execution or Execution()).run(_counted, tasks)
     for task, answer in zip(tasks, answers, strict=True):
-        found = [CountedTopology(topology_of(plain), own, trains) for plain, own, trains in answer]
-        yield CountedPart(task.added, task.part + 1 == task.parts, found)
+        yield task, [CountedTopology(TOPOLOGIES.validate_python(plain), own, trains) for plain, own, trains in answer]
 
 
 def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
     """Return the number of possible paths to each dial."""
-    search, _ = _search(problem)
-    return {dial.name: len(search.paths[dial.name]) for dial in problem.dials}
+    paths = _search(problem).paths
+    return {dial.name: len(paths[dial.name]) for dial in problem.dials}
 
 
 def timed_part(task: TopologyTask) -> float:
@@ -292,27 +251,14 @@ def timed_part(task: TopologyTask) -> float:
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
     """Return the topologies of one part as plain data, each with its numbers of choices and of trains."""
-    search, trains = _search(task.problem)
-    topologies = search.topologies(task.added, task.part, task.parts)
-    return [(plain_topology(each), choices, number) for each, choices in topologies if (number := trains.count(each))]
+    counted = _search(task.problem).counted(task)
+    return [(TOPOLOGIES.dump_python(each.topology, mode="json"), each.choices, each.solutions) for each in counted]
 
 
-def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
-    """Return the cached search of a problem.
-
-    Path lists are made once per process. The cache key is the digest of the problem, which need not be hashable.
-    """
-    digest = question_digest(problem)
-    if digest not in _SEARCHES:
-        while len(_SEARCHES) > 1:
-            del _SEARCHES[next(iter(_SEARCHES))]
-        trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
-        _SEARCHES[digest] = TopologySearch(problem, trains.counts), trains
-    return _SEARCHES[digest]
-
-
-_SEARCHES: dict[str, tuple[TopologySearch, TopologyTrains]] = {}
-"""Cache of the searches of the last two problems, by digest."""
+@lru_cache(maxsize=2)
+def _search(problem: ReconstructionProblem) -> TopologySearch:
+    """Return the search of a problem. Its path lists are made once per process."""
+    return TopologySearch(problem)
 
 
 # ------------------------------------------------------- the time of a search, extrapolated from a sample of its tasks

@@ -49,20 +49,6 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
     return found
 
 
-def with_module(declared: Mapping[str, Any], measured: str, module: float | None) -> dict[str, Any]:
-    """Return a declared wheel with a new module, and a note of the measured value if it differs.
-
-    measured   text of the measurement, such as "module 0.455 mm"
-    module     new module [mm]; None if it follows from other wheels
-    """
-    text = "" if module is None else f"{module:.4g} mm"
-    found = {key: value for key, value in declared.items() if key != "module"} | ({"module": text} if text else {})
-    if measured == f"module {text}":
-        return found
-    said = f"measured {measured}"
-    return found | {"note": f"{declared['note']}; {said}" if declared.get("note") else said}
-
-
 def _meshing(train: NamedArbor) -> dict[str, str]:
     """Return for each wheel the first wheel of the group that shares its module."""
     first: dict[str, str] = {}
@@ -255,12 +241,18 @@ class TrainConstruction:
         self.links[link]["wheels"] = wheels
 
     def _with_module(self, name: str, wheel: Mapping[str, Any]) -> dict[str, Any]:
-        requested = self.evidence.reconstruct
+        """Return a declared wheel with its new module, and a note of the measured value if it differs."""
+        requested, module = self.evidence.reconstruct, self.modules[name]
         assert requested is not None
         assert requested.geometry is not None
         radii = requested.geometry.radii
-        said = f"pitch radius {radii[name]}" if name in radii else f"module {wheel['module']}"
-        return with_module(wheel, said, self.modules[name])
+        measured = f"pitch radius {radii[name]}" if name in radii else f"module {wheel['module']}"
+        text = "" if module is None else f"{module:.4g} mm"
+        found = {key: value for key, value in wheel.items() if key != "module"} | ({"module": text} if text else {})
+        if measured == f"module {text}":
+            return found
+        note = f"measured {measured}"
+        return found | {"note": f"{wheel['note']}; {note}" if wheel.get("note") else note}
 
     def _gear(self, driving: str, driven: str) -> dict[str, Any]:
         for gear in self.given.get("gears", ()):

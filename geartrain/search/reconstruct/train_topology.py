@@ -11,8 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import factorial
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+from pydantic import TypeAdapter
 
 from geartrain.search.reconstruct.reconstruction_problem import (
     PlacedWheel,
@@ -150,11 +151,6 @@ class Chain:
         return len(self.through) + self.compounds + self.idlers
 
     @property
-    def orders(self) -> int:
-        """Number of orders of the arbors. Added arbors of one kind are interchangeable."""
-        return factorial(self.arbors) // (factorial(self.compounds) * factorial(self.idlers))
-
-    @property
     def next_chains(self) -> tuple[Chain, ...]:
         """Chains that begin at the end of this one."""
         return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
@@ -183,14 +179,6 @@ class Topology:
     def branchings(self) -> tuple[Branching, ...]:
         """All arbors at which paths end or separate, in depth-first order from the input."""
         return self.root, *(chain.end for chain in self.chains if isinstance(chain.end, Branching))
-
-    @cached_property
-    def orders(self) -> int:
-        """Number of orders of the arbors on all chains, without constraints on meshes."""
-        found = 1
-        for chain in self.chains:
-            found *= chain.orders
-        return found
 
     @cached_property
     def added(self) -> AddedWheels:
@@ -284,57 +272,5 @@ def _wheels_of(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]
     return each.driven, each.driver
 
 
-# plain data, for transfer between processes and for journals
-
-
-def plain_topology(topology: Topology) -> list[Any]:
-    """Convert a topology to nested lists of strings and numbers."""
-    wanted = [[dial, str(low), str(high)] for dial, (low, high) in topology.wanted]
-    return [_plain_branching(topology.root), wanted]
-
-
-def topology_of(plain: list[Any]) -> Topology:
-    """Convert nested lists to a topology, the inverse of `plain_topology`."""
-    root, wanted = plain
-    return Topology(_branching_of(root), tuple((dial, (Fraction(low), Fraction(high))) for dial, low, high in wanted))
-
-
-def _plain_branching(branching: Branching) -> list[Any]:
-    drives = [[_plain_wheel(wheel), [*map(_plain_chain, chains)]] for wheel, chains in branching.drives]
-    return [
-        branching.name,
-        _plain_wheel(branching.driven),
-        [*branching.here],
-        drives,
-        [*map(_plain_chain, branching.passes)],
-    ]
-
-
-def _branching_of(plain: list[Any]) -> Branching:
-    name, driven, here, drives, passes = plain
-    driving = tuple((PlacedWheel(*wheel), tuple(map(_chain_of, chains))) for wheel, chains in drives)
-    return Branching(name, _wheel_of(driven), tuple(here), driving, tuple(map(_chain_of, passes)))
-
-
-def _plain_chain(chain: Chain) -> list[Any]:
-    through = [[name, *map(_plain_wheel, _wheels_of(each)), each.idle, each.idler] for name, each in chain.through]
-    end = [_plain_branching(chain.end)] if isinstance(chain.end, Branching) else [None, [*map(_plain_chain, chain.end)]]
-    return [[*chain.dials], through, chain.compounds, chain.idlers, end]
-
-
-def _chain_of(plain: list[Any]) -> Chain:
-    dials, through, compounds, idlers, end = plain
-    passes = tuple(
-        (name, ArborPass(_wheel_of(driven), _wheel_of(driver), idle, idler))
-        for name, driven, driver, idle, idler in through
-    )
-    ends = _branching_of(end[0]) if end[0] is not None else tuple(map(_chain_of, end[1]))
-    return Chain(tuple(dials), passes, compounds, idlers, ends)
-
-
-def _plain_wheel(wheel: PlacedWheel | None) -> list[Any] | None:
-    return None if wheel is None else [wheel.name, wheel.teeth]
-
-
-def _wheel_of(plain: list[Any] | None) -> PlacedWheel | None:
-    return None if plain is None else PlacedWheel(*plain)
+TOPOLOGIES = TypeAdapter(Topology)
+"""Conversion of topologies to plain data and back, for transfer between processes and for journals."""

@@ -77,9 +77,10 @@ class ErrorSource(Shown):
 
     After t turns of the driving link the driver's forward angle is
 
-        S = start + period frac(cycles t) + forward (driver_sense error[driver] - carrier_sense error[carrier])
+        S = start + period frac(cycles t) + from_known delta[known] + own delta[sources]
 
-    and the error of the driven body includes sense delta(S), with delta from the error table.
+    with the coefficients of its step (`ErrorStep`). The error of the pair is delta = sense e(S), where e is the error
+    table, and every body in `bodies` has this error times its weight.
 
     See Also
     --------
@@ -90,46 +91,38 @@ class ErrorSource(Shown):
     """Name of the gear pair or coupling."""
     transmission: int
     """Index of the pair's error table in `Movement.transmissions`."""
-    driver: int
-    """Index of the driving body."""
-    carrier: int
-    """Index of the body of the pair's carrier."""
-    driver_sense: int
-    """Sign of the driver's error in the angle S, 1 or -1."""
-    carrier_sense: int
-    """Sign of the carrier's error in the angle S, 1 or -1; the error with this sign is subtracted."""
     cycles: str
     """Number of periods of the transmission error per turn of the driving link, exact."""
     start: float
     """Driver's forward angle S at the start, with all errors 0 [rad]."""
-    forward: int
-    """Sense of rotation of the driver: 1 or -1."""
     sense: int
-    """Sign with which the transmission error is added to the error of the driven body, 1 or -1."""
+    """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
+    bodies: Sequence[int]
+    """Indices of the bodies that the error moves."""
+    weights: Sequence[float]
+    """Error of each of these bodies per unit of the pair's error [rad/rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Computation of the errors of some bodies from known errors: error[bodies] = from_known error[known] +
-    from_sources delta[sources].
+    """Computation of the errors of some sources from the errors of earlier sources.
 
     See Also
     --------
     Movement : contains it.
     """
 
-    bodies: Sequence[int]
-    """Indices of the bodies whose errors are computed in this step."""
-    known: Sequence[int]
-    """Indices of the bodies whose errors are known from earlier steps and enter this step."""
-    from_known: Sequence[Sequence[float]]
-    """Coefficients of the known bodies, one row per body in `bodies`."""
     sources: Sequence[int]
-    """Indices of the sources whose transmission errors enter this step."""
-    from_sources: Sequence[Sequence[float]]
-    """Coefficients of the sources, one row per body in `bodies`."""
-    coupled: bool
-    """True if the sources depend on the bodies of this step, which is then solved by iteration."""
+    """Indices of the sources whose errors are computed in this step."""
+    known: Sequence[int]
+    """Indices of the earlier sources whose errors move the drivers of this step."""
+    from_known: Sequence[Sequence[float]]
+    """Change of each driver's angle S per unit of each known error [rad/rad], one row per source."""
+    own: Sequence[Sequence[float]]
+    """Change of each driver's angle S per unit of each error of this step [rad/rad], one row per source.
+
+    It is empty if the errors of this step do not move its drivers; otherwise, they are solved by iteration.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,14 +161,8 @@ _DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table
 
 def step_of(step: Composed) -> ErrorStep:
     """Return a step of a composition as built-in numbers."""
-    return ErrorStep(
-        bodies=step.links,
-        known=step.known,
-        from_known=step.from_known.tolist(),
-        sources=step.sources,
-        from_sources=step.from_sources.tolist(),
-        coupled=step.coupled,
-    )
+    own = step.own.tolist() if step.coupled else []
+    return ErrorStep(step.sources, step.known, step.from_known.tolist(), own)
 
 
 def tables_and_sources(
@@ -194,19 +181,17 @@ def tables_and_sources(
         # compared bit by bit: functions that differ by rounding errors come from different pairs
         key = transmission.period, transmission.breaks.tobytes(), transmission.coefficients.tobytes()
         transmissions.setdefault(key, transmission)
-        joint = composition.spread.joints[source.pair]
+        response = way * composition.spread.response[:, source.pair]
+        bodies = response.nonzero()[0]
         sources.append(
             ErrorSource(
                 pair=source.id,
                 transmission=numbers.setdefault(key, len(numbers)),
-                driver=joint.driver,
-                carrier=joint.carrier,
-                driver_sense=source.driver_sense,
-                carrier_sense=source.carrier_sense,
                 cycles=fraction_text(way * source.cycles),
                 start=source.start,
-                forward=way * source.forward,
-                sense=way * source.sense,
+                sense=source.sense,
+                bodies=bodies.tolist(),
+                weights=response[bodies].tolist(),
             )
         )
     return tuple(transmissions.values()), tuple(sources)

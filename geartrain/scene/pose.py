@@ -91,28 +91,29 @@ def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
 def body_errors(scene: Scene, turns: Fraction) -> Floats:
     """Return the error of each body (rad) from its mean motion; zero for constant ratios."""
     movement = scene.movement
-    error = np.zeros(len(scene.bodies))
-    deltas: dict[int, float] = {}
+    delta = np.zeros(len(movement.sources))
     for step in movement.steps:
-        _evaluate_step(scene, step, turns, error, deltas)
+        _evaluate_step(scene, step, turns, delta)
+    error = np.zeros(len(scene.bodies))
+    for source, each in zip(movement.sources, delta, strict=True):
+        error[list(source.bodies)] += each * np.array(source.weights)
     index = {body.id: at for at, body in enumerate(scene.bodies)}
     for link, offset in movement.offsets.items():
         error[index[link]] += offset
     return error
 
 
-def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
-    """Evaluate one step: directly if all drivers of its sources are known, else by fixed-point iteration."""
-    bodies, known = list(step.bodies), list(step.known)
-    base = _matrix(step.from_known, len(bodies), len(known)) @ error[known]
-    gains = _matrix(step.from_sources, len(bodies), len(step.sources))
+def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
+    """Compute the errors of a step in place: directly if all drivers are known, else by fixed-point iteration."""
+    sources, known = list(step.sources), list(step.known)
+    base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle
     for _ in range(_ROUNDS):
-        for source in step.sources:
-            deltas[source] = _delta(scene, scene.movement.sources[source], turns, error)
-        before = error[bodies]
-        error[bodies] = base + gains @ np.array([deltas[source] for source in step.sources])
-        if not step.coupled or np.abs(error[bodies] - before).max(initial=0.0) < _CONVERGED:
+        before = delta[sources]
+        shift = base + np.array(step.own) @ before if step.own else base
+        for at, each in zip(sources, shift, strict=True):
+            delta[at] = _delta(scene, scene.movement.sources[at], turns, float(each))
+        if not step.own or np.abs(delta[sources] - before).max() < _CONVERGED:
             return
     raise RangeError(
         Problem(
@@ -123,16 +124,11 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats
     )
 
 
-def _matrix(rows: object, height: int, width: int) -> Floats:
-    return np.asarray(rows, dtype=float).reshape(height, width)
-
-
-def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) -> float:
-    """Return the transmission error that a pair adds to its driven body [rad]."""
+def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:
+    """Return the error of a pair [rad] if the errors of other pairs move its driver by `shift` [rad]."""
     transmission = scene.movement.transmissions[source.transmission]
-    swing = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier]
     mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)
-    return source.sense * _value(transmission, source.start + mean + source.forward * float(swing))
+    return source.sense * _value(transmission, source.start + mean + shift)
 
 
 def _value(transmission: ErrorTable, S: float) -> float:

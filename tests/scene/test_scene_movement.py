@@ -11,6 +11,7 @@ from fractions import Fraction
 from functools import cache
 from itertools import chain
 from math import floor, pi
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -55,27 +56,27 @@ class Reader:
         return found
 
     def errors(self, turns: Fraction) -> list[float]:
-        found = [0.0] * len(self.data["bodies"])
+        delta = [0.0] * len(self.movement["sources"])
         for step in self.movement["steps"]:
-            base = [sum(g * found[k] for g, k in zip(row, step["known"], strict=True)) for row in step["from_known"]]
-            delta = [0.0] * len(step["sources"])
-            for _ in range(200 if step["coupled"] else 2):
-                for body, start, row in zip(step["bodies"], base, step["from_sources"], strict=True):
-                    found[body] = start + sum(g * d for g, d in zip(row, delta, strict=True))
-                last, delta = delta, [self.delta(number, turns, found) for number in step["sources"]]
-                if delta == last:
+            rows = zip(step["sources"], step["from_known"], step["own"] or [()] * len(step["sources"]), strict=True)
+            rows = [(at, sum(map(mul, row, [delta[k] for k in step["known"]])), own) for at, row, own in rows]
+            for _ in range(200):
+                last = [delta[at] for at in step["sources"]]
+                for at, base, own in rows:
+                    delta[at] = self.delta(at, turns, base + sum(map(mul, own, last)))
+                if not step["own"] or last == [delta[at] for at in step["sources"]]:
                     break
-        return [
-            error + self.movement["offsets"].get(body["id"], 0.0)
-            for error, body in zip(found, self.data["bodies"], strict=True)
-        ]
+        found = [self.movement["offsets"].get(body["id"], 0.0) for body in self.data["bodies"]]
+        for source, each in zip(self.movement["sources"], delta, strict=True):
+            for body, weight in zip(source["bodies"], source["weights"], strict=True):
+                found[body] += weight * each
+        return found
 
-    def delta(self, number: int, turns: Fraction, errors: Sequence[float]) -> float:
+    def delta(self, number: int, turns: Fraction, shift: float) -> float:
         source = self.movement["sources"][number]
         cycles = Fraction(source["cycles"]) * turns
         rest = float(cycles - floor(cycles))
-        own = source["driver_sense"] * errors[source["driver"]] - source["carrier_sense"] * errors[source["carrier"]]
-        S = source["start"] + self.transmissions[source["transmission"]][0] * rest + source["forward"] * own
+        S = source["start"] + self.transmissions[source["transmission"]][0] * rest + shift
         return float(source["sense"] * self.error_of_transmission(source["transmission"], S))
 
     def angles(self, turns: float) -> list[float]:

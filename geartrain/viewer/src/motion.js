@@ -114,55 +114,35 @@ export class Machine {
 
 const degrees = (angle) => `${((angle * 180) / Math.PI).toFixed(3)}°`;
 
-/** The errors of all bodies, from steps in their solved order. */
+/** The errors of all bodies, from the errors of pairs in their order of solution. */
 class Composition {
   constructor({ transmissions, sources, steps, offsets }, names) {
     this.count = names.length;
     this.transmissions = transmissions.map((law) => new Law(law));
     this.sources = sources.map((source) => ({ ...source, cycles: Fraction.of(source.cycles) }));
-    this.steps = steps.map((step) => ({ ...step, gain: step.coupled ? this.gain(step) : null }));
+    this.steps = steps;
     this.offsets = Object.entries(offsets).map(([name, offset]) => [names.indexOf(name), offset]);
   }
 
   at(turns) {
+    const delta = new Float64Array(this.sources.length);
+    for (const step of this.steps) this.take(step, turns, delta);
     const error = new Float64Array(this.count);
-    for (const step of this.steps) this.take(step, turns, error);
+    this.sources.forEach(({ bodies, weights }, n) => bodies.forEach((body, m) => (error[body] += weights[m] * delta[n])));
     for (const [body, offset] of this.offsets) error[body] += offset;
     return error;
   }
 
-  take(step, turns, error) {
-    step.bodies.forEach((body, m) => {
-      error[body] = step.known.reduce((sum, known, n) => sum + step.from_known[m][n] * error[known], 0);
-    });
-    if (!step.sources.length) return;
-    const sources = step.sources.map((at) => this.sources[at]);
-    const angles = sources.map((source) => this.driver(source, turns, error));
+  /** Computes the errors of the sources of a step (rad), in place. */
+  take({ sources: own, known, from_known: gains, own: gain }, turns, delta) {
+    const sources = own.map((at) => this.sources[at]);
     const laws = sources.map((source) => this.transmissions[source.transmission]);
-    const delta = step.coupled
-      ? settle(laws, sources.map((source) => source.sense), angles, step.gain)
-      : sources.map((source, n) => source.sense * laws[n].at(angles[n])[0]);
-    step.bodies.forEach((body, m) => {
-      delta.forEach((value, n) => (error[body] += step.from_sources[m][n] * value));
-    });
-  }
-
-  /** Forward angle of a source's driver (rad); bodies of its own step count as they stand. */
-  driver(source, turns, error) {
-    const mean = partOfProduct(source.cycles, turns) * this.transmissions[source.transmission].period;
-    const shift = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier];
-    return source.start + mean + source.forward * shift;
-  }
-
-  /** Radians of each driver's forward angle per radian of each pair's error, within a coupled step. */
-  gain(step) {
-    const inside = new Map(step.bodies.map((body, at) => [body, at]));
-    const reach = (body, n) => (inside.has(body) ? step.from_sources[inside.get(body)][n] : 0);
-    return step.sources.map((at) => {
-      const { driver, carrier, driver_sense, carrier_sense, forward } = this.sources[at];
-      return step.sources.map(
-        (_, n) => forward * (driver_sense * reach(driver, n) - carrier_sense * reach(carrier, n)),
-      );
-    });
+    const angles = sources.map(({ start, cycles }, m) =>
+      known.reduce((sum, at, n) => sum + gains[m][n] * delta[at], start + partOfProduct(cycles, turns) * laws[m].period),
+    );
+    const found = gain.length
+      ? settle(laws, sources.map(({ sense }) => sense), angles, gain)
+      : sources.map(({ sense }, m) => sense * laws[m].at(angles[m])[0]);
+    own.forEach((at, m) => (delta[at] = found[m]));
   }
 }

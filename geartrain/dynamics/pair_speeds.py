@@ -42,7 +42,10 @@ class PairSpeed:
     problem: Problem | None = None
 
     def known(self) -> float:
-        """Return the pitch-line speed [m/s]. Raise `GearTrainError` with the missing data if it is unknown."""
+        """Return the pitch-line speed [m/s], 0 if the relative motion is undetermined.
+
+        Raises `GearTrainError` with the missing data if the declaration does not give the speed.
+        """
         if self.problem is not None:
             raise GearTrainError(self.problem)
         return self.value or 0.0

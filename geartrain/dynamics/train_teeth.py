@@ -66,7 +66,7 @@ class PairBacklash:
     contact_ratio: float | None = None
     """Contact ratio of conjugate teeth at their design centre distance; None for other teeth."""
     more_contact: str = ""
-    """Advice how to increase the contact ratio."""
+    """Advice on how to increase the contact ratio; empty if it is not computed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -296,8 +296,10 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of conjugate teeth at their design distance (else None), and advice how to increase
+        """Return the contact ratio of conjugate teeth at their design centre distance, and advice on how to increase
         it.
+
+        The ratio is None for other teeth and for pairs at another centre distance.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
@@ -313,7 +315,7 @@ class _Toothing:
     def _backlash(self, gear: GearPair) -> float | None:
         """Return the backlash of a pair as placed, along the pitch circles [modules].
 
-        The result is None if the centre distance is not the one that the transmission function requires.
+        The result is None for displaced wheels whose teeth have another transmission function at their centre distance.
         """
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:

@@ -197,6 +197,7 @@ class KinkSearch:
         """Pairs with their drivers' angles."""
         found = []
         for source in self.composition.used:
+            # no offsets: a pointer that is set does not turn any driver
             drivers = replace(self.composition, outputs=(self.composition.seen_driver(source),), offsets=())
             found.append(PairKinks(source, drivers))
         return tuple(found)

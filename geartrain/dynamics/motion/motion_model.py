@@ -252,7 +252,7 @@ class Motion(Shown):
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
         """Return the composition while the input turns in the declared sense, with additional pairs as sources.
 
-        So pairs with constant ratio can have other transmission functions.
+        Pairs with constant ratio can thus be given other transmission functions.
 
         Parameters
         ----------

@@ -1,10 +1,10 @@
-"""Run of a motion over some revolutions of the input, with its statistics and spectrum.
+"""Run of a motion over a number of revolutions of the input, with its statistics and spectrum.
 
 The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
-revolution
-of the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a
-line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is also computed,
-by a Fourier sum with a Hann window. Differences are due to modulation of pairs by each other.
+revolution of the input, an exact rational number, so its harmonics have the orders k cycles. To first order the
+amplitude of a line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is
+also computed, by a Fourier sum with a Hann window. Differences between the two amplitudes are due to modulation of
+pairs by each other.
 """
 
 from __future__ import annotations
@@ -77,8 +77,7 @@ class SpectrumLine(Result):
 def find_spectrum(
     motion: Motion, turns: float, samples: int, most: int = 12, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, list[SpectrumLine]]:
-    """Return the spectral lines of every output with the largest amplitudes, in falling order, from `samples`
-    positions.
+    """Return at most `most` spectral lines of every output, in descending order of their first-order amplitudes.
 
     Lines are resolved if they differ by at least two periods over the run. If the run is an integer number of common
     periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
@@ -201,12 +200,12 @@ class MotionRun(Tabular, Pictured):
 
     MEANINGS: ClassVar = {
         "output": "Output or link.",
-        "mean speed": "Mean speed divided by that of the input [1].",
-        "exact": "Mean speed divided by that of the input, as a fraction [1].",
-        "error p-p (rad)": "Maximum less minimum of the transmission error [rad].",
+        "mean speed": "Mean speed divided by the input speed [1].",
+        "exact": "Mean speed divided by the input speed, as a fraction [1].",
+        "error p-p (rad)": "Maximum minus minimum of the transmission error [rad].",
         "error rms (rad)": "Root mean square of the transmission error about its mean [rad].",
-        "slowest": "Minimum of the speed less its mean, over the speed of the input [1].",
-        "fastest": "Maximum of the speed less its mean, over the speed of the input [1].",
+        "slowest": "Minimum speed minus mean speed, divided by the input speed [1].",
+        "fastest": "Maximum speed minus mean speed, divided by the input speed [1].",
     }
 
     PAGE = "report.motion_report:motion_document"
@@ -230,7 +229,7 @@ class MotionRun(Tabular, Pictured):
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
     """First-order estimates of each output's peak and rms errors."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
-    """Spectral lines by output, in descending order of amplitude."""
+    """Spectral lines by output, in descending order of the first-order amplitude."""
     done: int = 0
     """Number of positions evaluated so far; less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
@@ -261,10 +260,10 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each evaluated output: mean speed, error and relative speed.
+        """Table with a row for each evaluated output: mean speed, transmission error and extreme speeds.
 
-        Its columns are the mean speed divided by the input speed [1], the error [rad], and the speed divided by its
-        mean [1].
+        The mean speed is divided by the input speed [1], and the error is in rad. `slowest` and `fastest` are the extreme
+        speeds minus the mean speed, divided by the input speed [1].
         """
         return {
             "output": [each.name for each in self.statistics],

@@ -91,7 +91,9 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
 
 @dataclass(frozen=True)
 class PairOperation:
-    """Operating data of a pair in SI units, as far as they are known. `rate` is the driver's speed [1/s]."""
+    """Operating data of a pair: inertia [kg m2], speed of the driver [revolutions/s] and load torque [N m]; None if
+    unknown.
+    """
 
     inertia: float | None = None
     rate: float | None = None
@@ -99,7 +101,7 @@ class PairOperation:
 
     @property
     def omega1(self) -> float | None:
-        """Speed of the driver [rad/s]."""
+        """Speed of the driver [rad/s]; None if it is unknown."""
         return None if self.rate is None else 2 * pi * self.rate
 
 

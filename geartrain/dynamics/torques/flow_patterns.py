@@ -34,7 +34,7 @@ Values = dict[int, Fraction | None]
 
 
 def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
-    """Return the echelon form of a block's rows for one pattern, over the rationals: equation (3)."""
+    """Return the exact echelon form of a block's equations (3) for one pattern of power flow."""
     rows = {row: dict(form) for row, form in known.items()}
     for column in block.columns:
         for row, value in columns[column].pieces[sides[column]].items():

@@ -92,10 +92,10 @@ _ONE = Fraction(1)  # efficiency without loss
 
 @dataclass(frozen=True)
 class MeanEfficiencies:
-    """Efficiencies of one pair: with the first link driving, and with the second link driving."""
+    """Mean efficiencies of one pair. Each tuple has the values with the first link and with the second link driving."""
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driver's torque is constant over a revolution."""
+    """Efficiencies if the driver's torque is constant over a revolution; at most 1."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
     """Efficiencies if the driven side's torque is constant over a revolution."""
     exact: bool = True
@@ -238,7 +238,7 @@ class LoadCase:
         return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
-        """Return the friction torque of a link's bearing [N m, or number without a unit]."""
+        """Return the friction torque of a link's bearing, 0 without declared friction [N m, or number without a unit]."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)
@@ -246,9 +246,9 @@ class LoadCase:
 
 
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
-    """Return the only input and the link at which power leaves the train; None if they are not unique.
+    """Return the links at which power enters and leaves the train; None if they are not unique.
 
-    Power leaves at the only loaded link, or at the only output.
+    Power enters at the crank, or at the only input. It leaves at the only loaded link, or at the only output.
     """
     if len(case.inputs) != 1:
         return None

@@ -1,8 +1,9 @@
-"""Mean efficiency of a pair: declared, or computed from its teeth or its pin, equations (17) to (20).
+"""Mean efficiency of a pair: declared, or computed from its teeth or its pin, by equations (17) to (20) of
+docs/torques.md.
 
-docs/torques.md, section 12. Over a revolution the torques on the two sides of a pair cannot both be constant. If the
-driver's torque is constant, the mean efficiency is mean(eta). If the driven side's torque is constant, it is
-mean(tau)/mean(tau/eta). A torque is constant if the balance of its own link alone determines it.
+Over a revolution the torques on the two sides of a pair cannot both be constant. If the driver's torque is constant,
+the mean efficiency is mean(eta). If the driven side's torque is constant, it is mean(tau)/mean(tau/eta). A torque is
+constant if the balance of its own link alone determines it.
 """
 
 from __future__ import annotations
@@ -102,10 +103,9 @@ def _mean(efficiency: float | None) -> Fraction:
 def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
-    """Return the balance with the applicable mean efficiency of each pair, and the pairs neither of whose torques is
-    constant.
+    """Return the balance with the applicable mean efficiency of each pair, and the pairs without a constant torque.
 
-    The result is the balance, and the pairs neither of whose torques is constant.
+    A pair is listed only if its efficiency depends on which of its torques is constant, and neither of them is.
     """
     if not any(each.differ for each in means.values()):
         return balance, ()
@@ -165,5 +165,6 @@ def screw_efficiency(driving: float, driven: float, friction: float, pressure_an
     True
     """
     slide = tan(driving) + tan(driven)
+    # the normal force on an inclined flank is larger by 1 / cos(pressure angle)
     rough = friction / cos(pressure_angle) * (1 if slide >= 0 else -1)
     return (1 - rough * tan(driven)) / (1 + rough * tan(driving))

@@ -39,7 +39,7 @@ class LoadedBalance:
 
     @property
     def names(self) -> str:
-        """Links with unknown torques as text, separated by commas."""
+        """Names of the links with unknown torques, separated by commas; "any link" if there are none."""
         return ", ".join(self.balance.unknown) or "any link"
 
     @property
@@ -95,7 +95,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
 
 
 def _some(links: Sequence[str]) -> str:
-    """Return up to three names as text, followed by the number of the others."""
+    """Return up to three names, separated by commas, followed by the number of further names."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
@@ -283,7 +283,9 @@ class UnknownLinks:
 
     links: tuple[str, ...]
     enough: bool = True
-    """True if their number equals the number of degrees of freedom; if it is smaller, the loads must be in equilibrium.
+    """True if the number of unknown torques equals the number of degrees of freedom.
+
+    If the number is smaller, the loads must be in equilibrium.
     """
     undecided: TorqueVerdict | None = None
     """Verdict that requests more unknown torques; it is returned if the loads are not in equilibrium without them."""
@@ -353,6 +355,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
             why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
             return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
     requested = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
+    # the torque that takes one unit of power out at this speed
     return _balanced(setting, {load: -1 / setting.speeds[load]}, requested, bearings=False)
 
 

@@ -66,8 +66,8 @@ class LoadedPair:
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides to be tried. A self-locking side is omitted: it has no torque, as has the other side at zero
-        power.
+        """Driving sides to be tried. Self-locking sides are omitted, unless both sides are self-locking: then it is
+        (1,).
         """
         if not self.loses:
             return (0,)
@@ -118,7 +118,7 @@ class TorqueUnknown:
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one of its meshes, whose links may have another order."""
+        """Return the driving side of one mesh of this unknown, whose links may be in another order; 0 without losses."""
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 
@@ -211,7 +211,7 @@ class TorqueBalance:
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
         """Mesh -> rows of declared shares that contain its torque.
 
-        Such a row means: torque of the mesh on the link, over its share, equals the same quotient of the first mesh.
+        Such a row states that the torque of a mesh on the link, divided by its share, is the same as for the first mesh.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
@@ -273,7 +273,7 @@ class SolvedTorques:
     loose: tuple[str, ...]
     """Meshes with undetermined torque, such as those of several planets; their multiplier is set to 0 here."""
     open: tuple[str, ...]
-    """Requested or braked links whose external torque is undetermined for this reason, and therefore omitted."""
+    """Requested or braked links whose torque is undetermined, and therefore omitted from `external` and `brakes`."""
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:
@@ -308,6 +308,7 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
             mesh,
             # equal planets get equal coefficients, other meshes different ones
             a=_SCALES[0] * mesh.a + group.get(mesh.id, len(balance.ties) + at),
+            # b = 0 is a follower, which transmits torque at single positions, but not on average
             b=_SCALES[1] * (mesh.b or -1),
             forward=Fraction(1),
             backward=Fraction(1),

@@ -126,8 +126,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
     """Return the error [rad] and slope [1] of a single pair by bisection; delta - error increases until a dead centre.
 
-    If the transmission function jumps at the solution, as for cut teeth that clash, the position of the jump is returned
-    with slope 0. Without contact the error is infinite, as in the transmission function.
+    If the transmission function jumps at the solution, as for cut teeth that clash, the position of the jump is
+    returned with slope 0. Without contact the error is infinite, as in the transmission function.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)

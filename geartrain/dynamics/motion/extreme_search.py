@@ -234,7 +234,8 @@ class StepSearch:
         """Return the index of the piece with the largest maximum, and the position of this maximum in the piece, -1 to
         1.
 
-        The result is None if no piece can exceed the maximum found so far, or if the largest maximum is at an end of its piece.
+        The result is None if no piece can exceed the maximum found so far, or if the largest maximum is at an end of its
+        piece.
 
         pieces values at the Chebyshev nodes of each piece, shape (n, nodes)
         """

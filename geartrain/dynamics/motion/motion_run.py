@@ -262,8 +262,8 @@ class MotionRun(Tabular, Pictured):
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Table with a row for each evaluated output: mean speed, transmission error and extreme speeds.
 
-        The mean speed is divided by the input speed [1], and the error is in rad. `slowest` and `fastest` are the extreme
-        speeds minus the mean speed, divided by the input speed [1].
+        The mean speed is divided by the input speed [1], and the error is in rad. `slowest` and `fastest` are the
+        extreme speeds minus the mean speed, divided by the input speed [1].
         """
         return {
             "output": [each.name for each in self.statistics],

@@ -211,7 +211,8 @@ class TorqueBalance:
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
         """Mesh -> rows of declared shares that contain its torque.
 
-        Such a row states that the torque of a mesh on the link, divided by its share, is the same as for the first mesh.
+        Such a row states that the torque of a mesh on the link, divided by its share, is the same as for the first
+        mesh.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)

@@ -170,6 +170,7 @@ def _eliminated(
     values = np.empty((size, len(block.columns), 1))
     regular = np.zeros(size, bool)
     if len(block.rows) == len(block.columns):
+        # Hadamard's bound makes the test independent of the units of the rows
         lengths = np.linalg.norm(matrices, axis=2).prod(axis=1)
         regular = np.abs(np.linalg.det(matrices)) > SINGULAR * lengths
         values[regular] = np.linalg.solve(matrices[regular], right[regular])
@@ -256,7 +257,8 @@ class PositionTorques(NamedTuple):
     valid: Bools
     """True at positions where a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """True at positions where no choice of flanks agrees with the signs of the torques."""
+    """True at positions where a link rests within its backlash, or where no choice of flanks agrees with the torques.
+    """
     layers: Floats
     torque: Floats
     """Unknown torque on each requested link about its own axis, in the solution with minimum loss, shape (requested,
@@ -287,6 +289,8 @@ class PositionTorques(NamedTuple):
 
 class _State(NamedTuple):
     """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
+
+    Only the first of several equal planets has torques here.
 
     Of several equal planets only the first has torques here.
     """

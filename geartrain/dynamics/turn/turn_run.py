@@ -172,6 +172,7 @@ class TurnRun:
         for column in coasting.T:
             names = frozenset(name for name, coasts in zip(train.flanked, column, strict=True) if coasts)
             sets[names] = sets.get(names, 0) + 1
+        # kinks of rarer sets are found later, as sign changes within cells
         usual = sorted(sets, key=lambda names: -sets[names])[:_MOST_SETS]
         return np.concatenate([train.motion.kinks(names, self.span) for names in usual])
 

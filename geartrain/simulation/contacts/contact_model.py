@@ -1,8 +1,9 @@
 """Model of a train for the kernels: coordinates, contacts, bearings, stops and springs, with an elimination order.
 
-The coordinates are the independent motions while no contact touches. A pair has two rows over them, the speeds of its
-driver and of its driven side in forward angles. In the solved order each touching pair determines one coordinate from
-earlier ones; that coordinate appears in only one side of the pair. Prescribed coordinates come first.
+The coordinates are the independent motions while no contact touches. A pair has two rows over the coordinates: the
+speeds of its driver and of its driven side in forward angles. In the solved order each touching pair determines one
+coordinate from earlier coordinates; this coordinate appears on only one side of the pair. Prescribed coordinates come
+first.
 """
 
 from __future__ import annotations
@@ -40,10 +41,11 @@ class ContactPair:
     start: tuple[float, float]
     """Forward angles of driver and driven side where all coordinates are 0 [rad]."""
     front: TabledFunction
-    """Driven angle by the driver's angle, in contact on the drive flank [rad]."""
+    """Driven angle as a function of the driver's angle, in contact on the drive flank [rad]."""
     back: TabledFunction
-    """Driven angle by the driver's angle, in contact on the coast flank [rad]; the object `front` for a pair without
-    backlash.
+    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; for a pair without
+    backlash it is
+    the same object as `front`.
     """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
@@ -95,7 +97,10 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring with the torque stiffness (rest + rate t - angle) on a form of the coordinates [N m/rad, rad, rad/s]."""
+    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates [N m/rad,
+    rad,
+    rad/s].
+    """
 
     name: str
     angle: Form
@@ -116,7 +121,7 @@ class SolvedOrder(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """Contact model of a train for simulation in time."""
+    """Contact model of a train for time-domain simulation: inertia, torques, and everything that may touch or stop."""
 
     mass: Floats
     """Mass matrix over the coordinates [kg m2]."""

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 
 _SLOPE = 1e-12  # tolerance, relative to the mean ratio, of tables of the speed that are differentiated
+# degree of these tables: the derivative loses one order, and few cells must reach the tolerance
 _DEGREE = 9
 _LEAP = 1e-7  # relative to the larger of the input's and the link's maximum speed: smaller jumps are rounding
 _MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
@@ -328,7 +329,7 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
     """Return loads and bearing friction by link.
 
-    Loads on inputs do no virtual work unless a crank drives, so they are left out.
+    Loads on inputs do no virtual work unless a crank drives, so they are omitted.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

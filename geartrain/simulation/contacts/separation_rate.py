@@ -100,7 +100,7 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` gives a result: a link behind the input has an inertia, and torques have
+    """Return True if `find_separation` has a result: a link that is not prescribed has an inertia, and torques have
     units.
     """
     declared = train.declaration

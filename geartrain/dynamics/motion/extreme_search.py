@@ -111,7 +111,9 @@ class StepSearch:
 
     @property
     def tolerance(self) -> Floats:
-        """Search tolerance: values above the maxima found by less than this are not searched for, shape (outputs, 4)."""
+        """Search tolerance: maxima that exceed the value found by less than this are not searched for, shape (outputs,
+        4).
+        """
         ranges = np.repeat(self.values[:, ::2] + self.values[:, 1::2], 2, axis=1)
         return np.maximum(_SURE * ranges, _ROUNDING)
 
@@ -234,8 +236,8 @@ class StepSearch:
         """Return the index of the piece with the largest maximum, and the position of this maximum in the piece, -1 to
         1.
 
-        The result is None if no piece can exceed the maximum found so far, or if the largest maximum is at an end of its
-        piece.
+        The result is None if no piece can exceed the maximum found so far, or if the largest maximum is at an end of
+        its piece.
 
         pieces values at the Chebyshev nodes of each piece, shape (n, nodes)
         """
@@ -298,7 +300,7 @@ class ExtremeSearch:
 
     @property
     def uncertainty(self) -> Floats:
-        """Upper bound on the true maxima minus the maxima found, 0 if within twice the tolerance, shape (outputs, 4)."""
+        """Upper bound on the true maxima minus the maxima found, 0 within twice the tolerance, shape (outputs, 4)."""
         beyond = [search.dropped - search.values for _, search in self._searches]
         tolerances = [search.tolerance for _, search in self._searches]
         return self._joined([np.where(b > 2 * t, b, 0.0) for b, t in zip(beyond, tolerances, strict=True)])

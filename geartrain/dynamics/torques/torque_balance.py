@@ -118,7 +118,7 @@ class TorqueUnknown:
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one mesh of this unknown, whose links may be in another order; 0 without losses."""
+        """Return the driving side of one mesh of this unknown, whose links may be in another order; 0 without loss."""
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 

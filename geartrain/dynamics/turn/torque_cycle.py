@@ -93,7 +93,8 @@ class CycleEnergy(Result):
     def efficiency(self) -> float | None:
         """Energy output divided by energy input; None if neither the unknown torques nor the loads have a net input.
 
-        If the unknown torques have no net input, the loads drive, and the energy absorbed by the unknown torques is the output.
+        If the unknown torques have no net input, the loads drive, and the output is the energy that the unknown torques
+        absorb.
         """
         if self.net_in > 0:
             return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))

@@ -98,8 +98,8 @@ def separate_rubbing(
 ) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
     """Return friction terms of the drive flanks by pair, and the names of the pairs and pins whose losses have no term.
 
-    Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at some
-    angle, and gears with a declared efficiency below 1 have none.
+    Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
+    some angle, and gears with a declared efficiency below 1 have none.
     """
     found: dict[str, FlankArms] = {}
     left = []

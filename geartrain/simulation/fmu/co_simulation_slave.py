@@ -158,6 +158,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         try:
             simulation = self.simulation
             self._begun = True
+            # rounding of the tool's times must not give a negative duration
             simulation.advance(max(0.0, current_time + step_size - self._start - simulation.time))
         except GearTrainError as error:
             self.log(str(error), Fmi2Status.error)

@@ -151,7 +151,7 @@ class StepRules(NamedTuple):
     stride: int
     share: float
     """Fraction of the step at which forces are evaluated: 1 (implicit Euler) for rigid teeth, 1/2 (midpoint rule) for
-    compliant ones.
+    compliant teeth.
     """
     creep: float
     """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""

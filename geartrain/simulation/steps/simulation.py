@@ -93,8 +93,7 @@ def simulate(
 ) -> SimulatedRun:
     """Return the results of a simulated run; with `fast` the kernels are compiled.
 
-    on_done   called with the steps done since the last call; the run stops if it returns True, and the plan of the
-              result
+    on_done   called with the steps done since the last call; if it returns True, the run stops, and the plan of the result
               has the number of counted steps
     yields    stiffness and damping of each pair; None for rigid teeth
     """
@@ -255,7 +254,7 @@ def empty_equations(n: int, pairs: int, stops: int) -> StepEquations:
 
 
 def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:
-    """Return the data of compliant teeth; zeros for rigid ones."""
+    """Return the data of compliant teeth, with zero stiffness and damping for rigid teeth."""
     stiffness, damping = (np.zeros(pairs), np.zeros(pairs)) if yields is None else yields
     return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2)))
 

@@ -53,7 +53,7 @@ _POSITIONS = 401
 
 @dataclass(frozen=True)
 class WheelUnderLoad:
-    """Wheel of a loaded pair."""
+    """Wheel of a loaded pair: its teeth, material, design torque and revolutions."""
 
     name: str
     gear: int
@@ -92,7 +92,7 @@ class PairUnderLoad:
     swing: float = 1.0
     """Ratio of the design torque, for stresses, to the mean torque, for wear."""
     remarks: tuple[str, ...] = ()
-    """Restrictions that apply to its wheels."""
+    """Restrictions that apply to the wheels of the pair."""
 
     def strength(self) -> PairStrength:
         """Return the stresses, safety factors and wear of the pair."""

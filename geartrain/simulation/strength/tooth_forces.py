@@ -152,6 +152,7 @@ class ToothForces:
         # the lead is the same at all radii, so the helix angle increases with the radius
         lean = tan(wheel.helix) * self._rolling_radius(circuit, at) / self._radius(circuit, at)
         apart = mesh.separation
+        # 0.0 - x instead of -x avoids -0.0 for spur wheels
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from geartrain.train import ArborSizes, GearPair, Material, Wheel
 
 
+# Julian year, as in the units of declarations
 _YEAR = 365.25 * 86400  # s
 _PINS = "steel"  # material of the pins of couplings if the train declares none
 
@@ -89,8 +90,9 @@ class Service:
     """Minimum and maximum wear coefficient; None for `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
-        """Return the range of wear coefficients. Raises `QuestionError` if it is not a range, or a time is not a
-        number.
+        """Return the range of wear coefficients.
+
+        Raises `QuestionError` if the coefficients are not a range, or if `turns` or `years` is not a number.
         """
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
@@ -171,7 +173,8 @@ class StrengthQuestion:
     meshes: Sequence[GearMesh]
     """Pairs with real teeth, with their drivers in this load case."""
     scale: float | None
-    """Total revolutions per unit of relative speed; None if wear is not requested. `turns` are those of the input."""
+    """Total revolutions per unit of relative speed; None if wear is not requested. `turns` is the number for the input.
+    """
     turns: float | None
     wear: WearRange
     """Minimum and maximum wear coefficient."""
@@ -375,7 +378,9 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates."""
+        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates; None if there is
+        none.
+        """
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
@@ -503,9 +508,9 @@ class ArborLoad:
 
 
 def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
-    """Return the strength of an arbor between two bearings for any positions of its wheels.
-
-    docs/strength.md (16), (17) and (26).
+    """Return the strength of an arbor between two bearings for any positions of its wheels: docs/strength.md (16), (17)
+    and
+    (26).
     """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3

@@ -187,7 +187,7 @@ class TrainMechanics(Shown):
         state : str, optional
             Name of a declared state. None is allowed only for a train without states.
         without : sequence of str
-            Names of pairs to leave out.
+            Names of pairs to omit.
         """
         from geartrain.dynamics.torques.drivers import find_drivers
 

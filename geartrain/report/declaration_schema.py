@@ -151,7 +151,7 @@ class _Chapter:
 
     @property
     def anchor(self) -> str:
-        """Fragment of its address."""
+        """Fragment of the section's address within the page."""
         return _anchor(self.title)
 
     @property
@@ -266,7 +266,7 @@ def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
 
 
 def _kind(shape: Schema, parts: Mapping[str, str]) -> str:
-    """Return the type of a key in a few words, in the notation of YAML; `parts` has those of all parts."""
+    """Return the type of a key in a few words, in the notation of YAML; `parts` has the types of all parts."""
     if "$ref" in shape:
         return parts[shape["$ref"].rsplit("/", 1)[-1]]
     if len(options := _options(shape)) > 1:

@@ -128,9 +128,9 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
 
 
 def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
-    """Yield a section with the formulas of one state, without those of outputs that are inputs.
+    """Yield a section with the formulas of one state that contain tooth counts; nothing if there are none.
 
-    explained   whether the section begins with an explanation of the notation
+    explained   True to begin the section with an explanation of the notation
     """
     # a formula without tooth counts would only repeat a given speed
     shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]

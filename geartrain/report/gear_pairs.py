@@ -28,7 +28,7 @@ class DrivenPair(Result):
 
     mesh: GearMesh
     states: tuple[str, ...] = ()
-    """Names of the states in which this wheel drives."""
+    """Names of the states in which `mesh.driver` drives."""
 
     @cached_property
     def account(self) -> PairAccount:

@@ -91,7 +91,7 @@ def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
 
 
 def _by_state(states: Sequence[GearState], columns: Sequence[str], field: str) -> Table:
-    """Return the values of a field, which is a mapping from elements to numbers, with a row for each state."""
+    """Return a table with a row for each state, of a field that is a mapping from elements to numbers or None."""
     rows = []
     for each in states:
         values = getattr(each, field)

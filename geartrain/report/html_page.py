@@ -93,7 +93,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
     Parameters
     ----------
     documents : sequence of Document
-        Documents to show; pictures and other extras of pages are left out.
+        Documents to show; pictures and other extras of pages are omitted.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
     Raises
     ------
     MissingExtraError
-        Without jinja2, which is installed with the extra `report`.
+        If jinja2 is not installed (extra `report`).
     """
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)

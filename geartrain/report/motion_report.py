@@ -239,7 +239,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Return whether the speed ratio of any gear pair or pin varies within a turn."""
+    """Return True if a pin has dimensions, or if the speed ratio of a gear pair varies within a turn."""
     return bool(train.mechanics.pins) or any(not mesh.rigid for mesh in train.meshes)
 
 
@@ -334,7 +334,7 @@ def moving_sections(
 ) -> Iterator[Section]:
     """Yield a section on the motion in each state of a train with real teeth or pins.
 
-    toothed   whether the train has real teeth
+    toothed   True if the train has real teeth
     """
     for each in found:
         head = titled(each.state, "motion")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """Findings on a train in a file; true as a boolean without failures."""
+    """Findings of `geartrain check` on a train in a file. An instance is true if there are no failures."""
 
     train: GearTrain
     file: str
@@ -40,7 +40,7 @@ class Soundness:
     def lines(self, quiet: bool = False) -> Iterator[str]:
         """Yield the lines of `geartrain check`.
 
-        quiet   whether remarks on trains without failures are omitted
+        quiet   True to omit the remarks on a train without failures
         """
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
@@ -155,7 +155,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return the unit of a train's speeds in turns per second; None if speeds are numbers without a unit without a
+    """Return the unit of a train's speeds in turns per second; None if the speeds have no unit and the train has no
     rate.
     """
     if declared.unit_speed is not None:

@@ -58,7 +58,7 @@ class DrivenFigures:
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power out divided by power in; None if it is not determined."""
+        """Power output divided by power input; None if it is not determined."""
         return self.way.torques.efficiency if self.verdict else None
 
     @property
@@ -82,7 +82,7 @@ class TorqueFigures(Result):
 
     torques: Torques
     drives: DrivenWays | None
-    """Efficiencies in both directions; None if the train has not exactly one output."""
+    """Efficiencies in both directions; None unless power enters at one link and leaves at one link."""
     watts_per_unit: float | None
     """Watts per unit of power (torque unit times speed unit); None if torques or speeds are numbers without a unit."""
     in_newton_metres: bool

@@ -93,8 +93,8 @@ def simulate(
 ) -> SimulatedRun:
     """Return the results of a simulated run; with `fast` the kernels are compiled.
 
-    on_done   called with the steps done since the last call; if it returns True, the run stops, and the plan of the result
-              has the number of counted steps
+    on_done   called with the steps done since the last call; if it returns True, the run stops, and the plan of the
+              result has the number of counted steps
     yields    stiffness and damping of each pair; None for rigid teeth
     """
     system, n = model.system(plan.step, yields), len(model.torque)

@@ -440,8 +440,8 @@ def deepest_passage(load: ContactLoad, gear: int) -> float:
     docs/strength.md
     (15).
 
-    This value times the wear coefficient K, divided by the hardness, is a wear depth. A point at which the contact does not
-    move is omitted.
+    This value times the wear coefficient K, divided by the hardness, is a wear depth. A point at which the contact does
+    not move is omitted.
     """
     approach, recess = load.path.arcs
     X = np.linspace(-approach, recess, 801)

@@ -1,4 +1,4 @@
-"""Plot of a motion in time: gaps of teeth with impacts, deviations of outputs, and their spectrum."""
+"""Plot of a time-domain simulation: gaps of teeth with impacts, deviations of outputs, and their spectrum."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     Raises
     ------
     QuestionError
-        If no pair has backlash and no output vibrates.
+        If no pair has backlash, no output vibrates, and the train has no escapement.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Study of the motion of a train in time: two runs with time steps h and h/2, and their comparison."""
+"""Time-domain simulation of a train by two runs with time steps h and h/2, whose results are compared."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _SLOW = 7e-5  # time of one step of one contact in plain Python [s]
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """Study of the motion of a train in time by two runs."""
+    """Time-domain simulation of a train by two runs, the second with half the time step of the first."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
@@ -119,11 +119,10 @@ class TimeStudy:
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
         """Simulate both runs and return the result.
 
-        on_done   called with the fraction of the work of each interval; if it returns True, the result is that of the
-                  completed
-                  part of the first run, without a comparison
+        on_done   called with the fraction of the total work done since the last call; if it returns True, the result is that
+                  of the completed part of the first run, without a comparison
 
-        Raises `KeyboardInterrupt` if it returns True before the counted part begins.
+        Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
         """
         model = self.of.model
         plans = self.plan(1), self.plan(2)

@@ -56,10 +56,10 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name.
+    """Return a suggestion for an unknown name, for the `fix` of a problem.
 
-    It lists similar known names, otherwise it is `otherwise`, otherwise it lists all known names if there are at
-    most 30.
+    It lists similar known names. If there are none, it is `otherwise`, or a list of all known names if there are at most
+    30, or the advice to correct the name.
     """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
@@ -108,7 +108,7 @@ MOST_REPORTED = 20
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
-    """Return the first `MOST_REPORTED` problems, and a last one that reports how many others there are.
+    """Return up to `MOST_REPORTED` + 1 problems; if there are more, the last one gives the number of omitted problems.
 
     `count` is the total number if it is known. An iterator is consumed only until it is known that there are more.
     """
@@ -128,7 +128,7 @@ class GearTrainError(Exception):
     Parameters
     ----------
     problems : Problem or iterable of Problem
-        All problems that were found. The first 20 are kept, with the number of the others.
+        All problems that were found. The first 20 are kept, followed by the number of omitted problems.
 
     Attributes
     ----------
@@ -161,7 +161,7 @@ class DeclarationError(GearTrainError):
 
 
 class QuestionError(GearTrainError):
-    """Request for something that a valid train does not have, such as a link, a state or a method.
+    """Invalid request to a valid train or function, such as an unknown link or state, or an argument out of range.
 
     See Also
     --------

@@ -49,7 +49,7 @@ Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
-    """Load all trains, or raise one error with the problems of every file."""
+    """Load all trains. Raise one `GearTrainError` with the problems of every file that cannot be read."""
     from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
@@ -170,12 +170,12 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
 
 
 def picture_sink(out: Path | None, force: bool, theme: ThemeName, option: str = "--plot") -> Sink:
-    """Return the destination and theme of a picture, after checking that it can be written. Raises `GearTrainError`."""
+    """Return the destination and theme of a picture. Raise `GearTrainError` if the picture cannot be written there."""
     return replace(sink(out, force, PICTURES, option), theme=theme)
 
 
 def check_distinct_outputs(*sinks: Sink) -> None:
-    """Check that no two results of one command are written to the same file. Raises `GearTrainError`."""
+    """Raise `GearTrainError` if two results of one command would be written to the same file."""
     taken: set[Path] = set()
     for each in sinks:
         if each.path is None:
@@ -259,7 +259,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; an empty list gives an empty text."""
+    """Format rows with the same keys as CSV with a header; return an empty string for no rows."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

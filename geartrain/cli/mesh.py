@@ -247,7 +247,7 @@ def run(
         for option, given in {"--at": at, "--profile": profile}.items():
             if given is not None:
                 raise option_error(
-                    option, "it applies to one pair", f"omit {option} or --vary", "--vary evaluates several"
+                    option, "it applies to one pair", f"omit {option} or --vary", "--vary evaluates several pairs"
                 )
         sweep(pair, vary, picture, json, to)
         return

@@ -130,7 +130,7 @@ def _value(field: FieldInfo, given: str) -> Any:
 
 
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
-    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
+    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError` for a ring gear."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise option_error("--shaft-angle", "a ring is not a bevel wheel", fix, why)
@@ -138,7 +138,10 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels. Raises `GearTrainError`."""
+    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels.
+
+    Raises `GearTrainError` if the angle is not from 0 to less than 90 deg, or if it is given for bevel wheels.
+    """
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
@@ -146,7 +149,7 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is out of range"
         why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
-        raise option_error("--helix", what, "give for example --helix 20deg", why)
+        raise option_error("--helix", what, "for example, give --helix 20deg", why)
     return angle
 
 
@@ -264,7 +267,7 @@ def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
-        fix, why = "give for example --module 2mm", "an outline is written to scale"
+        fix, why = "for example, give --module 2mm", "an outline is written to scale"
         raise option_error("--module", "the module is missing", fix, why)
     texts = {"tolerance": FINE, **sizes}
     lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in texts.items()}
@@ -287,9 +290,9 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient. Raises `GearTrainError` if a friction law is given; `option` needs a number."""
+        """Return the coefficient of friction, which `option` needs. Raise `GearTrainError` if a friction law is given."""
         if self.law is not None:
-            what, fix = f"{option} needs a coefficient of friction", "give for example --friction 0.1"
+            what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")
         return self.coefficient
 

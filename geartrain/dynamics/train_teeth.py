@@ -231,7 +231,7 @@ class _Toothing:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
-            why = "its teeth are not straight and plane"
+            why = "only straight teeth in one plane have an outline"
             fix = "export STL or GLB, which approximate its teeth"
             raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):

@@ -49,7 +49,7 @@ def _sections(found: TrainAccuracy) -> Iterator[Section]:
         table = Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])
         yield Section(f"{state}{stage}", (), [table])
     if found.neglected:
-        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.neglected.items()])
+        yield Section(f"{state}omitted", [f"{stage}: {why}." for stage, why in found.neglected.items()])
 
 
 def _cells(row: MethodAccuracy) -> list[str]:

@@ -48,7 +48,7 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
         marks = ["x" if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
-    text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input over output."
+    text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
 
 

@@ -108,7 +108,7 @@ def _losses_and_stresses(found: DesignLosses) -> Section:
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
     free = [
         ("maximum sliding divided by the pitch-line speed", cost(found.sliding)),
-        ("maximum sliding over the contact's speed along a flank", cost(found.specific_sliding)),
+        ("maximum sliding divided by the contact's speed along a flank", cost(found.specific_sliding)),
         ("minimum speed along a dedendum divided by the pitch-line speed", cost(found.measures.slowest)),
     ]
     text = (

@@ -256,7 +256,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     head = titled(state, "torques")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
-        lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
+        lines.append(f"Candidates for `solve_for`: {', '.join(found.verdict.candidates)}.")
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     lines += _both_directions(figures.drives)
     if not found.verdict:

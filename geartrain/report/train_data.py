@@ -74,14 +74,14 @@ class AdjacencyLetters:
 
 @dataclass(frozen=True)
 class StateSensitivity:
-    """Change of an output in one state if a wheel of uncertain tooth count has one tooth more or less."""
+    """Change of an output in one state if a wheel of uncertain tooth count has one tooth fewer or one tooth more."""
 
     KEYS = ("state", Key("", "change"))
 
     state: str | None
     """Name of the state; None for a train without states."""
     change: Sensitivity
-    """Relative changes of the output with one tooth less and one tooth more."""
+    """Relative changes of the output with one tooth fewer and one tooth more."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class TrainReport(TrainAnswers):
     remarks: tuple[Problem, ...]
     """Notes on conventions and mean values used in the results."""
     sensitivity: tuple[StateSensitivity, ...]
-    """Changes of the outputs if a wheel with an uncertain tooth count has one tooth more or fewer."""
+    """Changes of the outputs if a wheel with an uncertain tooth count has one tooth fewer or one tooth more."""
     teeth: tuple[DrivenPair, ...]
     """Pairs with real teeth, one entry for each driving wheel that occurs in some state."""
     pins: tuple[DrivenPin, ...]

@@ -169,7 +169,7 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
             )
         )
     what = f"the motion of the coupled pairs {names} has no unique solution"
-    return GearTrainError(Problem(what, why, "declare some of them without `tooth_form` (ideal teeth)"))
+    return GearTrainError(Problem(what, why, "declare some of these pairs without `tooth_form` (ideal teeth)"))
 
 
 class ErrorPath(NamedTuple):

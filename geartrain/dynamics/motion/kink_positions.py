@@ -228,7 +228,7 @@ class KinkSearch:
         """Return the kinks between two positions of the input [revolutions], both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
             what = f"there are about {expected:.2g} kinks from {start:g} to {end:g} turns"
-            why = f"at most {MOST_KINKS:g} are listed"
+            why = f"at most {MOST_KINKS:g} kinks are listed in one call"
             raise QuestionError(Problem(what, why, "request fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]
         for steps in self.steps(start, end):

@@ -201,7 +201,7 @@ class Motion(Shown):
         if tolerance is not None and not 0 < tolerance < 1:
             why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
             fix = "give a fraction such as 1e-9, or omit it"
-            raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
+            raise QuestionError(Problem(f"the tolerance {tolerance!r} is out of range", why, fix))
         self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()

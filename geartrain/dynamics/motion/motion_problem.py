@@ -133,7 +133,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
     circuits, drivers = own.circuits_without(without), train.drivers(case.state, without)
     links = tuple(declared.links)
     parts = SolvedPart(links, declared.frame, circuits, tuple(case.inputs)).reduced.components
-    # redundant pairs are left out, so that the system is square
+    # redundant pairs are omitted, so that the system is square
     redundant = {parts.circuits[chord].id for chord in parts.closing}
     whole = assemble_willis_system(links, declared.frame, circuits, case, own.signs)
     kept = {circuit.id for circuit in circuits}

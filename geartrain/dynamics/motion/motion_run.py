@@ -241,11 +241,13 @@ class MotionRun(Tabular, Pictured):
         if not abs(self.turns) <= MOST_TURNS:
             why = f"float64 resolves single teeth only up to {MOST_TURNS:g} turns"
             fix = f"pass turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
-            raise QuestionError(Problem(f"turns = {self.turns:g}", why, fix))
+            raise QuestionError(Problem(f"turns = {self.turns:g} is out of range", why, fix))
         if self.samples < 2:
             raise QuestionError(
                 Problem(
-                    f"samples = {self.samples}", "at least two positions of the input are needed", "pass samples >= 2"
+                    f"samples = {self.samples} is too small",
+                    "at least two positions of the input are needed",
+                    "pass samples >= 2",
                 )
             )
 
@@ -317,7 +319,9 @@ class MotionRun(Tabular, Pictured):
         """
         self.seed = seed if count else None
         if seed < 0:
-            raise QuestionError(Problem(f"seed = {seed}", "a random seed must not be negative", "pass seed >= 0"))
+            raise QuestionError(
+                Problem(f"seed = {seed} is out of range", "a random seed must not be negative", "pass seed >= 0")
+            )
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)

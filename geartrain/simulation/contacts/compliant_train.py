@@ -102,7 +102,9 @@ class CompliantTrain(TrainModel):
         """
         if self.case.escapements:
             what = f"'{self.train.name}' has an escapement, which compliant teeth do not support"
-            raise QuestionError(Problem(what, "the stops of an escapement are rigid", "use rigid teeth"))
+            raise QuestionError(
+                Problem(what, "the stops of an escapement are rigid", "use rigid teeth (`--model rigid`)")
+            )
         lacking = [pair.name for pair in self.model.pairs if pair.name not in self.table.pairs]
         if lacking:
             what = f"the stiffness of {', '.join(lacking)} is not known"

@@ -291,7 +291,7 @@ def find_inertial_loads(
             if _is_plain(torque):
                 what = f"the {key} torque of '{link}', {torque}, has no unit"
                 raise QuestionError(
-                    Problem(what, "torques are compared with inertias in kg m2", f"write for example '{torque} N m'")
+                    Problem(what, "torques are compared with inertias in kg m2", f"for example, write '{torque} N m'")
                 )
     return InertialLoads(
         {each.link: each.value for each in inertias},

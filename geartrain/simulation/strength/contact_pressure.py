@@ -306,7 +306,9 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
         why = f"their generatrices cross at only {crossing:.3g} rad"
         raise RangeError(
             Problem(
-                "two parallel cylinders touch along a line", why, "use the pressure of a line contact, `hertz_pressure`"
+                "nearly parallel cylinders have no contact ellipse",
+                why,
+                "use the pressure of a line contact, `hertz_pressure`",
             )
         )
     else:

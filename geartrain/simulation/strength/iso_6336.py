@@ -105,7 +105,7 @@ class RackPair:
             raise RangeError(
                 Problem(
                     what,
-                    "its load sharing applies to contact ratios from 1 to 2",
+                    "its load sharing applies to contact ratios from 1 to 2, excluding 2",
                     "use the stresses by Lewis and Hertz",
                 )
             )

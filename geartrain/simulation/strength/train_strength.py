@@ -61,7 +61,9 @@ def solve_strength(
     if not has_torque_units(train.declaration, found.state):
         what = "the loads have no unit"
         raise QuestionError(
-            Problem(what, "stresses are computed from torques in N m", "declare them with a unit, such as `-0.5 N m`")
+            Problem(
+                what, "stresses are computed from torques in N m", "declare the loads with a unit, such as `-0.5 N m`"
+            )
         )
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
@@ -99,7 +101,7 @@ class Service:
         if not 0 < own.minimum <= own.maximum < inf:
             what = f"{own.minimum:g} to {own.maximum:g} is not a range of wear coefficients"
             raise QuestionError(
-                Problem(what, "K must be positive, with the minimum first", "give for example --wear 1e-7 1e-3")
+                Problem(what, "K must be positive, with the minimum first", "for example, give --wear 1e-7 1e-3")
             )
         return own
 
@@ -112,7 +114,7 @@ class Service:
             raise QuestionError(
                 Problem(
                     "both turns and years are given",
-                    "they are two ways to give the service life",
+                    "turns and years both define the service life",
                     "omit --turns or --years",
                 )
             )
@@ -131,7 +133,7 @@ class Service:
                 Problem(
                     f"'{declared.name}' does not move",
                     "no input has a speed other than 0",
-                    "declare one under `inputs`",
+                    "declare a non-zero speed under `inputs`",
                 )
             )
         if turns is not None:

@@ -55,9 +55,9 @@ class TimeStudy:
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
-            what = f"turns = {self.turns:g}, skip = {self.skip:g}"
+            what = f"turns = {self.turns:g} or skip = {self.skip:g} is out of range"
             raise QuestionError(
-                Problem(what, "turns must be above 0, and skip 0 or more", "pass for example turns=10, skip=1")
+                Problem(what, "turns must be above 0, and skip 0 or more", "for example, pass turns=10, skip=1")
             )
         if self.steps is not None and self.steps < 1:
             raise QuestionError(
@@ -68,7 +68,7 @@ class TimeStudy:
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:
             what = f"the run would take {self.per_turn * (self.turns + self.skip):.3g} steps"
             raise QuestionError(
-                Problem(what, f"the maximum is {_MOST_STEPS:.0e}, which takes days", "give fewer turns or steps")
+                Problem(what, f"the maximum is {_MOST_STEPS:.0e} steps, which take days", "give fewer turns or steps")
             )
 
     @cached_property
@@ -119,8 +119,8 @@ class TimeStudy:
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
         """Simulate both runs and return the result.
 
-        on_done   called with the fraction of the total work done since the last call; if it returns True, the result is that
-                  of the completed part of the first run, without a comparison
+        on_done   called with the fraction of the total work done since the last call; if it returns True, the result is
+                  that of the completed part of the first run, without a comparison
 
         Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
         """

@@ -159,7 +159,7 @@ def radians_per_second(rate: str | float | None) -> float | None:
             rate = Quantity.parse(rate, "speed", plain=True).si
         except PydanticCustomError as error:
             raise QuestionError(
-                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "write for example '1 turn/s'")
+                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "for example, write '1 turn/s'")
             ) from None
     check_numbers(rate=rate)
     if rate is not None and not 0 < rate < inf:

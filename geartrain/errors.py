@@ -58,8 +58,8 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
     """Return a suggestion for an unknown name, for the `fix` of a problem.
 
-    It lists similar known names. If there are none, it is `otherwise`, or a list of all known names if there are at most
-    30, or the advice to correct the name.
+    It lists similar known names. If there are none, it is `otherwise`, or a list of all known names if there are at
+    most 30, or the advice to correct the name.
     """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
@@ -114,6 +114,7 @@ def first_problems(problems: Iterable[Problem], count: int | None = None) -> tup
     """
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)
+    # two beyond the limit show whether problems must be omitted
     first = tuple(islice(problems, MOST_REPORTED + 2))
     if len(first) <= MOST_REPORTED + 1:  # one further problem is reported itself
         return first

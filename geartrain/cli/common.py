@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geartrain.report.document import Document
     from geartrain.scene.palette import ThemeName
 
+# 130 = 128 + SIGINT, as shells report a process that this signal ended
 GOOD, VERDICT, NOT_USABLE, INTERRUPTED = 0, 1, 2, 130
 PICTURES = (".svg", ".png", ".pdf")
 
@@ -255,6 +256,7 @@ def as_json(data: Any) -> str:
     data = plain(data)
     # JSON has no NaN and no infinity: `plain` data must not contain them
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+    # ASCII output escapes also the control characters beyond ASCII
     return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)
 
 

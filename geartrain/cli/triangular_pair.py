@@ -106,6 +106,7 @@ def _number(text: str) -> tuple[float, str]:
 
 def _plain(row: tuple[object, ...]) -> list[object]:
     """Replace NaN by None in a row."""
+    # only NaN differs from itself
     return [None if value != value else value for value in row]
 
 

@@ -143,6 +143,7 @@ class LazyGroup(TyperGroup):
 # ----------------------------------------------------------------------------------------------------------- exit codes
 
 
+# 141 = 128 + SIGPIPE, as shells report a process that this signal ended
 FAULT, READER_GONE = 3, 141
 TRACEBACK = "GEARTRAIN_TRACEBACK"
 """Environment variable; if it is set, the traceback of an internal error is also printed."""

@@ -71,6 +71,7 @@ def not_cut(wheel: str, problem: Problem) -> Problem:
 
 
 def _places(declared: Train) -> Mapping[str, _Place]:
+    # a module of 1, so that outlines are in modules
     return {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
 
 

@@ -144,6 +144,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
         if (size := mesh.size(tips)) is not None:
             found[mesh.name] = size
             for wheel, R in mesh.unit_tips.items():
+                # the first pair of a wheel fixes its size in all later pairs
                 tips.setdefault(wheel, R * size.scale)
     return found
 

@@ -28,6 +28,7 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
     """
     driving_speed = next((speed for speed in case.inputs.values() if speed), None)
     if case.rate is not None and case.rate.unit is not None and driving_speed is not None:
+        # a rate scales the declared speeds of all links by the same factor
         return abs(case.rate.si / float(driving_speed))
     if not train.input_unit or train.unit_speed is None:
         return None

@@ -217,6 +217,7 @@ class TrainMechanics(Shown):
 
         own = self.kinematics
         solution = own.solution(case)
+        # torques may be determined although speeds are free: docs/torques.md, (14) to (16)
         if solution.verdict.kind not in ("determined", "free"):
             return None
         forms = speed_forms(own.equations(case.state)) if solution.verdict.kind == "free" else {}

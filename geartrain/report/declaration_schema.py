@@ -40,7 +40,9 @@ def schema() -> Schema:
     found = {key: part for key, part in _models().items() if key not in ("title", "required")}
     for name in _MERGED:
         body = _body(found["$defs"][name])
+        # `kind` selects the model of a part, so even an incomplete part must have it
         body["required"] = [key for key in body.pop("required", ()) if key == "kind"]
+    # a child of `extends` inherits its links
     whole = {"if": {"required": ["extends"]}, "then": {}, "else": {"required": ["links"]}}
     return {"$schema": _URL, "title": "geartrain declaration"} | found | whole
 

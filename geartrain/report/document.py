@@ -391,6 +391,7 @@ def column_widths(table: Table, width: int) -> list[int]:
     return sizes
 
 
+# a tilde marks a number solved in floats; both minus signs occur
 _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 

@@ -62,6 +62,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
     # links in the order of their first occurrence
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
+    # links at rest in every state have no column; a missing speed counts as motion
     links = [link for link in known if any(each.speeds.get(link, 1) for each in found.states)]
     yield Section("Speeds", (f"Exact. {_unit(found)}",), (_speeds(found.states, links),))
     yield Section("Slip of open elements", (_unit(found),), (_by_state(found.states, names, "slips"),))

@@ -170,6 +170,7 @@ def inline(svg: str, number: int) -> str:
     for pattern in (r'(\bid=")([^"]+)(")', r'(href="#)([^"]+)(")', r"(url\(#)([^)]+)(\))"):
         element = re.sub(pattern, own, element)
     head, rest = element.split(">", 1)
+    # without a fixed size a picture scales with the page
     head = re.sub(r'\s(width|height)="[^"]*"', "", head)
     return f'{head} role="img">{rest}'.strip()
 

@@ -202,6 +202,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
         return _fields({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
     if not isinstance(origin, type) or not hasattr(origin, "__iter__"):
         return _of_one(kind, to, keys)
+    # iterators and numpy arrays do not state the kinds of their items
     if not hasattr(origin, "__len__") or origin.__module__ == "numpy":
         return {"type": "array"}
     if issubclass(origin, Mapping):
@@ -331,6 +332,7 @@ def _evaluated(annotation: Any, module: ModuleType) -> Any:
     if isinstance(annotation, ForwardRef):
         annotation = annotation.__forward_arg__
     # annotations are strings, because modules import `annotations` from `__future__`
+    # not `typing.get_type_hints`, which fails for names imported only under TYPE_CHECKING
     return eval(annotation, {}, _Names(module)) if isinstance(annotation, str) else annotation
 
 

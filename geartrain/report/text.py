@@ -115,6 +115,7 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
     out = StringIO()
     console = Console(file=out, width=width, no_color=True, force_terminal=False, legacy_windows=False, highlight=False)
     to_terminal(documents, console, marks="=-")
+    # rich pads lines to the width of the console
     return "\n".join(line.rstrip() for line in out.getvalue().splitlines()).rstrip()
 
 

@@ -221,6 +221,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
         return
     gap = " " if len(links) <= _MOST_SPACED else ""
     cells = [[_LETTERS.get(kind, "C") for kind in row] for row in adjacency_kinds(train.declaration)]
+    # only the last digit, so that every column is one character wide
     head = gap.join(str(at % 10) for at in range(1, len(links) + 1))
     rows = [(f"{at} {link}", gap.join(row)) for at, (link, row) in enumerate(zip(links, cells, strict=True), 1)]
     couplings = ", C coupling" if train.declaration.couplings else ""

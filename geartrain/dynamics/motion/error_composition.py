@@ -179,6 +179,7 @@ class ErrorComposition:
             if (at := waiting.pop()) not in needed:
                 needed.add(at)
                 waiting += drivers[at]
+        # mutually dependent sources form one block, which follows the blocks that it depends on
         blocks = find_blocks([(at, *drivers[at]) if at in needed else (at,) for at in range(len(gains))])
         steps = []
         for block in blocks or ():

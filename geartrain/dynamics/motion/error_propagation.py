@@ -255,6 +255,7 @@ def find_error_propagation(
         if row.label in symbol:
             rows[-1][symbol[row.label]] = Fraction(-1)
     solved = eliminate(rows)
+    # a redundant row would determine the error of a pair from those of other pairs
     if len(rows) != len(at) or solved.rank < len(at):
         return None
     by_link = solved.forms()

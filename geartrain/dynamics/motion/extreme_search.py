@@ -150,6 +150,7 @@ class StepSearch:
         """Search within `step`, but at most one narrow step, on each side of some positions of a run [revolutions]."""
         width = min(step, self.step)
         low = np.unique(np.clip(turns - width, start, end))
+        # disjoint steps, because `_cut_at_kinks` assigns each piece to one step
         high = np.minimum(low + 2 * width, np.append(low[1:], end))
         self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 

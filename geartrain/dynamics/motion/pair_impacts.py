@@ -136,6 +136,7 @@ def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperati
     leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:
         return None
+    # at this speed the inertia torque J w^2 s equals the load torque
     void = sqrt(load / (inertia * steepest)) / (2 * pi) if load is not None and steepest > 0 else None
     # the limiting speed does not depend on the speed of operation
     if omega1 is None:

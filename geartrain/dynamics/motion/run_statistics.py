@@ -147,6 +147,7 @@ class RunningStatistics(Result):
     def speeds(self) -> tuple[float, float]:
         """Minimum and maximum speed divided by the mean speed, or by the input speed if the mean is 0."""
         scale = self.mean or 1.0
+        # a negative mean exchanges minimum and maximum
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high
 

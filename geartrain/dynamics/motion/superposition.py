@@ -56,6 +56,7 @@ class Superposition:
     @property
     def independent(self) -> list[float]:
         """Rms value of each output's error for independent phases of the pairs [rad]."""
+        # variances of independent terms add
         return [hypot(*row) for row in self.response * self.moments[1]]
 
     @cached_property

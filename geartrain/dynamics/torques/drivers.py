@@ -81,6 +81,7 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
     for number, name in enumerate(names):
         for link, torque in loads[name].items():
             if at.get(link) in known:
+                # each load is a symbol, which has a negative column
                 known[at[link]][-1 - number] = torque
     forms = solve_block(balance.columns, balance.whole, dict.fromkeys(range(len(balance.columns)), 0), known)
     found = {}

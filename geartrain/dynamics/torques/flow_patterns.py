@@ -58,6 +58,7 @@ def solve_block(
     echelon = eliminate_block(columns, block, sides, known)
     if echelon.conditions:
         return None
+    # an unknown is determined if only symbols (negative columns) are left in its form
     closed = {column: form for column, form in echelon.forms().items() if all(other < 0 for other in form)}
     return {column: closed.get(column) for column in block.columns}
 

@@ -49,6 +49,7 @@ def unbalanced_motions(
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
     forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
     found = []
+    # one motion for each free speed, with the other free speeds 0
     for column in sorted({column for form in forms.values() for column in form}):
         speeds = {link: form[column] for link, form in forms.items() if form.get(column)}
         power = sum((loads.get(link, Fraction(0)) * speed for link, speed in speeds.items()), Fraction(0))

@@ -124,6 +124,7 @@ def _given(balance: TorqueBalance) -> dict[str, int]:
     """Return by pair the link whose own balance determines its torque: 1 for the first link, -1 for the second."""
     found: dict[str, int] = {}
     for block in balance.parts:
+        # rows beyond those of the links are declared shares, not balances
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
             continue
         link, column = balance.links[block.rows[0]], balance.columns[block.columns[0]]

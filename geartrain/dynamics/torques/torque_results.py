@@ -426,6 +426,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         """
         if not self.power_in or self.open_speeds or any(link not in self.external for link in self.requested):
             return None
+        # the net external power is the loss, even if torques of pairs are undetermined
         found = 1 - self._missing / self.power_in
         return found if all(pair.exact for pair in self.pairs.values()) else float(found)
 

@@ -70,6 +70,7 @@ def find_extreme(
     highest = np.argsort(-signed.reshape(-1, NODES).max(axis=1), kind="stable")[:_CELLS]
     top = int(np.argmax(signed))
     best, at = float(signed[top]), float(cells.turns[top])
+    # inside the cell: beyond its end another transmission function may apply
     low, high = cells.low[highest] + cells.aside, cells.high[highest] - cells.aside
     for _ in range(_ROUNDS):
         grid = low[:, None] + (high - low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)

@@ -368,6 +368,7 @@ class TurnBalance:
         """
         size = min(_CHUNK, self.motion.composition.chunk)
         parts = []
+        # at least one chunk, so that the arrays of an empty run have the right shapes
         for start in range(0, max(len(turns), 1), size):
             parts.append(self._chunk(turns[start : start + size], static))
             if self.on_done is not None:

@@ -207,7 +207,7 @@ class CompliantTrain(TrainModel):
 
 @dataclass(frozen=True)
 class PairCompliance:
-    """Torsional stiffness [N m/rad] and damping of one pair about the axis of its driven wheel, with the driver fixed."""
+    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
 
     stiffness: float
     source: Literal["declared", "estimated"]

@@ -186,6 +186,7 @@ class ContactModel:
         for stop in self.stops:
             speed = sum(self.typical[at] * c for at, c in stop.angle.items())
             if torque > 0 and speed:
+                # constant acceleration from rest: pitch = |speed| (torque/heavy) t^2 / 2
                 found.append(float(np.sqrt(2 * stop.pitch * heavy / (torque * abs(speed)))))
         return found
 

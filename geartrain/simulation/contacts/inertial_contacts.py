@@ -156,6 +156,7 @@ class InertialContacts:
             S = composition.driver_angle(source, phase, error)
             turning = source.mean + sum(sign * found.rate[link] for link, sign in composition.turned_by(source))
             slope[row] = source.sense * (source.transmission.speed(S) - float(source.transmission.ratio))
+            # second derivative of the error at constant speed of the driver: (d tau/dS) S'^2
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
             arm[row] = slope[row]
             if source.id in self.rubbing:

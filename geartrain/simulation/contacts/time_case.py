@@ -91,6 +91,7 @@ def find_time_case(
         # a stop has only the restitution of the whole train
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
+    # each beat lets half a tooth pass
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
     drive = _power_input(train, case, None if rate is not None else case.drive, problem, turning)
     if drive.kind == "rate" and passed:

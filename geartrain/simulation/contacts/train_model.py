@@ -63,6 +63,7 @@ class SlackPin(ExactRatio):
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at pin angles S [rad]."""
         square, half = self.transmission._reach(S)[1], self.clearance / 2
+        # derivative of asin(half/rho), with d(rho^2)/dS = 2 r e sin S
         turning = half * self.transmission.r * self.transmission.e * np.sin(S) / (square * np.sqrt(square - half**2))
         return np.asarray(self.transmission.speed(S) - self.side * turning)
 

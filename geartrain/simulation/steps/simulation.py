@@ -107,6 +107,7 @@ def simulate(
     skip = plan.skip - plan.skip % plan.stride
     rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps), 1.0 if yields is None else 0.5)
     run = run_steps.chosen(fast)
+    # whole samples, so that no sample is divided between two calls of the kernel
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def go(steps: int, counted: bool) -> int:

@@ -211,6 +211,7 @@ def root_stress(
     lever = (reach - z * cos(pi / 3 - th) - G / cos(th) + rho) / 2
     YF = 6 * lever * cos(aF) / (chord**2 * cos(angle))
     L, q = chord / lever, chord / (2 * radius)
+    # stress correction factor of ISO 6336-3, given for 1 <= q < 8
     YS = (1.2 + 0.13 * L) * q ** (1 / (1.21 + 2.3 / L))
     return IsoRoot(chord, radius, lever, YF, YS, tangential / (width * module) * YF * YS)
 

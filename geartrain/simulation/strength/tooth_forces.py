@@ -236,6 +236,7 @@ def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: i
     direction of its axis, and -1 otherwise. The axial force acts away from the apex.
     """
     apart = abs(tangential) * tan(pressure_angle)
+    # the separating force is perpendicular to the pitch cone
     return PitchForce(tangential, facing * apart * sin(cone), apart * cos(cone))
 
 

@@ -532,6 +532,7 @@ def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: Arbor
         bending,
         torsion,
         sqrt(bending**2 + 3 * torsion**2),
+        # all transverse forces, and the reaction to their moment, on one pivot
         (load.across + load.couple / span) / (pivot * length),
         load.thrust / shoulder if shoulder > 0 else None,
         strength,

@@ -196,6 +196,7 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
     energy = run.impacts.energy[own]
     near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
     if near.any():
+        # matplotlib's size is an area, so the area of a marker grows with the energy
         size = 4 + 36 * energy[near] / energy.max()
         foot = panel.get_xaxis_transform()
         panel.scatter(

@@ -281,7 +281,7 @@ def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return the load applied to each planet equal to the loaded planet, and the same number of times to their carrier."""
+    """Return the load applied to each planet equal to the loaded one, and the same number of times to their carrier."""
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)

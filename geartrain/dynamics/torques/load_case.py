@@ -239,7 +239,7 @@ class LoadCase:
         return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
-        """Return the friction torque of a link's bearing, 0 without declared friction [N m, or number without a unit]."""
+        """Return the friction torque of a link's bearing, 0 if none is declared [N m, or number without a unit]."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)

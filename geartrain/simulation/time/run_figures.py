@@ -274,7 +274,7 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the result of this run, compared with the run `coarse` of longer time steps unless `coarse` is None."""
+        """Return the result of this run, compared with the run `coarse` of longer time steps, unless that is None."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]

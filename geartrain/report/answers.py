@@ -88,7 +88,7 @@ def _pointers(train: GearTrain, answer: Answer) -> Section:
 
 
 def _is_pointer(result: OutputResult) -> bool:
-    """Return whether an output has a dial, a target or a printed figure, or fails an expectation."""
+    """Return True if an output has a dial, a target or a printed figure, or fails an expectation."""
     output = result.output
     return bool(output.dial or output.published or result.targets or not result.holds)
 
@@ -103,12 +103,12 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
 
 
 def _is_clock(declared: Train) -> bool:
-    """Return whether the unit of speed is turns per day or per shorter time."""
+    """Return True if the unit of speed is turns per day or per shorter time."""
     return declared.unit_days is not None and declared.unit_days <= 1
 
 
 def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
-    """Return a target as text, the error in ppm, and the error in days a century (for clocks, in seconds a day)."""
+    """Return a target as a string, the error in ppm, and the error in days a century (for clocks, in seconds a day)."""
     if target is None:
         return "", "", ""
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
@@ -119,7 +119,7 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
 
 
 def _period(declared: Train, speed: SpeedValue | None) -> str:
-    """Return the time of one turn as text; "" for a link at rest or speeds without a unit of time."""
+    """Return the time of one turn as a string; "" for a link at rest or speeds without a unit of time."""
     if not speed or declared.unit_days is None:
         return ""
     return _span(declared, 1 / magnitude(speed), 6).replace(" years", " y").replace(" year", " y")
@@ -130,7 +130,7 @@ def _error_text(error: float | None) -> str:
 
 
 def _fault(result: OutputResult) -> str:
-    """Return the expectations, printed figures and tolerances that an output fails, as text."""
+    """Return the expectations, printed figures and tolerances that an output fails, as a string."""
     expect, published = result.output.expect, result.output.published
     sign = "; only the sign differs" if result.differs_in_sign else ""
     parts = []
@@ -230,7 +230,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """Return the computed value that corresponds to a published figure as text, exact and in decimals."""
+    """Return the computed value that corresponds to a published figure as a string, exact and in decimals."""
     if result.found is None:
         ratio = result.output.published is not None and result.output.published.as_ != "speed"
         open_ = result.speed is None or not ratio
@@ -259,7 +259,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return the sense of rotation seen on the dial, and the times of one turn and of one division, as text.
+    """Return the sense of rotation seen on the dial, and the times of one turn and of one division, as a string.
 
     The sense is reversed on a face that points away from the viewing side.
     """
@@ -279,7 +279,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time as text: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+    """Return a time as a string: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
 
     Return a number without a unit if the train has no unit of time.
     """
@@ -387,7 +387,7 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a speed solved in floats, as text; "" for
+    """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for
     others.
     """
     accuracy = answer.accuracy.get(link)

@@ -35,7 +35,7 @@ class ExactText(str):
 
     @property
     def full(self) -> str:
-        """Unabridged value as text, written only on access because it may have very many digits."""
+        """Unabridged value as a string, written only on access because it may have very many digits."""
         return fraction_text(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
@@ -194,8 +194,8 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it
-    as text.
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it as a
+    string.
     """
 
     cite: str
@@ -311,7 +311,7 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return a ratio output divided by input as text: `1 : n`, or `n : 1` if the output is faster than the input."""
+    """Return a ratio output divided by input as a string: `1 : n`, or `n : 1` if the output is faster than the input."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -320,7 +320,7 @@ def one_to(ratio: Fraction | float | None) -> str:
 
 
 def ppm(value: float | None) -> str:
-    """Return parts per million as text with a sign; a dash for None."""
+    """Return parts per million as a string with a sign; a dash for None."""
     # a relative error below 1e-15 is rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 

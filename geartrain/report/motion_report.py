@@ -133,7 +133,7 @@ class UnfollowedMotion:
 
     @property
     def error(self) -> str:
-        """Reason why the motion cannot be computed, as text."""
+        """Reason why the motion cannot be computed, as a string."""
         return str(self.why)
 
 

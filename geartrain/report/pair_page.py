@@ -231,7 +231,7 @@ def _angle(name: str, angle: float) -> tuple[str, str, str]:
 
 
 def _share(efficiency: float | None) -> str:
-    """Return an efficiency as text; `-` if friction locks the pin or no work is done on a constant load."""
+    """Return an efficiency as a string; `-` if friction locks the pin or no work is done on a constant load."""
     return "-" if efficiency is None else f"{efficiency:.9f}"
 
 

@@ -393,7 +393,7 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return the efficiency and the losses by cause as text, or why the efficiency is not determined."""
+    """Return the efficiency and the losses by cause as a string, or why the efficiency is not determined."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
@@ -441,7 +441,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """Return a number of turns as text, for example `1 turn` or `2.5 turns`."""
+    """Return a number of turns as a string, for example `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 

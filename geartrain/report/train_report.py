@@ -230,7 +230,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
 
 
 def _note(link: Link) -> str:
-    """Return the number of copies of a link and its declared note as text."""
+    """Return the number of copies of a link and its declared note as a string."""
     number = f"{link.copies} equal copies" if link.copies > 1 else ""
     return "; ".join(filter(None, (number, link.note or "")))
 

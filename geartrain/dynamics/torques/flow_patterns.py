@@ -190,7 +190,7 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
 ) -> bool:
-    """Return whether power flows in the assumed directions, equation (7), for at least one choice of undetermined
+    """Return True if power flows in the assumed directions, equation (7), for at least one choice of undetermined
     torques.
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):

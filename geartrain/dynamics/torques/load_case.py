@@ -200,7 +200,7 @@ class LoadCase:
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
     def has_friction(self, part: GearPair | Coupling) -> bool:
-        """Return whether the declared friction of a pair or coupling is above 0 or depends on speed."""
+        """Return True if the declared friction of a pair or coupling is above 0 or depends on speed."""
         friction = self.train.friction_of(part)
         return friction is not None and friction.has_friction
 

@@ -319,7 +319,7 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return whether a pair is a worm drive or a pair of crossed helical gears, whose tooth forms have no mean loss."""
+    """Return True if a pair is a worm drive or a pair of crossed helical gears, whose tooth forms have no mean loss."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)

@@ -318,7 +318,7 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
 
 
 def has_torque_units(train: Train, state: str | None) -> bool:
-    """Return whether the loads and bearings of one state have units."""
+    """Return True if the loads and bearings of one state have units."""
     return train.has_torque_units(state)
 
 

@@ -112,7 +112,7 @@ class TorqueUnknown:
     """True if no power can flow, so that the torque must be 0."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
-        """Return whether a torque transmits power in the direction of `side`, or no power."""
+        """Return True if a torque transmits power in the direction of `side`, or no power."""
         if self.barred and torque:
             return False
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0

@@ -290,7 +290,7 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction, which `option` needs. Raise `GearTrainError` if a friction law is given."""
+        """Return the coefficient of friction, which `option` needs. Raise `GearTrainError` for a friction law."""
         if self.law is not None:
             what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")

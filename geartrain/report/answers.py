@@ -74,7 +74,8 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 def _pointers(train: GearTrain, answer: Answer) -> Section:
     """Return a section with the speed, period, target and error of each pointer.
 
-    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the others are only counted.
+    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the remaining outputs are only
+    counted.
     """
     pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
     rows = [_pointer_row(train.declaration, result) for result in pointers]
@@ -387,8 +388,9 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for
-    others.
+    """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for an
+    exact
+    speed.
     """
     accuracy = answer.accuracy.get(link)
     if accuracy is None:

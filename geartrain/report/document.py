@@ -211,7 +211,7 @@ class PageExtras:
     """Verdict in one or two words. `sound` is True if it is favourable."""
     sound: bool = True
     notes: Sequence[str] = ()
-    """Short remarks below the summary, for example the extra to install for pictures."""
+    """Short remarks below the summary, such as the extra to install for pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
     """Complete HTML page with the animated train; "" for none."""

@@ -111,9 +111,7 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with real teeth, one entry for each wheel that drives in some state; empty without
-    real teeth.
-    """
+    """Return the pairs with real teeth, with one entry for each wheel that drives in at least one state."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """Findings of `geartrain check` on a train in a file. An instance is true if there are no failures."""
+    """Findings of `geartrain check` on a train in a file. An instance is true if its `failures` are empty."""
 
     train: GearTrain
     file: str

@@ -107,7 +107,7 @@ class TorqueReport(Result):
 
     See Also
     --------
-    collect_torque_report : Return the torques of a train in some states.
+    collect_torque_report : Return the torque report of a train in one or more states.
     """
 
     PAGE = "report.torque_report:describe_torques"
@@ -441,7 +441,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """Return a number of turns as a string, for example `1 turn` or `2.5 turns`."""
+    """Return a number of turns as a string, such as `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 

@@ -122,7 +122,7 @@ class TrainReport(TrainAnswers):
     sensitivity: tuple[StateSensitivity, ...]
     """Changes of the outputs if a wheel with an uncertain tooth count has one tooth fewer or one tooth more."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, one entry for each driving wheel that occurs in some state."""
+    """Pairs with real teeth, one entry for each driving wheel that occurs in at least one state."""
     pins: tuple[DrivenPin, ...]
     """Couplings whose dimensions are declared."""
     torques: tuple[TorqueFigures, ...]

@@ -418,7 +418,7 @@ def describe_shared_page(
 
 
 def _badge(found: TrainReport) -> tuple[str, bool]:
-    """Return the worst verdict on a train in a few words, and whether it is acceptable."""
+    """Return the worst verdict on a train in a few words, and True if it is acceptable."""
     train, answers = found.train, found.states
     wrong = [answer for answer in answers if not answer.as_expected]
     if wrong:

@@ -107,7 +107,7 @@ def find_spectrum(
 def _harmonics(superposed: Superposition, at: int) -> Complex:
     """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
 
-    Phases are those at the start of the run.
+    Phases refer to the start of the run.
     """
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES

@@ -95,7 +95,7 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """Return the driving wheel of every pair and the driving link of every coupling in one state, found when first
+    """Return the driving wheel of every pair and the driving link of every coupling in one state, computed when first
     read.
 
     circuits   circuits of the pairs and couplings to include

@@ -198,7 +198,7 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flow patterns; it describes the resulting one and mentions the others."""
+    """Return the verdict on several flow patterns. It describes the returned pattern and mentions the other patterns."""
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -209,7 +209,8 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a text on one flow pattern; `resisted` is True if power leaves at the unknown torque in the resulting
+    """Return a description of one flow pattern; `resisted` is True if power leaves at the unknown torque in the
+    returned
     pattern.
     """
     if power < 0:
@@ -360,7 +361,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
-    """Return the links with unknown torques: as many as inputs, or fewer if only these are certain."""
+    """Return the links with unknown torques: as many as there are inputs, or only the links that are certain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)

@@ -272,7 +272,7 @@ class SolvedTorques:
     locks: tuple[Fraction | None, ...]
     """Torque of each lock on its first link, about the reference direction of parallel axes; None if undetermined."""
     loose: tuple[str, ...]
-    """Meshes with undetermined torque, such as those of several planets; their multiplier is set to 0 here."""
+    """Meshes with undetermined torque, such as meshes of several planets; their multiplier is set to 0 here."""
     open: tuple[str, ...]
     """Requested or braked links whose torque is undetermined, and therefore omitted from `external` and `brakes`."""
 

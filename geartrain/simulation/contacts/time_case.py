@@ -116,7 +116,7 @@ def find_time_case(
 def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
     """Raise `QuestionError` if a prescribed speed would make an escapement pass more than one tooth per beat.
 
-    passed   speed of the escape wheel relative to its bearing link, over the driving link's
+    passed   speed of the escape wheel relative to its bearing link, divided by the speed of the driving link
     """
     beats = train.escapement
     if beats is None or not problem.ratio(drive.link):
@@ -141,7 +141,7 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s] from the declared rate, the escapement, the hand, or else `scale`."""
+    """Return the speed of the driving link [rad/s] from the rate, else from the escapement, the hand, or `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.driving_link])

@@ -349,7 +349,7 @@ def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquation
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, and stick those that turn against their friction; return the number of
+    """Release bearings that creep too fast, and stick bearings that turn against their friction; return the number of
     changes.
     """
     found = 0

@@ -200,7 +200,7 @@ def step_rules(
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     """Return the initial state with all coordinates at 0.
 
-    The speeds are the model's initial speeds, or those with all front flanks in contact.
+    The speeds are the model's initial speeds, or the speeds with all front flanks in contact.
     """
     n, pairs = len(model.torque), len(model.pairs)
     place = {each: at for at, each in enumerate(model.order.coordinates)}

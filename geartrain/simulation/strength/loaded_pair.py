@@ -59,7 +59,8 @@ class WheelUnderLoad:
     gear: int
     """Number of the gear in the transmission function, 1 or 2."""
     z: float
-    """Number of teeth; `teeth` are the cut teeth, in modules. For a bevel, both are those of the virtual spur wheel."""
+    """Number of teeth; `teeth` are the cut teeth, in modules. For a bevel, both fields describe the virtual spur wheel.
+    """
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
@@ -131,9 +132,7 @@ class PairUnderLoad:
 
     @property
     def tangential(self) -> float:
-        """Tangential force at the pitch line [N]: the larger of both wheels, because friction reduces the other
-        torque.
-        """
+        """Tangential force at the pitch line [N]: the larger force of both wheels, because friction reduces one torque."""
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))

@@ -101,7 +101,8 @@ def hole_share(pins: int) -> float:
     """Return the maximum force on one of the pins in holes, times the radius of their circle, divided by their torque:
     docs/strength.md (29).
 
-    All pins press in the same direction, from their centres to those of the holes; those on one side carry the load.
+    All pins press in the same direction, from the centre of a pin to the centre of its hole; the pins on one side carry
+    the load.
 
     >>> round(hole_share(6), 6), round(hole_share(12), 6)
     (0.666667, 0.333333)

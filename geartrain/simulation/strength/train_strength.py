@@ -464,7 +464,7 @@ class StrengthQuestion:
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return the names of pairs of some wheels that carry a torque and whose forces are not known."""
+        """Return the names of the pairs of the given wheels that carry a torque but have no known forces."""
         known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs

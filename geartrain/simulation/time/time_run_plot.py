@@ -124,8 +124,8 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the pairs with backlash in the order of the train; at most `_PAIRS`, those that are apart for most of the
-    time.
+    """Return the pairs with backlash in the order of the train: at most `_PAIRS`, which are apart for the longest
+    times.
     """
     names = [
         name

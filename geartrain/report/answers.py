@@ -74,8 +74,8 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 def _pointers(train: GearTrain, answer: Answer) -> Section:
     """Return a section with the speed, period, target and error of each pointer.
 
-    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the remaining outputs are only
-    counted.
+    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the remaining outputs are
+    only counted.
     """
     pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
     rows = [_pointer_row(train.declaration, result) for result in pointers]

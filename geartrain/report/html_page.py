@@ -148,7 +148,7 @@ def _with_code(line: str) -> Any:
 
 
 def is_web(url: str) -> bool:
-    """Return True if an address may become a link, which is true for http and https addresses with a host."""
+    """Return True for an http or https address with a host, which may become a link."""
     try:
         parts = urlsplit(url)
     except ValueError:

@@ -406,7 +406,7 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under operating conditions; None without operating conditions, and for teeth that never touch."""
+    """Return the impacts under operating conditions; None without such conditions, and for teeth that never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

@@ -208,7 +208,7 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:
-    """Return True if the state has loads in units, some wheel has a material, and the package `simulation` is
+    """Return True if the loads of a state have units, a wheel has a material, and the package `simulation` is
     installed.
     """
     if not has_wing("simulation"):

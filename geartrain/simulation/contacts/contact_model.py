@@ -69,7 +69,7 @@ class ContactPair:
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
 
     def could_determine(self, coordinate: int) -> bool:
-        """Return True if one side only contains the coordinate, with a coefficient that never vanishes."""
+        """Return True if exactly one side contains the coordinate, with a coefficient that never vanishes."""
         driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
         return driven != driver and (driven or self.has_no_dwell)
 

@@ -259,7 +259,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
 
 
 def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """Return the rate above which a pair separates [turn/s] and its position [turn], as a string."""
+    """Return the rate above which a pair separates [turn/s] and its position [turn], as strings."""
     if pair.rate is None:
         return "never", "-"
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"

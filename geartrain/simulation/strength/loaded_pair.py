@@ -132,7 +132,9 @@ class PairUnderLoad:
 
     @property
     def tangential(self) -> float:
-        """Tangential force at the pitch line [N]: the larger force of both wheels, because friction reduces one torque."""
+        """Tangential force at the pitch line [N]: the larger force of both wheels, because friction reduces one
+        torque.
+        """
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))

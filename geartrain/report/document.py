@@ -194,8 +194,8 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it as plain
-    text.
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, else shows it as
+    plain text.
     """
 
     cite: str

@@ -210,8 +210,7 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
     """Return a description of one flow pattern; `resisted` is True if power leaves at the unknown torque in the
-    returned
-    pattern.
+    returned one.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"

@@ -333,7 +333,7 @@ class TurnBalance:
 
     @cached_property
     def outside(self) -> tuple[str, ...]:
-        """Links with an external torque, which may do work."""
+        """Links with a requested torque or a load, whose external torques may do work."""
         return tuple(dict.fromkeys((*self.requested, *self.loads)))
 
     @cached_property

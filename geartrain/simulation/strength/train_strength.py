@@ -183,7 +183,7 @@ class StrengthQuestion:
     over: float | None = None
     """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
-    """Maximum torque on the driven side of each pair in these revolutions [N m]."""
+    """Maximum torque on the driven side of each pair over the revolutions `over` [N m]; empty for mean torques."""
     neglected: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property

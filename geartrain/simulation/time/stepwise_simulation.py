@@ -192,7 +192,7 @@ class Simulation(Shown):
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """Names of the links that are declared as outputs."""
+        """Names of the links of the recorded outputs, each once."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
     def _by_output(self, links: Floats) -> dict[str, float]:

@@ -194,7 +194,7 @@ class KinkSearch:
 
     @cached_property
     def pairs(self) -> tuple[PairKinks, ...]:
-        """Pairs with their drivers' angles."""
+        """Kinks of each pair on which an output depends, with the angle of the pair's driver."""
         found = []
         for source in self.composition.used:
             # no offsets: a pointer that is set does not turn any driver

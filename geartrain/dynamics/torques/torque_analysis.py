@@ -32,7 +32,7 @@ class LoadedBalance:
     enough: bool = True
     """True if the number of unknown torques equals the number of degrees of freedom.
 
-    If it is smaller, the loads must be in equilibrium without them.
+    With fewer unknown torques, the loads must be in equilibrium without them.
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
@@ -198,7 +198,9 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flow patterns. It describes the returned pattern and mentions the other patterns."""
+    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the other
+    patterns.
+    """
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (

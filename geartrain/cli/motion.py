@@ -123,7 +123,7 @@ def _turns(text: str, motion: Motion) -> float:
         return float(read_turns("--turns", text))
     if motion.period is None:
         what, fix = "the speeds have no common period", "give a number of revolutions"
-        raise option_error("--turns", what, fix, "they are constant")
+        raise option_error("--turns", what, fix, "all speeds are constant")
     return float(motion.period)
 
 

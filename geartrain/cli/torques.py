@@ -131,7 +131,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
-            fix, why = "give a number of revolutions", "it is constant, or cannot be determined"
+            fix, why = "give a number of revolutions", "the torque is constant, or cannot be determined"
             raise option_error("--turns", "the torque has no period", fix, why)
         span = float(period)
     else:

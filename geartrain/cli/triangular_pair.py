@@ -69,7 +69,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
     """Parse the values of each varied parameter, and the unit in which they were given."""
     if len(vary) > 2:
-        raise option_error("--vary", f"{len(vary)} parameters are given", "give one or two")
+        raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}
     units: dict[str, str] = {}
     for text in vary:
@@ -100,7 +100,9 @@ def _number(text: str) -> tuple[float, str]:
     except ValueError:
         value = math.nan
     if match is None or not math.isfinite(value):
-        raise option_error("--vary", f"'{text}' is not a number", "write a number such as 1.01, or with a unit 30deg")
+        raise option_error(
+            "--vary", f"'{text}' is not a number", "write a number such as 1.01, or a quantity such as 30deg"
+        )
     return value, match[2] or ""
 
 

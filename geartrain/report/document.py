@@ -311,7 +311,9 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return a ratio output divided by input as a string: `1 : n`, or `n : 1` if the output is faster than the input."""
+    """Return the ratio output divided by input as `1 : n`, or as `n : 1` if the output is faster; a dash for
+    None or 0.
+    """
     if not ratio:
         return "-"
     if not -1 < ratio < 1:

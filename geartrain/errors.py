@@ -153,7 +153,7 @@ class GearTrainError(Exception):
 
 
 class DeclarationError(GearTrainError):
-    """Declaration that cannot be read or does not describe a gear train.
+    """Error for a declaration that cannot be read or does not describe a gear train.
 
     See Also
     --------
@@ -162,7 +162,7 @@ class DeclarationError(GearTrainError):
 
 
 class QuestionError(GearTrainError):
-    """Invalid request to a valid train or function, such as an unknown link or state, or an argument out of range.
+    """Error for an invalid request to a valid train or function, such as an unknown link, or an argument out of range.
 
     See Also
     --------
@@ -171,7 +171,7 @@ class QuestionError(GearTrainError):
 
 
 class RangeError(GearTrainError):
-    """Request outside the range of a method, which another method may be able to answer.
+    """Error for a request outside the range of a method; another method may be applicable.
 
     See Also
     --------
@@ -214,7 +214,7 @@ def install_command(extra: str) -> str:
 
 
 class MissingExtraError(GearTrainError):
-    """Optional library that is not installed.
+    """Error for an optional library that is not installed; its fix is the command that installs the library.
 
     Parameters
     ----------

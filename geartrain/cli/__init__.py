@@ -27,7 +27,7 @@ from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
-    """Group of all commands of `geartrain`."""
+    """Group of all commands of `geartrain`, each of which is imported when it is used."""
 
     verbs = Verbs(
         {

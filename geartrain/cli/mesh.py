@@ -248,7 +248,7 @@ def run(
             if given is not None:
                 raise option_error(
                     option,
-                    f"{option} applies to a single pair",
+                    "this option applies to a single pair",
                     f"omit {option} or --vary",
                     "--vary evaluates several pairs",
                 )
@@ -287,7 +287,7 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
         source = context.get_parameter_source(option.name or "")
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
             name = option.opts[0]
-            raise option_error(name, f"{name} does not apply to {what}", f"omit {name}")
+            raise option_error(name, f"this option does not apply to {what}", f"omit {name}")
 
 
 def _figure(mesh: GearMesh, at: str | None) -> Figure:

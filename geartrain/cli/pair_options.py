@@ -88,7 +88,7 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
             ways = "; ".join(filter(None, (suggest(name, known), fix)))
             raise option_error(f"{option} {name}", f"unknown key '{name}'", ways)
         if name in found:
-            raise option_error(f"{option} {name}", f"key '{name}' is given twice", "give it once")
+            raise option_error(f"{option} {name}", "this key is given twice", "give it once")
         found[name] = value
     return found
 

@@ -216,7 +216,7 @@ class PageExtras:
     viewer: str = ""
     """Complete HTML page with the animated train; "" for none."""
     sections: Sequence[Section] = ()
-    """Sections after those of the document."""
+    """Sections that follow the sections of the document."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)
     """Bibliographic references by key of the source."""
 

@@ -43,7 +43,7 @@ class DrivenPair(Result):
 
 @dataclass(frozen=True)
 class DrivenPin(Result):
-    """Coupling with dimensions whose pin drives."""
+    """Pin-and-slot coupling with declared dimensions, and its results while the pin drives."""
 
     KEYS = ("coupling", Key("ratio", "figures.speed_ratio.mean"), Key("", "figures"))
 

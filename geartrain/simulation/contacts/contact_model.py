@@ -110,7 +110,7 @@ class Spring:
 
 
 class SolvedOrder(NamedTuple):
-    """Elimination order of the coordinates.
+    """Order in which the kernels eliminate the coordinates, and the pair that determines each coordinate.
 
     `owner` is the index of the pair that determines each coordinate, -1 for none.
     """
@@ -141,7 +141,7 @@ class ContactModel:
 
     @cached_property
     def order(self) -> SolvedOrder:
-        """Elimination order.
+        """Order in which the coordinates are eliminated, and the pair that determines each coordinate.
 
         A pair whose row has one undetermined coordinate determines it; if no pair has, one coordinate is left free.
         """

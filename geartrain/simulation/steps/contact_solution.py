@@ -144,7 +144,7 @@ class StepEquations(NamedTuple):
 
 
 class StepRules(NamedTuple):
-    """Numerical parameters of a run."""
+    """Numerical parameters of the time steps of a run: length, tolerances and limits."""
 
     step: float
     """Time step [s]; `stride` is the number of steps between samples."""

@@ -43,9 +43,8 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run.
-
-    Its fields are the time step [s], the numbers of skipped and of counted steps, and the steps between samples.
+    """Time steps of a run: their length [s], the numbers of skipped and of counted steps, and the steps between
+    samples.
     """
 
     step: float

@@ -117,7 +117,7 @@ class RackPair:
 
 @dataclass(frozen=True, slots=True)
 class IsoContact(Result):
-    """Contact stress by ISO 6336-2."""
+    """Contact stress of a gear pair by ISO 6336-2, with the factors from which it is computed."""
 
     ZH: float
     """Zone factor."""

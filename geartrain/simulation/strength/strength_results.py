@@ -127,7 +127,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
 @dataclass(frozen=True)
 class WeakestPart(Result):
-    """Part with the minimum safety factor.
+    """Part of a train with the minimum safety factor, and its mode of failure.
 
     See Also
     --------

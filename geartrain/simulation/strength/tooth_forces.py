@@ -31,7 +31,7 @@ WheelParts = tuple[float, float, float | None]
 
 @dataclass(frozen=True)
 class ToothForces:
-    """Tooth forces of one load case."""
+    """Tooth forces at the pitch points of all gear pairs in one load case."""
 
     setting: LoadCase
     modules: Mapping[str, float]

@@ -77,9 +77,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if that is not the expected one, otherwise each unmet
-    expectation.
-    """
+    """Yield the failures of one state: its verdict if another verdict is expected, otherwise each unmet expectation."""
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"

@@ -281,7 +281,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
 
 
 class _Amounts:
-    """Conversion of powers and torques to text, in W and N m if units are declared."""
+    """Conversion of powers and torques to strings, in W and N m if units are declared."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit

@@ -119,7 +119,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield the outputs, targets and speeds of each state, preceded by tables of all states if there are several."""
+    """Yield the outputs, targets and speeds of each state, preceded by tables of all states if the train has states."""
     box = _gearbox(train)
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections

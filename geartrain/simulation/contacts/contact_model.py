@@ -121,7 +121,7 @@ class SolvedOrder(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """Contact model of a train for time-domain simulation: inertia, torques, and everything that may touch or stop."""
+    """Contact model of a train for time-domain simulation: matrices, torques, contacts, bearings, stops and springs."""
 
     mass: Floats
     """Mass matrix over the coordinates [kg m2]."""

@@ -64,7 +64,7 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links divided by the speed of the input at n positions, and the coupling of the
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the coupling of the
     pairs.
     """
 
@@ -77,7 +77,7 @@ class _State(NamedTuple):
 
 
 class InertialContacts:
-    """Torque that each pair of a moving train must transmit at every position."""
+    """Computation of the torque that each pair of a moving train must transmit at every position."""
 
     def __init__(
         self,
@@ -201,7 +201,7 @@ class InertialContacts:
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques with the driving torque of the crank subtracted, which supplies all virtual work."""
+        """Return the torques minus the driving torque of the crank, such that the total virtual power is 0."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -245,8 +245,8 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 
 
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
-    """Return a table of d tau / dS of a transmission function [1/rad], from a table of its speed divided at its
-    kinks.
+    """Return a table of d tau / dS of a transmission function [1/rad], the derivative of a table of its speed ratio
+    tau.
     """
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(

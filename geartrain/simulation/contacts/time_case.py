@@ -46,7 +46,7 @@ class PowerInput:
 
 @dataclass(frozen=True)
 class TimeCase:
-    """Train in one state, with the data of its motion in time."""
+    """Data of a train in one state for time-domain simulation, in SI units."""
 
     drive: PowerInput
     """Drive of the train; `rate` is the mean speed of the driving link, which sets the time scale [rad/s]."""

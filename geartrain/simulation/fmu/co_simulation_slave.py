@@ -39,7 +39,7 @@ _UNITS = {
 
 
 class TrainSlave(Fmi2Slave):  # type: ignore[misc]
-    """Slave of the train whose declaration is packed in the unit's resources."""
+    """Co-simulation slave for the train whose declaration is in the resources of the unit."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)

@@ -294,8 +294,9 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or
-    less.
+    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or one
+    tooth
+    fewer.
     """
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []

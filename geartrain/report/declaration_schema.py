@@ -72,7 +72,7 @@ def _without_sections(shape: Any) -> Any:
 
 
 def _options(shape: Schema) -> list[Schema]:
-    """Return the members of a union and of its unions, or a schema that is not a union as the only entry."""
+    """Return the members of a union, with nested unions expanded, or a list of only the schema if it is not a union."""
     members = shape.get("anyOf") or shape.get("oneOf")
     return [shape] if members is None else [option for member in members for option in _options(member)]
 
@@ -167,7 +167,7 @@ def _anchor(title: str) -> str:
 
 
 def declaration_reference() -> str:
-    """Return the reference of all keys as Markdown, in the order in which a reader meets them."""
+    """Return the reference of all keys as Markdown: the top-level keys, then the keys of their parts."""
     models = _models()
     chapters = [_Chapter(_TITLE, 2, ("Train",)), *_chapters(models, "Train", 2, set())]
     kinds = {part: f"[keys](#{each.anchor})" for each in reversed(chapters) for part in each.parts}
@@ -200,7 +200,7 @@ def _references(shape: Any) -> Iterator[str]:
 
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
-    """Yield the sections of all parts below a part; parts that a top-level key has too are under that key."""
+    """Yield the sections of all parts below a part; parts that a top-level key also has are listed under that key."""
     found = {key: tuple(_references(shape)) for key, shape in _body(_part(models, name))["properties"].items()}
     if name == "Train":
         seen |= {part for parts in found.values() for part in parts}

@@ -78,8 +78,8 @@ class PairErrors:
     def driven_side(self, circuit: Circuit) -> int:
         """Return 0 if the circuit's first link is driven, 1 if its second link is driven.
 
-        The transmission function of a pin gives the angle of its slot, even if the slot drives, because pin and slot have
-        no backlash.
+        The transmission function of a pin gives the angle of its slot, even if the slot drives, because pins and slots
+        have no backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 

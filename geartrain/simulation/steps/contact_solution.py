@@ -306,7 +306,7 @@ AT_ONCE = 6
 def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
-    """Correct the wrong contact states, all or only the one of lowest index (Murty's method); return their number."""
+    """Correct the wrong contact states, all or only the state of lowest index (Murty's method); return their number."""
     # with `single` the first wrong state ends the search, pairs before bearings before stops
     found = correct_pairs(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):

@@ -111,7 +111,7 @@ class ContactPlace(Result):
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """Load on a pair with a path of contact."""
+    """Line contact of a loaded pair with a path of contact: forces and pressures along the path."""
 
     path: PathOfContact
     """Path of contact, lengths in modules."""

@@ -76,7 +76,7 @@ class WheelUnderLoad:
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """Gear pair under load; lengths in mm."""
+    """Gear pair under load, whose pressures, stresses and wear are computed; lengths in mm."""
 
     mesh: GearMesh
     """Mesh of the pair."""

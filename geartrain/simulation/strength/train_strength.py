@@ -391,7 +391,7 @@ class StrengthQuestion:
         self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield texts on data that a pair lacks, and on features that are not supported."""
+        """Yield descriptions of the data that a pair lacks, and of features that are not supported."""
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
@@ -411,7 +411,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield texts on data that a pair of any kind lacks."""
+        """Yield descriptions of the missing data that a pair of any kind needs."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
@@ -550,7 +550,8 @@ def torsional_stress(torque: float, diameter: float) -> float:
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:
-    """Return the maximum bending moment of a bar between two bearings [N mm], for any positions of its loads: (26).
+    """Return the maximum bending moment of a bar between two bearings for any positions of its loads [N mm]:
+    docs/strength.md (26).
 
     A transverse force at x L causes F L x (1 - x) there, and a moment at most M max(x, 1 - x).
 

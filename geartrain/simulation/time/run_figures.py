@@ -432,8 +432,8 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return harmonic and name of the pair with the lowest harmonic at an order, within the resolution; empty without
-    one.
+    """Return harmonic and name of the pair with the lowest harmonic at an order, within the resolution; "" if no pair
+    has one.
     """
     near = [
         (harmonic, name)

@@ -217,7 +217,7 @@ class ContactInTime(Result):
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """Impacts of a run in the order of time, up to a storage limit.
+    """Impacts of a run in chronological order, up to a storage limit.
 
     See Also
     --------

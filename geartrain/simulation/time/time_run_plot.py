@@ -186,7 +186,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Mark impacts at the lower edge of a panel, with sizes by their energy."""
+    """Mark impacts at the lower edge of a panel; the area of a marker grows with the energy of its impact."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return

@@ -149,7 +149,7 @@ def find_vibration_modes(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not positive."""
+    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not a positive speed."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity

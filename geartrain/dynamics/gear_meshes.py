@@ -163,8 +163,8 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier one if any pair connects
-    them.
+    """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier pair, if any earlier pair is
+    connected.
     """
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):

@@ -99,7 +99,9 @@ def find_train_teeth(
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return for each wheel the problem that no teeth suit all its pairs with a declared form."""
+    """Return, for each wheel whose pairs with a declared form require different teeth, the problem that
+    describes this.
+    """
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -261,7 +263,9 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return for each wheel with declared teeth the problem that its pairs require different teeth."""
+        """Return, for each wheel whose pairs with a declared form require different teeth, the problem that describes
+        this.
+        """
         found = {}
         for name in self.pairs:
             try:

@@ -533,8 +533,9 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over some revolutions of the input, with peak values and moments of each output's error
-        and speed.
+        """Compute the motion over a number of revolutions of the input, with peak values and moments of each output's
+        error and
+        speed.
 
         Parameters
         ----------

@@ -84,7 +84,7 @@ class _Partial:
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
-    """Return all consistent patterns of power flow, and whether all patterns were tried.
+    """Return all consistent patterns of power flow, and True if all patterns were tried.
 
     The blocks of the Dulmage-Mendelsohn decomposition are solved in order, each by enumeration of its patterns or by
     fixed-point iteration.
@@ -97,7 +97,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Return all combinations of the solutions of the blocks, and whether all patterns were tried.
+    """Return all combinations of the solutions of the blocks, and True if all patterns were tried.
 
     The result is None if a block leaves a torque open that a later block may need or determine.
     """
@@ -162,7 +162,7 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return all consistent sides and torques of one block, and whether all sides were tried."""
+    """Return all consistent sides and torques of one block, and True if all sides were tried."""
     known = {row: rows[row] for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}

@@ -280,7 +280,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the friction of pins that is not a fraction of the transmitted power."""
+    """Yield the friction of pins in followers, and of pins in slots without declared dimensions."""
     couplings = setting.couplings
     bearing_friction = [
         circuit for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])

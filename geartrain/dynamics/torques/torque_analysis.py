@@ -166,7 +166,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a text on a load that puts power in, but cannot drive the train without further power."""
+    """Return a note on a load that puts power in but cannot drive the train alone; "" if there is no such load."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
@@ -290,7 +290,10 @@ class UnknownLinks:
     If the number is smaller, the loads must be in equilibrium.
     """
     undecided: TorqueVerdict | None = None
-    """Verdict that requests more unknown torques; it is returned if the loads are not in equilibrium without them."""
+    """Verdict that requests a further unknown torque, returned if the loads are not in equilibrium without it; None if
+    no
+    choice is open.
+    """
 
 
 @dataclass(frozen=True)

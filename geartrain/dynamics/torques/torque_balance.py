@@ -18,7 +18,9 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Mesh -> driving side: 1 if its first link drives in the carrier's frame, -1 if the second does, 0 without loss."""
+"""Mesh -> driving side: 1 if the first link drives in the carrier's frame, -1 if the second link drives, 0 without
+loss.
+"""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """Link, and the meshes on one of its wheels, each with its fraction of the wheel's torque."""
@@ -33,7 +35,7 @@ class LoadedPair:
     links: tuple[str, str, str]
     """Links i, j and k: first link, second link, and carrier."""
     senses: tuple[int, int, int]
-    """Senses of the axes of these links, 1 or -1."""
+    """Senses of the axes of links i, j and k, 1 or -1."""
     a: int
     """Coefficient of the first link in the pair's Willis equation."""
     b: int
@@ -102,7 +104,7 @@ class TorqueUnknown:
     """Unknown torque that one or more meshes have in common, with its coefficient in each row of the balance."""
 
     pieces: Mapping[int, LinearForm]
-    """Driving side -> row -> coefficient. The side is that of the first lossy mesh; side 0 is without loss."""
+    """Driving side -> row -> coefficient. Sides refer to the first lossy mesh; side 0 is without loss."""
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
     """Driving sides to be tried."""

@@ -320,7 +320,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output divided by energy input of the run; None if the train locks or has no net energy input."""
+        """Energy output divided by energy input of the run; None if the train locks at some position or has no net
+        input.
+        """
         return None if self.energy is None else self.energy.efficiency
 
     @property

@@ -82,7 +82,7 @@ class _Trial:
 def solve_positions(
     columns: Sequence[ColumnPieces], parts: Sequence[Block], known: Floats
 ) -> tuple[list[BalanceLayer], bool]:
-    """Return every solution of the balance at every position, and whether all patterns were tried.
+    """Return every solution of the balance at every position, and True if all patterns were tried.
 
     known   known torques of each row, shape (rows, n)
     """
@@ -102,7 +102,7 @@ def solve_positions(
 
 
 def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> tuple[list[_Trial], bool]:
-    """Return the distinct consistent solutions of one block, and whether all patterns were tried."""
+    """Return the distinct consistent solutions of one block, and True if all patterns were tried."""
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)

@@ -208,6 +208,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
         from geartrain.report.html_page import to_html
 
         emit(to_html(documents), out)
+    # `-o -` requests the content of a file, so it is Markdown on a terminal too
     elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console
 

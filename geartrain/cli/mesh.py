@@ -285,6 +285,7 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
     """Raise `QuestionError` if an option on the command line does not apply."""
     for option in context.command.params:
         source = context.get_parameter_source(option.name or "")
+        # defaults of options that do not apply are not errors
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
             name = option.opts[0]
             raise option_error(name, f"this option does not apply to {what}", f"omit {name}")

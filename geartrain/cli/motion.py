@@ -150,6 +150,7 @@ def _report(
     """Compute and write the results; after an interruption, write partial results to the second destination."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
+    # each analysis evaluates all positions once
     work = requested.samples * (1 + phases + estimates + spectrum)
     stopped = False
     with progress("motion", work) as bar:

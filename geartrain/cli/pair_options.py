@@ -208,6 +208,7 @@ class PairRequest:
             assert mesh is not None  # ideal teeth are not among the forms of the command
             return rub.of(mesh.driven_by(MeshDriver(wheels.gear.pair[self.driver - 1], "")), self.rate)
         except GearTrainError as error:
+            # with enough teeth a clearance is the likely cause, otherwise the tooth counts
             placed = [name for name in CLEARANCES if name in self.own and self.model is Triangular]
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 

@@ -56,6 +56,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
     else:
         emit(csv_text(found.header, map(_plain, found.rows())).rstrip("\n"), to)
     if len(ranges) == 1:
+        # changes of the verdict are located along one parameter only
         _report_changes(make, next(iter(ranges)), found, units)
     if picture.path is not None:
         from geartrain.drawing.parameter_sweep_plot import parameter_name, sweep_figure

@@ -123,6 +123,7 @@ def _period(declared: Train, speed: SpeedValue | None) -> str:
     """Return the time of one turn as a string; "" for a link at rest or speeds without a unit of time."""
     if not speed or declared.unit_days is None:
         return ""
+    # short units, because the table has many columns
     return _span(declared, 1 / magnitude(speed), 6).replace(" years", " y").replace(" year", " y")
 
 
@@ -196,6 +197,7 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
     rows = []
     for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # fractions of a long train have many digits
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
+        # a ratio needs exactly one turning input
         ratio = speed / moving[0] if len(moving) == 1 else None
         rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
@@ -207,6 +209,7 @@ def _outputs(train: GearTrain, answer: Answer) -> Section:
     if all(row[1] == row[0] for row in rows):  # every output is named after its link
         header, *rows = (row[:1] + row[2:] for row in (header, *rows))
     notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
+    # the last four columns are omitted if they are empty
     return Section(titled(answer.state, "all outputs"), notes, (filled_table(header, rows, len(header) - 4),))
 
 
@@ -252,6 +255,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
     }
     each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
+    # commas between all kinds except the last two
     named = " and ".join(each).replace(" and ", ", ", len(each) - 2)
     total = sum(map(len, kinds.values()))
     if failed := sum(held.count(False) for held in kinds.values()):

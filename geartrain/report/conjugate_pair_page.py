@@ -74,6 +74,7 @@ def _path(design: PairDesign) -> Section:
     for recess, name, arc in ((False, "approach", design.arcs[0]), (True, "recess", design.arcs[1])):
         first, last = path.span(recess) or (0.0, 0.0)
         psi = [degrees(float(path.along(d, recess).psi)) if last else 0.0 for d in (first, last)]
+        # a side without contact has no ends
         ends = (f"{value:.6f}" if last else "-" for value in psi)
         rows.append((name, f"{arc:.6g}", figure(last - first), *ends))
     header = ("side", "pitches", "length of path", "psi at the near end (deg)", "psi at the far end (deg)")

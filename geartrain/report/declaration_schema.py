@@ -241,6 +241,7 @@ def _section(
         yield from ("| key with an example | type | default | meaning |", "|---|---|---|---|")
         for row in new:
             cells = (f"`{tables[0][row]}`", *row[1:])
+            # `chr(92)` is a backslash, which f-strings may not contain before Python 3.12
             yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
         yield ""
     known: dict[_Chapter, list[str]] = {}
@@ -260,6 +261,7 @@ def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
         meaning, *default = _DEFAULT.split(" ".join(shape["description"].split()), maxsplit=1)
         if key in body.get("required", ()):
             default = ["required"]
+        # the model's default, unless the description states it in words
         elif not default and isinstance(value := shape.get("default"), str | int) and value != "":
             default = [f"`{str(value).lower() if isinstance(value, bool) else value}`"]
         row = key, _kind(shape, kinds), *(default or [""]), meaning

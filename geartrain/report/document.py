@@ -126,6 +126,7 @@ def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool
 def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellColumn:
     if not isinstance(column, str):
         return column
+    # without `=` the whole string is the field, and `head` and `given` are empty
     head, given, field = column.rpartition("=")
     name, _, digits = field.partition(":")
     unit = _UNIT.search(docs.get(name, ""))

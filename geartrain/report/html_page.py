@@ -74,12 +74,14 @@ def to_html(documents: Sequence[Document]) -> str:
     script, numbers = _resource("page.js"), count(1)
     page: str = _template("page.html").render(
         documents=documents,
+        # the first document has no prefix, so that a page with one document has short anchors
         anchors=[_anchors(document, f"{at}-" if at else "") for at, document in enumerate(documents)],
         drawings=[
             [{"caption": each.caption, "svg": Markup(inline(each.svg, next(numbers)))} for each in page.aside.pictures]
             for page in documents
         ],
         words=WORDS,
+        # only resources of this package are marked as safe; all other text is escaped
         style=Markup(_colours() + _resource("page.css")),
         script=Markup(script),
         policy=_policy(script, framed=any(document.aside.viewer for document in documents)),
@@ -167,6 +169,7 @@ def inline(svg: str, number: int) -> str:
     def own(found: re.Match[str]) -> str:
         return f"{found[1]}p{number}-{found[2]}{found[3]}" if found[2] in names else found[0]
 
+    # ids and both kinds of references to them must change together
     for pattern in (r'(\bid=")([^"]+)(")', r'(href="#)([^"]+)(")', r"(url\(#)([^)]+)(\))"):
         element = re.sub(pattern, own, element)
     head, rest = element.split(">", 1)

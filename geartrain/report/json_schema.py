@@ -207,6 +207,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
         return {"type": "array"}
     if issubclass(origin, Mapping):
         return {"type": "object", "additionalProperties": shape_of(parts[1], to, keys)}
+    # only a tuple without an ellipsis has a fixed length
     size = {} if origin is not tuple or parts[-1] is ... else {"minItems": len(parts), "maxItems": len(parts)}
     items = _one_of([shape_of(part, to, keys) for part in parts if part is not ...])
     return {"type": "array", **size, "items": items}

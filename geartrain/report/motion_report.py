@@ -369,6 +369,7 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
 def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
+        # a mean speed of 0 cannot be the divisor
         speeds = "{:.5f}..{:.5f}".format(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
         rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)

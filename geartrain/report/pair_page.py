@@ -205,6 +205,7 @@ def describe_pin(transmission: PinTransmission) -> Document:
 
     found = pin_figures(transmission)
     ratio, rms, efficiency = found.speed_ratio, found.transmission_error.rms, found.efficiency
+    # the mean ratio is 1 if the circle encloses the axis, else 0
     kind = "encloses" if ratio.mean else "does not enclose"
     summary = [
         f"The {transmission.driver} drives. The pin's circle, of radius {figure(found.pin_radius)}, "

@@ -42,6 +42,7 @@ class Soundness:
 
         quiet   True to omit the remarks on a train without failures
         """
+        # remarks may explain a failure, so they are printed with failures
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
         if whole:

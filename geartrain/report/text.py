@@ -150,6 +150,7 @@ def _heading(title: str, style: str, console: Console, mark: str) -> None:
     shown = _shown(title, style=style)
     console.print(shown)
     if mark:
+        # `cell_len` counts wide characters twice, as terminals do
         console.print(mark * min(console.width, shown.cell_len))
         if mark == "=":
             console.print()

@@ -296,6 +296,7 @@ class _Amounts:
 
 def _units(found: Sequence[TorqueFigures]) -> str:
     real = [each.watts_per_unit is not None for each in found if each.torques.verdict]
+    # watts only if all states have units, because the sentence applies to all
     return (_UNITS_IN_WATTS if real and all(real) else _UNITS) + _SIGNS
 
 

@@ -313,6 +313,7 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
     yield f"By count: {pairs} = {found.by_count}."
+    # a rank modulo a prime may be lower than the true rank
     exact = " (exact)." if found.certain else " (rank modulo two primes)."
     yield f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}{exact}"
     if found.redundant:

@@ -166,7 +166,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note on a load that puts power in but cannot drive the train alone; "" if there is no such load."""
+    """Return a note on a load that puts power in but cannot drive the train alone; "" otherwise."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()

@@ -165,6 +165,7 @@ def _lines(each: OutputFormula, latex: bool) -> Iterator[str]:
 def _inverse(each: OutputFormula, latex: bool) -> Iterator[str]:
     if len(each.shares) == 1 and each.shares[0].ratio.formula.wheels:
         ratio = each.shares[0].ratio.inverse
+        # the output is at rest, so the inverse ratio has no value
         value = "infinite" if ratio.value is None else str(exact(ratio.value))
         yield f"{each.shares[0].input}/{each.output} = {ratio.latex if latex else ratio.text} = {value}"
         for pole in ratio.poles:

@@ -69,6 +69,7 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     for pair in pairs:
         # pairs with the same description share their tables
         accounts.setdefault(pair.account.words, []).append(pair.account)
+    # each description is printed once
     lines = list(accounts)
     tables = [
         joined_table(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)

@@ -230,6 +230,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
     Return None if no link driven by the input has an inertia, if torques have no units, or if the optional package
     `simulation` is not installed.
     """
+    # reports are part of the core, which imports optional packages only on demand
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
     separation = wing("simulation.contacts.separation_rate")

@@ -167,6 +167,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     """
     from geartrain.kinematics.graph import adjacency_labels
 
+    # the matrix has as many entries as the square of the number of links
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     own = train.kinematics

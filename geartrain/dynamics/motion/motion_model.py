@@ -493,6 +493,7 @@ class Motion(Shown):
         done = 0
         for passage in self._stretches(turns, samples):
             part = slice(done, done + len(passage.turns))
+            # `angle` has revolutions here; it is converted to radians below
             angle[part], error[:, part], rate[:, part] = passage[:3]
             done = part.stop
             on_done(len(passage.turns))

@@ -92,6 +92,7 @@ def find_spectrum(
     # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
+        # without lines nothing is measured, but the progress must still be complete
         on_done(samples)
         return {name: [] for name in found}
     measured = _measure(motion, turns, samples, orders, on_done)

@@ -139,6 +139,7 @@ class PairErrors:
         if circuit.kind != "gear":  # the error of a pin counts in the sense of the slot's own angle
             sense = forward
         else:
+            # a wheel's coefficient in the Willis equation is its tooth count
             teeth = abs((circuit.b, circuit.a)[driven])
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]

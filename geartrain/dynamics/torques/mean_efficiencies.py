@@ -73,6 +73,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
     # 15 digits, so that equal efficiencies are equal fractions
     found = [Fraction(f"{screw_efficiency(*pair, friction.sliding, angle):.15g}") for pair in (helix, helix[::-1])]
+    # a screw gear has a constant ratio, so both torques may be constant
     return MeanEfficiencies((found[0], found[1]), (found[0], found[1]), exact=False)
 
 

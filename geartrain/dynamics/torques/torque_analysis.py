@@ -359,6 +359,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
         if not setting.speeds.get(link):
             why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
             return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
+    # a single unknown torque is enough for one degree of freedom
     requested = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
     # the torque that takes one unit of power out at this speed
     return _balanced(setting, {load: -1 / setting.speeds[load]}, requested, bearings=False)

@@ -166,6 +166,7 @@ class ContactModel:
                 rows = [each for m in left for each in self.pairs[m].row if each not in order]
                 order.append(next((each for each in rows if each not in driven), rows[0]))
                 owner.append(-1)
+        # coordinates that appear in no pair
         rest = [each for each in range(len(self.torque)) if each not in order]
         order += rest
         owner += [-1] * len(rest)

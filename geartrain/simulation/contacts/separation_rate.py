@@ -147,6 +147,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
     inertias = {each.link: each.value for each in find_link_inertias(train, state)}
     moving = find_motion_problem(train, state)
+    # real teeth lock such a train, so that it has no motion
     if moving.contradictions():
         return {}
     every = {link: (link, moving.frame) for link in train.declaration.links}

@@ -98,6 +98,7 @@ class Simulation(Shown):
             stops = tuple(replace(each, restitution=restitution[each.name]) for each in model.stops)
             model = replace(model, pairs=pairs, stops=stops)
         if self.drive_kind == "rate":
+            # all prescribed speeds keep their ratios to the speed of the drive
             model = replace(model, given={at: speed * self._share for at, speed in model.given.items()})
         self.restitution = {pair.name: pair.restitution for pair in model.pairs}
         self.restitution |= {stop.name: stop.restitution for stop in model.stops}

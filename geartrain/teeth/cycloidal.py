@@ -119,13 +119,15 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the radii of the rolling circles of approach and recess [module; half-angles in rad for bevels]."""
+        """Return the radii of the rolling circles of approach and recess [module; for bevels, half-angles of cones in
+        rad].
+        """
         if self.rolling is not None:
             if wheels.bevel:
                 raise refused(
                     "`rolling` does not apply to bevel pairs",
                     "their rolling circles are cones",
-                    "give rolling_fraction",
+                    "give `rolling_fraction` instead",
                 )
             first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
             return first, second
@@ -145,7 +147,9 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X that ends at the tip of an addendum of `height` modules."""
+    """Return the arc of contact X that ends at the tip of an addendum of `height` modules [module; for bevels, rad on
+    the unit sphere].
+    """
     from math import asin, sin
 
     from geartrain.teeth.conjugate.closed_form_sides import circle_reach, cone_reach

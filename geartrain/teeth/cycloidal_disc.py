@@ -3,7 +3,7 @@
 Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from the
 centre of the ring. The centre of a pin describes a shortened epitrochoid in the frame of the disc. The outline of the
 disc is offset inwards from that curve by the radius of a pin. Every contact normal passes through the pitch point. Half
-of all pins press at once, or fewer if there is a clearance (docs/reducers.md, (1) to (7)).
+of all pins press at once, or fewer if a clearance and the deflection of a pin are given (docs/reducers.md, (1) to (7)).
 """
 
 from __future__ import annotations
@@ -156,8 +156,6 @@ class CycloidalDisc:
         docs/reducers.md (5).
 
         phase   angle of one pin from the line of centres (rad)
-
-        The shape is (pins, ...).
         """
         arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
@@ -198,7 +196,7 @@ class CycloidalDisc:
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
         """Return the load-weighted mean sliding speed divided by the pitch-line speed, and the power loss divided by
-        the friction coefficient.
+        the output power and by the friction coefficient.
 
         phase   angle of one pin from the line of centres (rad)
         """
@@ -215,14 +213,15 @@ class CycloidalDisc:
 
     @property
     def loss(self) -> float:
-        """Mean power loss over a pitch, as a fraction of the power, divided by the friction coefficient."""
+        """Mean power loss over a pitch, divided by the output power and by the friction coefficient."""
         return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe about the x axis as a chain of chords that stay inside the lobe, so that the pins clear
-        it.
+        """Return one lobe about the x axis as chords that stay inside the lobe, so that the pins clear them.
+
+        `tolerance` is the maximum distance of a chord from the lobe [module]; 4096 chords are the maximum.
         """
         number = _MIN_CHORDS
         while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
@@ -349,7 +348,7 @@ def _range_text(fewest: int, most: int) -> str:
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Results of a disc in its ring of pins."""
+    """Results of a lobed disc in its ring of pins: the results of every pair, the sizes of the pins and their loads."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -377,7 +376,7 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a lobe at angle 0 [pitches past the line of centres]: midway between two pins less half the
+        """Position of a lobe at angle 0, past the line of centres [pitch]: midway between two pins minus half the
         backlash.
         """
         return (1 - self.backlash) / 2

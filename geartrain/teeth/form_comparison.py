@@ -35,9 +35,7 @@ _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine t
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one form of a comparison: path of contact, losses and loads, or the faults that prevent it from
-    running.
-    """
+    """Result for one form of a comparison: path of contact, losses and loads, or the faults of teeth that cannot run."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
@@ -46,7 +44,9 @@ class MeasuredForm(Result):
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
-    """Losses and loads divided by the values of the involute; None for teeth that cannot run."""
+    """Losses and loads divided by the values of the involute; None for the involute itself and for teeth that cannot
+    run.
+    """
     faults: tuple[ToothFault, ...] = ()
     """Faults that prevent the teeth from running, of kind "refused" if the form rejects the wheels."""
 
@@ -190,11 +190,13 @@ def _check(
     for name in names:
         if name not in known:
             fix = suggest(name, list(known), otherwise=f"give one or more of: {', '.join(known)}", wide=True)
-            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix))
+            raise QuestionError(
+                Problem(f"'{name}' is not a tooth form that can be compared", "only conjugate forms are compared", fix)
+            )
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
-        why = "teeth of uniform stress are not determined by pressure angles of 45 deg or more"
+        why = "a pressure angle of 45 deg or more does not determine teeth of uniform stress"
         fix = "give an angle between 0 and 45 deg, such as 20 deg"
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "pressure_angle"))
 
@@ -202,7 +204,7 @@ def _check(
 def _reference_error(base: MeasuredForm) -> QuestionError:
     """Return the error for a reference involute that cannot run.
 
-    Fixes that change its pressure angle are omitted, because that angle is given.
+    Fixes that change the pressure angle are omitted, because the reference has 20 degrees by definition.
     """
     what = "the 20 deg involute, the reference of the comparison, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
@@ -239,9 +241,9 @@ def _recess_only_involute(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> Iterator[MeasuredForm]:
-    """Yield the involute with the arcs of the first form that has contact in recess only.
+    """Yield the involute with the arcs of the first form whose contact is in recess only; nothing without such a form.
 
-    It separates the effect of these arcs from the effect of the form.
+    The comparison with this involute separates the effect of the arcs from the effect of the form.
     """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:

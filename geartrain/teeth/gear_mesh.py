@@ -354,12 +354,14 @@ class GearMesh(Shown, ABC):
 
     @property
     def has_friction(self) -> bool:
-        """True if these teeth have friction losses."""
+        """True if a coefficient of friction above 0 or a friction law is declared."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
     @property
     def friction_words(self) -> str:
-        """Sentence on the friction of the pair at its pitch-line speed."""
+        """Statement of the friction of the pair, without a full stop: the coefficient, or the friction law, its mean
+        coefficient and the pitch-line speed if that speed is known.
+        """
         declared, at = self.wheels.friction_law, self.wheels.pitch_line
         if declared is None:
             return f"Coefficient of friction {self.transmission.friction:g}"
@@ -397,9 +399,9 @@ class GearMesh(Shown, ABC):
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
-        """Mean efficiency with the actual driver and with the other wheel driving, as texts.
+        """Mean efficiency with the actual driver and with the other wheel driving, as strings.
 
-        Both texts are "-" if no friction is declared or the pair jams.
+        Both strings are "-" if the losses cannot be computed or the teeth cannot run.
         """
         if not self.tells_losses or not self.verdict:
             return "-", "-"

@@ -30,7 +30,7 @@ def twice(raw: object) -> object:
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as strings."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -66,7 +66,7 @@ class ToothForm(BaseModel, ABC):
     """
 
     more_contact: ClassVar[str] = "declare longer `arcs`"
-    """Text of a fix that increases the contact ratio."""
+    """Fix that increases the contact ratio, as part of a message."""
 
     ringed: ClassVar[bool] = False
     """True for teeth whose second wheel is a ring gear."""
@@ -107,7 +107,7 @@ class ToothForm(BaseModel, ABC):
         Raises
         ------
         GearTrainError
-            For invalid parameters. Its place is the name of the parameter if only one is at fault.
+            If a parameter is invalid. The place of each problem is the name of the parameter, if only one is at fault.
         """
         (form,) = get_args(cls.model_fields["form"].annotation)
         try:
@@ -126,7 +126,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the parameters with a default for each required one that is missing.
+        """Return the parameters, supplemented by a default for each missing parameter that the form requires.
 
         Parameters
         ----------
@@ -212,7 +212,7 @@ class ToothForm(BaseModel, ABC):
         Returns
         -------
         ToothForm
-            A copy with this backlash.
+            Copy with this backlash, or this form unchanged.
         """
         return self.model_copy(update={"backlash": backlash}) if "backlash" in self.own_play else self
 

@@ -169,7 +169,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angle at constant driver torque; NaN if the pair is locked."""
+        """Return the mean efficiency over the driver angle at constant driver torque; NaN if friction locks the pair."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
@@ -201,7 +201,7 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ContactRubbing
-            Sliding speed and shares of power, of shape (contacts, *shape of S).
+            Sliding speed and friction terms of input and output power, of shape (contacts, *shape of S).
 
         Raises
         ------
@@ -226,8 +226,8 @@ class TransmissionFunction(Shown, ABC):
         return []
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the intervals of driver angle between the kinks of one period [rad]; shorter ones than 1e-13 periods
-        are rounding.
+        """Return the intervals of driver angle between the kinks of one period [rad]; intervals shorter than 1e-13
+        periods are omitted.
         """
         cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
@@ -264,7 +264,7 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function while the driver turns backwards. It differs for teeth with backlash."""
+        """Return the transmission function while the driver turns backwards; by default this function itself."""
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
@@ -336,7 +336,7 @@ class ToothTransmission(TransmissionFunction):
 
 
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write S modulo the period into `out`, twice as fast as numpy.mod.
+    """Write S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
 
     The period is split into two parts, so that the first product is exact up to about 10^8 periods.
     """
@@ -398,7 +398,7 @@ class ExactRatio(TransmissionFunction):
         return 1.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases, which is 0."""
+        """Return the maximum rate at which the speed ratio decreases [1/rad], which is 0."""
         return 0.0
 
     @staticmethod

@@ -96,7 +96,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
                 gear,
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
-                f"their flanks would cross by {-degrees(thickness):.4g} deg of its {360 / z:.4g} deg pitch",
+                f"the flanks of a tooth would cross by {-degrees(thickness):.4g} deg; the pitch is {360 / z:.4g} deg",
                 shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
             )
 
@@ -207,8 +207,8 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             0,
             float("nan"),
             "the teeth jam",
-            f"at the centre distance {pair.distance:.6g} modules they are thicker than the spaces by "
-            f"{-pair.backlash:.4g}",
+            f"at the centre distance {pair.distance:.6g} modules the teeth are "
+            f"{-pair.backlash:.4g} modules thicker than the spaces",
             f"{apart}thin the teeth with `backlash`, or reduce the profile shifts",
         )
 

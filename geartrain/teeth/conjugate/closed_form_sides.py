@@ -71,7 +71,7 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
         raise RangeError(
             Problem(
                 f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
-                f"half of it is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
+                f"half of that circle is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
                 "use a shorter arc or a larger rolling circle",
             )
         )
@@ -161,7 +161,7 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     most = first if inside else 3.14 - first
     # slightly less than half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
-        side, limit = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
+        side, limit = ("dedendum", "the undercut") if inside else ("addendum", "half a turn of the lantern")
         raise RangeError(
             Problem(
                 f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",

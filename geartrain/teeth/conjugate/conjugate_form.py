@@ -37,7 +37,7 @@ class ConjugateToothForm(ToothForm):
 
     See Also
     --------
-    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : Two examples.
+    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : Two conjugate forms.
     """
 
     conjugate: ClassVar[bool] = True
@@ -57,7 +57,7 @@ class ConjugateToothForm(ToothForm):
     @model_validator(mode="after")
     def _lengths_are_lengths(self) -> ConjugateToothForm:
         if self.backlash.value < 0:
-            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
+            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "give 0 or more")
         check_above_0(self, "length", "centre_distance")
         return self
 
@@ -393,8 +393,8 @@ def _refusal(kinds: tuple[str, str]) -> str:
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear
-    first.
+    """Raise `GearTrainError` for a pair that names its ring gear first if the two wheels have different tooth
+    parameters or `pins` is declared.
     """
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
@@ -415,7 +415,11 @@ def _are_skew(shaft_angle: ShaftAngle) -> bool:
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes and for contrate wheels."""
+    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes, contrate wheels and helical
+    wheels.
+
+    Raises `GearTrainError` for bevel wheels without a declared shaft angle.
+    """
     if {"contrate", "helical"} & set(wheels.kinds):
         return None
     angle = shaft_angle()
@@ -423,6 +427,6 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
         raise refused(
             f"it cannot have {form.words} teeth",
             "the shaft angle of its bevel wheels is not declared",
-            f"declare `axes` with the `direction` of both, or {IDEAL}",
+            f"declare `axes` with the `direction` of both axes, or {IDEAL}",
         )
     return angle

@@ -57,8 +57,9 @@ class ConjugateMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Offset of the driven wheel [pitch]: half a tooth thickness of both wheels, since contact of flanks is the
-        zero position.
+        """Position of a driven tooth past the line of centres at angle 0, where flanks touch [pitch].
+
+        It is the sum of half the tooth thicknesses of both wheels.
         """
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
@@ -177,7 +178,7 @@ class ConjugateFigures(PairFigures):
     arcs: tuple[float, float]
     """Arcs of approach and recess of the driver [pitch]."""
     contact_ratio: float
-    """Arc of contact over the pitch."""
+    """Contact ratio: arc of contact divided by pitch."""
     pressure_angle: float
     """Pressure angle at the pitch point [rad]."""
     shaft_angle: float | None
@@ -241,16 +242,18 @@ def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) ->
 
 @dataclass(frozen=True)
 class DesignLosses(Result):
-    """Loss, stress, heat and sliding of a pair as designed."""
+    """Losses, stress, heat and sliding of a pair as designed, from its path of contact."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, contact stress, heat, flash temperature and case depth, relative to the standard involute."""
+    """Loss, contact stress, heat, flash temperature and working depth, normalised by friction coefficient and load."""
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
-    """Maximum sliding speed over the lower of both contact speeds along the flanks; infinite where that speed is 0."""
+    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite where that
+    speed is 0.
+    """
 
 
 @dataclass(frozen=True)

@@ -114,7 +114,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     @property
     def distance(self) -> float:
-        """Design centre distance [module]; meaningless for bevel pairs."""
+        """Design centre distance [module]; for bevel pairs, the shaft angle [rad]."""
         return abs(self.path.pitch.R1 + self.path.pitch.R2)
 
     def _driven(self, driver: int, direction: int) -> ConjugateTransmission:

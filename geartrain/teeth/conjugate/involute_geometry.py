@@ -1,7 +1,7 @@
 """Involute wheels cut by a rack: sizes, tooth thickness, working pressure angle of a pair, arcs. Lengths in modules.
 
-The rack is shifted outwards by `shift` modules. A ring gear has the tooth spaces of an external wheel's teeth. Its
-shift also counts outwards, so that it widens the spaces of the ring.
+The rack is shifted outwards by `shift` modules. The tooth spaces of a ring gear have the shape of the teeth of an
+external wheel. A shift of the ring also counts outwards, so that it widens these spaces.
 """
 
 from __future__ import annotations

@@ -5,8 +5,8 @@ whose dedendum works: a = A, b = B in recess, exchanged in approach.
 
 Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. For
 pressure angles below 45 deg exactly one solution is bounded there. Chebyshev collocation finds that solution, because
-polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. Docs/shapes.md,
-section 15, gives the conditions under which these two pieces are optimal.
+polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. These two
+pieces are optimal under the conditions in docs/shapes.md, section 15.
 """
 
 from __future__ import annotations
@@ -404,7 +404,7 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
     section 15).
     """
     if (np.diff(weight(np.linspace(0.0, piece.end, _CHECKED))) < 0).any():
-        raise other_shape_error("the friction loss of a contact decreases there with increasing sliding velocity")
+        raise other_shape_error("the friction loss decreases with increasing sliding velocity at some contacts")
     each = variation_integrand(pitch, piece, np.linspace(piece.start, piece.end, _CHECKED), weight)
     below = np.cumsum((each[1:] + each[:-1]) / 2)
     if below.max() > _SLACK * np.abs(each).sum():

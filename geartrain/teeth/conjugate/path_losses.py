@@ -73,12 +73,12 @@ class PathLosses(Result):
     If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
     """
     stress: float
-    """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite where psi is
-    0.
+    """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite if psi is 0
+    at a contact.
     """
     off_pitch: float
     """Maximum of the quantity in `stress` over contacts that are more than a tenth of a pitch away from the pitch
-    point.
+    point; 0 without such contacts.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
@@ -267,8 +267,8 @@ def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end
 
 
 def sliding(path: PathOfContact) -> tuple[float, float]:
-    """Return the maximum sliding speed divided by the pitch-line speed, and by the lower of both contact speeds along
-    the flanks.
+    """Return the maximum of the sliding speed divided by the pitch-line speed, and its maximum divided by the lower of
+    the two contact speeds along the flanks at the same contact.
     """
     pitch = path.pitch
     slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
@@ -387,7 +387,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     return 1 / steepest if steepest > 0 else inf
 
 
-# ---------------------------------------------------------------------------- uniform temperature of a given wear depth
+# ------------------------------------------------------------------------- uniform temperature of a given working depth
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:

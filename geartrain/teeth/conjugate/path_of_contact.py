@@ -122,7 +122,7 @@ class SampledPiece(PathPiece):
 class SteadySpeedPiece(SampledPiece):
     """Piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S in closed form.
 
-    Docs/shapes.md (12): eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
+    By docs/shapes.md (12), eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
     pitch surface of the gear whose dedendum works.
     """
 

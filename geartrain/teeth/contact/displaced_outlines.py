@@ -3,7 +3,8 @@
 A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes the
 point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along the
 normal turns the driven wheel ahead by n divided by the moment arm of the normal about the driven axle,
-docs/cut-by-hand.md (1), as for conjugate teeth. Unlike there, the lag of error-free wheels is not constant.
+docs/cut-by-hand.md (1), as for conjugate teeth. Unlike for conjugate teeth, the lag of
+error-free wheels is not constant.
 """
 
 from __future__ import annotations

@@ -215,7 +215,8 @@ class GearOutline(Shown):
     Raises
     ------
     QuestionError
-        If the number of teeth or pitch deviations is not z, or if the curves of a flank are not connected.
+        If z is below 1, if the number of teeth or pitch deviations is wrong, or if a flank is not a chain of connected
+        curves with finite points off the axle.
 
     See Also
     --------
@@ -295,7 +296,7 @@ class GearOutline(Shown):
             raise QuestionError(
                 Problem(
                     "a bevel wheel cannot be displaced in its plane",
-                    "its teeth are on a sphere about the apex",
+                    "its teeth are on a sphere about the apex, which a displacement leaves",
                     "give every tooth its own curves instead",
                 )
             )
@@ -315,7 +316,9 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
     """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
         raise QuestionError(
-            Problem("a tooth has a side without curves", "each side needs a curve", "give at least one curve")
+            Problem(
+                "a tooth has a flank without curves", "both flanks can touch a mate", "give at least one curve for each"
+            )
         )
     last = None
     for curve in side:
@@ -324,7 +327,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
             raise QuestionError(
                 Problem(
                     f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth",
-                    "its ends are not finite, are on the axle, or have the same parameter",
+                    "an end is not finite or is on the axle, or both ends have the same parameter",
                     "give two parameters at which the curve has points off the axle",
                 )
             )
@@ -334,7 +337,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
                 Problem(
                     "two curves of a tooth do not meet",
                     f"one ends at {last}, the next begins at {ends[0]}",
-                    "give the curves of a side in order, each from the end of the last one",
+                    "give the curves of a flank in order, each beginning at the end of the previous one",
                 )
             )
         last = ends[1]
@@ -369,8 +372,8 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
 
 
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
-    """Return the polynomial pieces of each curve of a flank, with flags that a piece begins and that it ends at a
-    corner.
+    """Return the polynomial pieces of each curve of a flank, each with two flags: whether the piece begins and whether
+    it ends at a corner.
     """
     found = [
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]

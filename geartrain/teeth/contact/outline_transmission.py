@@ -42,7 +42,7 @@ class OutlineGears:
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float
-    """Half a tooth thickness of both wheels on the pitch circles [module]: offset from which the driven angle is
+    """Sum of half the tooth thicknesses of both wheels on the pitch circles [module], from which the driven angle is
     counted.
     """
     backlash: float
@@ -83,7 +83,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, and backlash at this distance."""
+        """Verdict on whether the pair can run: faults of its teeth, and backlash and gaps in contact at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding
@@ -137,7 +137,7 @@ class OutlineTransmission(ToothTransmission):
         return _nodes(self.gears, self.driver)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio among 16 angles of each smooth interval and its ends."""
+        """Return the minimum and the maximum speed ratio, among 16 angles and both ends of each smooth interval."""
         ends = self.table.breaks
         # at a kink the speed has two values, one on either side
         found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
@@ -296,7 +296,7 @@ def _apart(distance: float, share: float) -> ToothFault:
         nan,
         "the teeth do not reach each other",
         f"at a centre distance of {distance:.6g} modules no teeth touch during {share:.1%} of a pitch",
-        "reduce the centre distance, or use longer arcs",
+        "reduce the centre distance (in a ring, increase it), or use longer arcs",
     )
 
 
@@ -306,6 +306,6 @@ def _jam(distance: float, backlash: float) -> ToothFault:
         0,
         nan,
         "the teeth jam",
-        f"at a centre distance of {distance:.6g} modules they overlap by {-backlash:.4g} rad of the driven wheel",
-        "increase the centre distance, or thin the teeth with `backlash`",
+        f"at a centre distance of {distance:.6g} modules the teeth overlap by {-backlash:.4g} rad of the driven wheel",
+        "increase the centre distance (in a ring, reduce it), or thin the teeth with `backlash`",
     )

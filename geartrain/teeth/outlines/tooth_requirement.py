@@ -41,8 +41,8 @@ class MatePassage:
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative for a gap.
 
-    It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a
-    margin is added.
+    The depth is measured along the circle at the flank and the fillet, and along the radius at the root circle. At the
+    fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
     """
     if not mate.radius.size:
         return -inf
@@ -190,14 +190,16 @@ def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
 
 
 def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` if the wheels of a pair have no plane outline, or have faults."""
+    """Raise `QuestionError` if the wheels of a pair have no plane outline or have faults, or if the path of contact
+    does not reach the pitch point.
+    """
     path = pair.path
     if path.pitch.bevel:
         # the back cone of a crown wheel develops into a rack with infinitely many teeth
         virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
         raise QuestionError(
             Problem(
-                "a bevel wheel has no flat outline",
+                "a bevel wheel has no plane outline",
                 "its teeth are on a sphere and taper towards the apex, where the axes meet",
                 "omit --profile, or draw the equivalent spur pair of its back cones, of "
                 f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
@@ -233,9 +235,9 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     """Return the tooth that suits all pairs of a wheel, and the angle between its root flank and the flank's tangent
     [rad].
 
-    Its flank extends as deep as the tips of all mates need, and its root circle clears them. Its fillet radius is
-    `wanted` [module], or the largest up to 0.38 modules that clears all mates. All flanks must be alike. Raises
-    `QuestionError` if no such tooth exists.
+    The flank extends as deep as the tips of all mates need, and the root circle clears these tips. The fillet radius is
+    the largest up to `wanted` [module], 0.38 by default, with which the tooth clears all mates. All flanks must be
+    alike. Raises `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
@@ -253,7 +255,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     raise QuestionError(
         Problem(
             f"no root of gear {deepest.gear} lets the mate's tips pass",
-            "they would cut the flanks below their active part, or touch teeth outside the path of contact",
+            "the tips would cut the flanks below their active part, or touch teeth outside the path of contact",
             "shorten the arcs, or use more teeth, backlash or clearance",
             "--profile",
         )
@@ -264,7 +266,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
     return QuestionError(
         Problem(
             f"gear {demand.gear} cannot have a root circle",
-            f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
+            f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above that circle",
             "give less clearance, or more backlash, which makes the teeth thinner",
             "--blank clearance",
         )
@@ -290,7 +292,7 @@ def _tooth_builder(
 
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius below `wanted`, by bisection; None if not even a small fillet
+    """Return the tooth with the largest fillet radius up to `wanted`, by bisection; None if not even a small fillet
     fits.
     """
     found = made(_MINIMUM_FILLET)

@@ -41,7 +41,9 @@ class CutTooth:
 
 
 class WheelRequirement(ABC):
-    """Requirement of one pair on the teeth of one of its wheels."""
+    """Requirement of one pair on the teeth of one of its wheels, compared with other requirements before the wheel is
+    cut.
+    """
 
     @property
     @abstractmethod

@@ -1,10 +1,10 @@
-"""Real path of contact of triangular teeth: the tooth pair that drives at each position, and verdicts on it.
+"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells, clashes.
 
 Every tooth pair k prevents the driven wheel from lagging behind f(t + k p1) - k p2 (`tooth_pair`). The driven wheel
-therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Less the mean
-motion this is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position and
-the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the two
-tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
+therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Without the
+mean motion, U is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position
+and the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the
+two tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
 
 The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair leaves
 before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair enters tip against
@@ -50,7 +50,8 @@ class DriveInterval:
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell."""
+    """Phase of contact: approach, recess or dwell; slip or return in a path that includes contacts that cannot drive.
+    """
     start: float
     """Angle alpha_1 at the start [rad]."""
     end: float
@@ -289,7 +290,7 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 class SpeedJump(Result):
     """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
 
-    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the other's.
+    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth.
     """
 
     KEYS = ("kind", "alpha1", "before", "after", "value")

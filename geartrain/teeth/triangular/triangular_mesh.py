@@ -47,7 +47,9 @@ _SIZES = (
 
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """Gear pair with triangular teeth."""
+    """Gear pair with triangular teeth in a train, with the clearance window that explains why such a pair does not
+    turn.
+    """
 
     tooth_form: Triangular
     transmission: TriangularTransmission
@@ -74,8 +76,8 @@ class TriangularMesh(GearMesh):
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Return the scale and centre distance of the pair.
 
-        The scale follows from the first of these that is known: a wheel with a fixed tip radius, declared lengths,
-        or pitch circles that touch.
+        The scale follows from a wheel whose tip radius is in `tips`, otherwise from declared lengths, otherwise from
+        pitch circles that touch.
         """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
@@ -241,8 +243,8 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor
     if not window:
         return (
-            f"up to a clearance factor of {jam:.6g} there is {window.jam_kind}, and from "
-            f"{run:.6g} on {window.run_kind}: no clearance works",
+            f"up to a clearance factor of {jam:.6g} the verdict is {window.jam_kind}, and from "
+            f"{run:.6g} on it is {window.run_kind}: the pair turns at no clearance",
             OTHER_SHAPES[bool(transmission.sizes.ring)],
         )
     factor = window.factor(excess)
@@ -250,7 +252,7 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
     return (
         f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
         f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
-        f"give a clearance factor between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
+        f"give a clearance factor between these limits, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
     )
 
 

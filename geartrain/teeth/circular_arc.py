@@ -284,6 +284,7 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
     """Return the outlines of a pair, cached so that equal pairs of a long train are computed once."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
+    # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash
     mean = (first.thickness + second.thickness) / 2
     return OutlineGears(first.outline(), second.outline(), distance, mean, pi - 2 * mean)
 
@@ -386,4 +387,5 @@ class ArcTooth:
         yield start * along, -start * across, tan(sweep / 4)
         yield self.tip, 0.0, tan(sweep / 4)
         yield start * along, start * across, 0.0
+        # the last edge is the bottom land, an arc about the axis up to the flank of the next tooth
         yield self.root * along, self.root * across, tan((pi / self.z - lean) / 2)

@@ -132,6 +132,7 @@ class Cycloidal(ConjugateToothForm):
             first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
             return first, second
         first, second = (float(figure.value) for figure in self.rolling_fraction or (_HALF, _HALF))
+        # the dedendum of gear 1 works in approach, of gear 2 in recess; with a ring, both circles refer to the pinion
         return first * pitch.R1, second * (pitch.R1 if wheels.internal else pitch.R2)
 
     def _arcs(self, pitch: PitchSurfaces, circles: tuple[float, float]) -> tuple[float, float]:
@@ -157,6 +158,7 @@ def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, heigh
 
     if pitch.bevel:
         d, size = cone_reach(R, rho, R + cone_height(R, z, float(height))), sin(rho)
+        # arcs of a small circle on the sphere follow the formulas of a plane circle of radius sin(rho)
         chord = sin(d / 2)
     else:
         size = rho

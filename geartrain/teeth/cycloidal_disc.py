@@ -201,6 +201,7 @@ class CycloidalDisc:
         phase   angle of one pin from the line of centres (rad)
         """
         angles = self.angles(phase)
+        # distance of the contact from the pitch point times the relative angular velocity 2/z1 - 2/z2 = 2/(z1 z2)
         reach = (self.distance(angles) - self.pin) / (self.lobes / 2) / self.pins
         loads = self.loads(phase)
         lost = (loads * reach).sum(axis=0)
@@ -233,6 +234,7 @@ class CycloidalDisc:
         # the outline begins at the bottom between two lobes
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
+        # the tip of a lobe is where the eccentricity of half a module adds to the radius of the pin circle
         tip = self.circle + 0.5 - self.pin - self.clearance
         return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
@@ -314,6 +316,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S [rad]."""
+        # the load is given on the driven side, so the loss is added to the input power
         found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
         return found
 

@@ -35,7 +35,7 @@ _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine t
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one form of a comparison: path of contact, losses and loads, or the faults of teeth that cannot run."""
+    """Result for one compared form: path of contact, losses and loads, or the faults of teeth that cannot run."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
@@ -165,6 +165,7 @@ def compare_forms(
     if base.measures is None:
         raise _reference_error(base)
     found = [_form_result(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
+    # without this row, an advantage of the arcs would be attributed to the tooth form
     found += _recess_only_involute(found, wheels, arcs, angle, base.measures)
     models = [model for name, (model, _) in known.items() if name in names]
     return FormComparison((int(wheels.z1), int(wheels.z2)), _matched_text(models, arcs), base, tuple(found))

@@ -340,6 +340,7 @@ class GearMesh(Shown, ABC):
     @property
     def backlash(self) -> float:
         """Backlash of the teeth [pitch]."""
+        # the period times the ratio is the angular pitch of the driven wheel
         return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
 
     @property
@@ -441,5 +442,6 @@ def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
             always = all(fault in other for other in said)
             label = way.label if always else f"{way.label}, '{way.driver}' driving"
             placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
+            # a fault that occurs with both drivers has the same label twice, and is listed once
             found += [] if placed in found else [placed]
     return tuple(found)

@@ -70,8 +70,8 @@ class Involute(ConjugateToothForm):
     )
     proportions: Literal["full", "deep", "stub"] | None = Field(
         None,
-        description="Named proportions instead of `addendum` and `dedendum`, in modules: full 1 and 1.25 (ISO 53 A), deep "
-        "1 and 1.4, stub 0.8 and 1",
+        description="Named proportions instead of `addendum` and `dedendum`, in modules: full 1 and 1.25 (ISO 53 A), "
+        "deep 1 and 1.4, stub 0.8 and 1",
     )
 
     @model_validator(mode="before")
@@ -227,7 +227,8 @@ class Involute(ConjugateToothForm):
             if distance <= minimum:
                 raise refused(
                     f"a centre distance of {distance:.6g} modules is too short for these involutes",
-                    f"their base circles require more than {minimum:.6g}; the distance without profile shift is {wheels.distance:g}",
+                    f"their base circles require more than {minimum:.6g}; the distance without profile shift is "
+                    f"{wheels.distance:g}",
                     "give a longer centre_distance or a larger pressure_angle",
                 )
         thinned = wheels.modules(self.backlash, "backlash")
@@ -242,6 +243,7 @@ class Involute(ConjugateToothForm):
         add, mate, ded, shift = (float(figure.value) * flat for figure in figures)
         z, ring = wheels.z2 if at else wheels.z1, bool(at and wheels.internal)
         psi = atan(tan(self.pressure_angle.si) / flat)
+        # the flank of the rack is straight as deep as the addendum of the mate; its fillet is below
         return InvoluteWheel(z, psi, shift, add, ded, min(mate, ded), ring)
 
     def _spur(self, wheels: WheelPair) -> ConjugatePair:
@@ -275,7 +277,8 @@ class Involute(ConjugateToothForm):
             if not base_cone(R, psi) <= tip < pi:
                 raise refused(
                     f"the tip cone of wheel {at + 1} is out of range",
-                    f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below 180 deg",
+                    f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below "
+                    "180 deg",
                     "give the wheel an addendum near 1 and a shift near 0",
                 )
             arcs.append(spherical_arc(R, psi, tip))

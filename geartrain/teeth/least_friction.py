@@ -154,6 +154,7 @@ class LeastFriction(ConjugateToothForm):
 
         def weight(d: Floats) -> Floats:
             S = pitch.S(d)
+            # (A + B) |S| is the sliding speed divided by the pitch-line speed
             found: Floats = by((pitch.A + pitch.B) * abs(S)) * S
             return found
 

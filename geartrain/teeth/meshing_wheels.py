@@ -79,6 +79,7 @@ class MeshingWheels:
     def pitch_distance(self) -> float | None:
         """Centre distance at which the declared pitch circles touch [m]; None without declared lengths."""
         z1, z2 = self.counts
+        # `distance` belongs to the sum of the tooth numbers, also for a ring
         return (
             self.distance
             if self.distance is None or not any(self.internal)

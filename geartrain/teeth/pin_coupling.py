@@ -174,6 +174,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
         mixed = "have a unit in one value only"
         what = f"pin_radius {radius.text} and offset {offset.text} {mixed}"
         raise bad("pin", what, "give both with a unit, or both without")
+    # compared as exact fractions, so that equal lengths in different units are recognised
     r, e = radius.base, offset.base
     # the slot would reverse its direction at that moment
     if r == e:

@@ -116,6 +116,7 @@ class PinRing(ToothForm):
                 "give a larger pin_circle, or a smaller module (twice the eccentricity)",
             )
         apart = 2 * circle * sin(pi / pins)
+        # the curve of the pin centres, and so its curvature, does not depend on the pin radius
         found = CycloidalDisc(lobes, circle, 0.0)
         # a margin of 10 % keeps the default pins from undercutting the lobes
         usual = min(apart / _PIN_SPACING / 2, 0.9 * found.sharpest)
@@ -217,5 +218,6 @@ class PinRing(ToothForm):
         PinRing
             Copy whose `clearance` is half the backlash.
         """
+        # both flanks are set back, so the backlash is twice the clearance
         half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
         return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

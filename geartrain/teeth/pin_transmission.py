@@ -83,6 +83,7 @@ class PinTransmission(TransmissionFunction):
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error, which is 0, and its rms deviation [rad]."""
+        # the error is an odd function of S, so its mean is 0 without computation
         error = self.error(self._turn_samples())
         return 0.0, sqrt(float(np.mean(error**2)))
 

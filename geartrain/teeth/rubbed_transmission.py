@@ -117,6 +117,7 @@ class RubbedTransmission(DerivedTransmission):
     @property
     def locks(self) -> bool:
         """True if friction locks the pair at some driver angle."""
+        # NaN of a pair that no constant friction locks is not due to friction
         return self.transmission.locking_friction < inf and bool(np.isnan(self._period_nodes.efficiency).any())
 
     @cached_property

@@ -85,6 +85,7 @@ def _design(
         heights = [_tallest(*_ring_last(gears[name], gears[mate]), angle) for mate in mates[name]]
         if None in heights:
             return None
+        # the mate with the lowest limit decides, since a wheel has one addendum
         addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
     # each addendum is the minimum over all mates of a wheel, so that pairs must be checked with both addenda
     for first, second in edges:

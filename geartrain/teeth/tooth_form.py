@@ -120,6 +120,7 @@ class ToothForm(BaseModel, ABC):
     def _problem(cls, item: Any) -> Problem:
         """Return a validation error of pydantic as a problem, with the fix that the form gives, if any."""
         context = item.get("ctx") or {}
+        # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
         what = item["msg"] if "fix" in context else f"'{item['input']}' is not a valid value"
         return Problem(what, "", str(context.get("fix", "")), str(place))
@@ -193,6 +194,7 @@ class ToothForm(BaseModel, ABC):
             None if the backlash can be applied.
         """
         for name in self.own_play:
+            # a default value is not a declaration, and --backlash may replace it
             given = getattr(self, name) if name in self.model_fields_set else None
             if given is not None:
                 text = " and ".join(each.text for each in given) if isinstance(given, tuple) else given.text

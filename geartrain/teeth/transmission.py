@@ -169,7 +169,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angle at constant driver torque; NaN if friction locks the pair."""
+        """Return the mean efficiency over driver angles at constant driver torque; NaN if friction locks the pair."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
@@ -229,6 +229,7 @@ class TransmissionFunction(Shown, ABC):
         """Return the intervals of driver angle between the kinks of one period [rad]; intervals shorter than 1e-13
         periods are omitted.
         """
+        # a function without kinks is smooth over a whole period, from 0
         cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]

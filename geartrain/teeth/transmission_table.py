@@ -77,6 +77,7 @@ class CellTable:
         wide = halves > _THIN * period
         # an infinite half width leaves the constant term only, which avoids overflow in thin cells
         powers = np.where(wide, halves, np.inf)[:, None] ** np.arange(degree + 1)
+        # powers are evaluated fastest, by Horner's method; at this low degree the conversion loses few digits
         monomials = np.linalg.inv(np.vander(nodes, increasing=True))
         self.coefficients = np.ascontiguousarray((values @ monomials.T / powers).T)
         # the maximum error is between the nodes or at the ends of a cell; an end itself may be beyond a kink
@@ -360,6 +361,7 @@ def transmission_along(
     for at in range(len(angle)):
         S = angle[at]
         periods = np.floor(S * inverse)
+        # in this order, as in `behind`: S minus the product with the coarse part is exact
         u[at] = (S - periods * coarse) - periods * rest
     for at in range(len(angle)):
         cell[at] = np.int32(u[at] * density)

@@ -106,6 +106,7 @@ class UniformTemperature(ConjugateToothForm):
         psi = (self.minimum_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
         found = []
+        # the contact speed is w + A S on gear 1 and w - B S on gear 2, so that reading a has b = -A in recess
         for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):
             if not X:
                 found.append(none(0.0))

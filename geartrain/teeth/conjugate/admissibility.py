@@ -27,7 +27,7 @@ Halves = tuple[float, float]
 
 _SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
 _LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
-_ROUNDING = 1e-12  # modules
+_ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
@@ -191,6 +191,7 @@ def _polar(point: Floats, height: float) -> tuple[float, float]:
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
     """Return all faults that prevent these involute wheels from running; empty if they can run."""
+    # the undercut of an involute follows from the rack's corner instead of the contact speed
     others = (fault for fault in faults(path, pair.halves) if fault.kind != "undercut")
     return (*_jam(pair), *_interference(pair, path), *_undercut(pair, path), *others, *_bottom(pair), *ring_tips(path))
 

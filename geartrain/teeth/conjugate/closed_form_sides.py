@@ -98,6 +98,7 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
     `R` is its pitch cone angle and `tip` its tip cone angle [rad]. cos tip = cos d cos R - sin d sin psi sin R with
     sin psi = tan(d/2)/tan rho. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
     """
+    # d from v by an arc tangent, since an arc cosine of 1 - v would lose half the digits near the pitch point
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
     return 2 * atan(sqrt(v / 2) / sqrt(1 - v / 2))
 

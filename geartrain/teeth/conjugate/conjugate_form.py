@@ -91,6 +91,7 @@ class ConjugateToothForm(ToothForm):
             pitch_distance=wheels.distance,
             internal=any(wheels.internal),
             shaft_angle=shaft_angle_of(self, wheels, shaft_angle),
+            # the hand of the helix has no effect in the transverse section
             helix=abs(wheels.helix[0]),
         )
         mesh = ConjugateMesh(wheels, self, wheels.driver, transmission)
@@ -288,6 +289,7 @@ class ConjugateToothForm(ToothForm):
 
         wheels = WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)
         pair, distance = conjugate_pair_of(self, wheels), self.misplaced(wheels)
+        # a normal force larger than its transverse component acts as a larger coefficient of friction
         friction = friction * self.slant_pressure(wheels)
         if distance is None:
             return ConjugateTransmission(pair, friction, driver, direction)

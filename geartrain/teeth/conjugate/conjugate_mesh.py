@@ -103,7 +103,12 @@ class ConjugateMesh(GearMesh):
         gear, wheels = self.gears.index(wheel) + 1, self.wheel_pair
         free, pins = self.tooth_form.bottom_clearance(wheels, gear), self.tooth_form.lantern_pins(wheels)
         return ToothRequirement(
-            self.transmission.pair, gear, tolerance, CLEARANCE if free is None else max(free, 0.0), pins
+            # a negative clearance is a fault of the pair; the root is then drawn without clearance
+            self.transmission.pair,
+            gear,
+            tolerance,
+            CLEARANCE if free is None else max(free, 0.0),
+            pins,
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:

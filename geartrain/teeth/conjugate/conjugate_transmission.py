@@ -234,6 +234,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         if self._locks:
             return nan
         found, weights = self._sampled
+        # at a constant ratio and constant load torque, the input power is proportional to 1/efficiency
         return 1 / float(weights @ (1 / found))
 
     def efficiency_minimum(self) -> float:

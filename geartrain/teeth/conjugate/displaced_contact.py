@@ -243,6 +243,7 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         across=_for_both(gears, lambda gear: tangent * lean[gear]),
         along=_for_both(gears, lambda gear: radial * up[gear]),
         tilt=_for_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
+        # with a ring, a larger centre distance brings the teeth together
         apart=-radial if ring else radial,
         normal=normal,
         entering=_corner_lag(pair, 3 - driver, driver),

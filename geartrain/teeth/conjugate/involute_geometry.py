@@ -13,7 +13,7 @@ from geartrain.errors import GearTrainError, Problem, RangeError
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_ROUNDING = 1e-12  # modules
+_ROUNDING = 1e-12  # modules: a negative arc of less counts as 0
 
 
 def inv(angle: float) -> float:
@@ -65,6 +65,7 @@ class InvoluteWheel:
 
     def half(self, psi: float) -> float:
         """Return half the angular tooth thickness [rad] on the circle with the pressure angle `psi` [rad]."""
+        # a ring's tooth has the shape of an external wheel's tooth space, with opposite signs of shift and involute
         sign = -1 if self.ring else 1
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 

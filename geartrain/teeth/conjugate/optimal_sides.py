@@ -305,6 +305,7 @@ def solved(
     The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError`
     if the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
     """
+    # a constant is the involute (v = sin psi) or the cycloid (g = sin psi / S), from which Newton's method converges
     series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
         if near and nodes < len(near.coefficients):

@@ -170,6 +170,7 @@ def measure(path: PathOfContact) -> PathMeasures:
     single = [(-path.arcs[0], path.arcs[1], 1)]
     slowest = -maximum(path, lambda c: -np.minimum(c.U1, c.U2))
     if min(path.arcs) >= 0:
+        # the search excludes the pitch point itself, where both contact speeds are sin psi
         slowest = min(slowest, float(path.at(0.0).sin_psi))
     return PathMeasures(
         one_pair=_losses_of(path, ONE_PAIR, single),
@@ -272,6 +273,7 @@ def sliding(path: PathOfContact) -> tuple[float, float]:
     """
     pitch = path.pitch
     slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
+    # Q cos psi is sliding speed divided by contact speed; the larger Q belongs to the slower contact
     return slide, maximum(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
 
 

@@ -326,6 +326,7 @@ class FirstTouchSearch:
         r, rise = value(self.second.radius, piece2, v)
         a, turn = value(self.second.azimuth, piece2, v)
         change, swing = view.moved(dr, da)
+        # differentials for a rotation of the driver, at a fixed point of its tooth
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = np.where(at_end, swing / change, turn / rise)  # d azimuth / d radius on the smooth side

@@ -89,6 +89,7 @@ class FlankTable:
         """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins at the
         node.
         """
+        # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)

@@ -123,6 +123,7 @@ def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
 def _straight(a: Floats, b: Floats) -> OutlineCurve:
     def points(t: Floats) -> Floats:
         found: Floats = a + t[:, None] * (b - a)
+        # the central projection of a chord onto the sphere is a great-circle arc
         return found if len(a) == 2 else found / np.linalg.norm(found, axis=1, keepdims=True)
 
     return OutlineCurve(points)
@@ -173,6 +174,7 @@ class ToothFlanks(Shown):
         ToothFlanks
             Tooth with both flanks.
         """
+        # reflection at azimuth 0 and rotation by twice `middle` are a reflection at `middle`
         turned = _rotation(2 * middle)
         behind = tuple(curve.mapped(lambda p: turned(p * np.array([-1.0, 1.0, 1.0])[: p.shape[1]])) for curve in ahead)
         return cls(tuple(ahead), behind)
@@ -412,6 +414,7 @@ def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[Polyn
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
+    # smaller slopes are rounding of the fit, whose sign would divide the piece without reason
     small = max(_TURNED * float(np.abs(values).max()), _FLAT * float(piece.coefficients[0, 0]))
     marked = np.flatnonzero(np.abs(values) > small)
     turns = [(i, j) for i, j in pairwise(marked.tolist()) if (values[i] > 0) != (values[j] > 0)]

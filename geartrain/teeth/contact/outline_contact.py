@@ -58,6 +58,7 @@ class OutlinePair:
     @property
     def cycle(self) -> int:
         """Number of pitches of the driver after which the contact repeats."""
+        # one wheel with unequal teeth repeats after its revolution, two after a common multiple of both revolutions
         z1, z2 = self.first.z, self.second.z
         if self.first.equal and self.second.equal:
             return 1

@@ -83,7 +83,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, and backlash and gaps in contact at this distance."""
+        """Verdict on whether the pair can run: faults of its teeth, backlash and gaps in contact at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding
@@ -128,6 +128,7 @@ class OutlineTransmission(ToothTransmission):
 
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
+        # reversed motion changes the sign and so exchanges minimum and maximum
         low, high = sorted(float(self._in_direction(each)) for each in self.table.extremes())
         return low, high
 

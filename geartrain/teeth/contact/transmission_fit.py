@@ -111,6 +111,7 @@ class PiecewiseTransmission:
         omitted.
         """
         start, before = ends(self.speeds)
+        # the first interval follows the last one in the next period
         after = np.roll(start, -1)
         leaps = after - before > _JUMP * float(self.ratio)
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))

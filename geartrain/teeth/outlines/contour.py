@@ -48,6 +48,7 @@ class Contour(Shown):
             x, y and bulge of each vertex.
         """
         found = np.array(list(vertices), dtype=float)
+        # an arc without a chord would have no centre
         long = np.hypot(*(np.roll(found[:, :2], -1, axis=0) - found[:, :2]).T) > _SAME
         return cls(found[long, :2], found[long, 2])
 

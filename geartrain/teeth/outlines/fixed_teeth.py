@@ -59,6 +59,7 @@ def escape_tooth(z: int, sense: int) -> FixedTooth:
     sense   direction of rotation and of lean: 1 counter-clockwise, -1 clockwise
     """
     radius, pitch = z / 2, 2 * pi / z
+    # with few teeth, 0.7 of a pitch would exceed half the radius
     depth = min(_DEPTH * pitch, _DEEPEST) * radius
     root = hypot(radius - depth, depth * tan(UNDERCUT))
     face = atan2(depth * tan(UNDERCUT), radius - depth)  # angle of the tip ahead of the foot of its face

@@ -53,11 +53,11 @@ def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
 
 
-CLEARANCE = 0.25  # modules
-_FILLET = 0.38  # modules
+CLEARANCE = 0.25  # modules: bottom clearance of the basic rack of ISO 53 A
+_FILLET = 0.38  # modules: root fillet of the basic rack of ISO 53 A
 _TOLERATED_DEPTHS = (1e-9, 1e-6)  # modules: tolerated interference; flanks computed numerically need the second value
 _RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg by which a root is steeper than the end of its flank
-_MINIMUM_FILLET = 1e-3  # modules
+_MINIMUM_FILLET = 1e-3  # modules: a tooth that does not allow this fillet counts as impossible
 _HALVINGS = 18  # bisections of less than 0.4 modules, to a resolution of 2e-6
 _ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
@@ -241,6 +241,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
+    # the deepest required root circle clears the tips of every mate
     root = min((each.root for each in demands), key=lambda radius: radius * s)
     own = deepest.flank
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:

@@ -305,6 +305,7 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
     >>> bool(window), window.jam < window.at(0.5) < window.run < window.reach
     (True, True)
     """
+    # without its excess, the same pair at any clearance is found in the cache
     return _window(sizes.at(0.0))
 
 

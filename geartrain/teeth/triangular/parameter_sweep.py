@@ -65,8 +65,8 @@ def sweep(
 ) -> ParameterSweep:
     """Return the results at every combination of one or two parameter ranges.
 
-    A combination without a valid pair has the verdict "none" and results NaN. Teeth that never touch keep their verdict,
-    with results NaN. `on_point` is called after each combination.
+    A combination without a valid pair has the verdict "none" and results NaN. Teeth that never touch have their own
+    verdict and results NaN. `on_point` is called after each combination.
     """
     shape = tuple(len(values) for values in ranges.values())
     grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")

@@ -294,6 +294,7 @@ class Triangular(ToothForm):
         """
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
+        # a fraction minus 1 is exact, so that a factor close to 1 loses no digits
         excess = sizes.side * (self.clearance_factor.value - 1)
         if excess <= 0:
             deepest = "maximum, in a ring" if sizes.ring else "minimum"

@@ -113,6 +113,7 @@ class TriangularMesh(GearMesh):
         half, tip = pi / (sizes.z1, sizes.z2)[at], sizes.radii[at] * scale
         sign = sizes.signs[at]  # a ring gear has its roots outside
         root, kind = tip - sign * sizes.depths[at] * scale, "ring" if sign < 0 else "external"
+        # the first point equals the last point of the previous tooth and is merged with it
         vertices = ((root, -half), (tip, 0.0), (root, half))
         return FixedTooth(kind, tip, root, tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in vertices))
 

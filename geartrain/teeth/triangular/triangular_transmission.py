@@ -325,6 +325,7 @@ class TriangularTransmission(ToothTransmission):
         """
         if self.friction >= self.locking_friction:
             return nan
+        # at constant load torque, the output power is proportional to tau and the input power to tau / eta
         work = self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
         return self._contact_mean(self._tau) / work
 

@@ -281,7 +281,9 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of a pair, cached so that equal pairs of a long train are computed once."""
+    """Return the outlines of a pair at its centre distance [module], cached so that equal pairs of a train are computed
+    once.
+    """
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
     # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash

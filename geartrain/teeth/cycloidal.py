@@ -97,12 +97,12 @@ class Cycloidal(ConjugateToothForm):
             raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

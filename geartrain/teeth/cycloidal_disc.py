@@ -284,7 +284,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
     driver : {1, 2}
         1 if the disc drives, 2 if the ring drives.
     direction : {1, -1}
-        -1 for motion backwards, on the coast flanks.
+        1 for forward motion, -1 for backward motion, in which the coast flanks drive.
     """
 
     def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:

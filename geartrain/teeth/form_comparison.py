@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Forms that are compared by default, with one reading of each."""
+"""Names of the forms that are compared by default; forms with several readings have one of them here."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 

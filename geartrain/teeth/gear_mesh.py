@@ -150,7 +150,7 @@ class GearMesh(Shown, ABC):
         return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth. The texts do not mention the pair or its file."""
+        """Yield all faults of these teeth. The messages do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 

@@ -115,7 +115,7 @@ class Involute(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)

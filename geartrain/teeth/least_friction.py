@@ -36,7 +36,7 @@ class LeastFriction(ConjugateToothForm):
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : the other optima of the same source.
+    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : other optimal tooth forms of the same source.
 
     Examples
     --------
@@ -122,12 +122,12 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)

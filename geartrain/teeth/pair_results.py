@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair over a period: the driven speed divided by the driver speed, always positive.
+    """Speed ratio of a pair over a period: the driven speed divided by the driver speed, without the sign of an
+    external mesh. It is negative only while a pin follower moves backwards.
 
     See Also
     --------
@@ -200,8 +201,7 @@ class ToothFault(Result):
     gear: int
     """Number of the faulty gear, 1 or 2; 0 for the pair as a whole."""
     X: float
-    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN for faults without a
-    place.
+    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN if no position applies.
     """
     what: str
     """Statement of the fault."""
@@ -222,7 +222,7 @@ class PairVerdict(Result):
 
     See Also
     --------
-    geartrain.teeth.GearMesh : its `verdict`.
+    geartrain.teeth.GearMesh : its property `verdict`.
 
     Examples
     --------
@@ -279,7 +279,7 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the problem of teeth that lock at the coefficient `friction`, because it is at least `locking`."""
+    """Return the problem of teeth that lock because the coefficient `friction` is at least the limit `locking`."""
     return Problem(
         f"a friction of {friction:g} locks these teeth",
         f"at a friction of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
@@ -368,7 +368,9 @@ def motion_figures(
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table and the row of one pair. `wide` is True for a table as wide as the page."""
+    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table as wide as the
+    page.
+    """
 
     header: tuple[str, ...]
     row: tuple[str, ...]
@@ -377,7 +379,7 @@ class AccountTable:
 
 @dataclass(frozen=True)
 class PairAccount:
-    """Report of one pair with one of its wheels driving."""
+    """Report of one pair with one of its wheels driving: tables as text, and results for JSON."""
 
     words: str
     """Text that explains the tables of all pairs of this kind."""

@@ -44,7 +44,9 @@ def check_friction(friction: float) -> float:
 
 
 class SpeedLeap(NamedTuple):
-    """Step of the speed ratio at an impact of teeth: the ratio before it, and the larger ratio after it."""
+    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after the
+    impact.
+    """
 
     before: float
     after: float

@@ -353,8 +353,8 @@ def transmission_along(
 ) -> None:
     """Compute transmission error [rad] and speed ratio of one function at driver angles [rad].
 
-    The results are written into `error` and `speed`; `u` and `cell` are scratch. The operations are those of
-    `CellTable`, in loops most of which the compiler vectorizes.
+    The results are written into `error` and `speed`; `u` and `cell` are scratch. The operations are the
+    same as in `CellTable`, in loops most of which the compiler vectorizes.
     """
     inverse, coarse, rest = tables.inverse[transmission], tables.coarse[transmission], tables.rest[transmission]
     density, first, last = tables.density[transmission], tables.first[transmission], tables.last[transmission]
@@ -377,7 +377,7 @@ def transmission_along(
 
 @kernel
 def _polynomials(cells: Floats, begin: np.uint64, u: float) -> tuple[float, float]:
-    """Return error and speed from the numbers of one cell, by Horner's method for both polynomials together."""
+    """Return transmission error and speed ratio from the coefficients of one cell, by Horner's method."""
     x, y = u - cells[begin], u - cells[begin + np.uint64(1)]
     at, one, two = begin + np.uint64(2), np.uint64(1), np.uint64(2)
     error, speed = cells[at], cells[at + one]

@@ -33,7 +33,7 @@ class UniformTemperature(ConjugateToothForm):
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of the same source.
+    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : other optimal tooth forms of the same source.
 
     Examples
     --------
@@ -82,12 +82,12 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

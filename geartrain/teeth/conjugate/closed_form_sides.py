@@ -3,7 +3,7 @@
 Cycloids: the path of contact is the rolling circle itself, in the plane and on the sphere.
 
 Lantern wheels (spur only): the path of contact is the path of the pin's centre, shortened by the pin's radius
-towards the pitch point. The letters are those of the source, W. D. Smith (1993), equations (12) to (16): pins of
+towards the pitch point. The symbols are from W. D. Smith (1993), equations (12) to (16): pins of
 radius B at distance A from the axle, R the pitch radius, L = d + B the distance of the pin's centre from the pitch
 point. Where the contact speed along the mate's flank is 0, the envelope of the pins has a cusp, and the pins cut
 away part of the flank on their way in. `flank_start` returns the first contact of the remaining flank.

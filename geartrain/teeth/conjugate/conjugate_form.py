@@ -1,6 +1,7 @@
-"""Base class of conjugate tooth forms: computes a pair of wheels and its transmission function from a declaration.
+"""Base class of conjugate tooth forms, which computes a pair and its transmission function from a declaration.
 
-It includes the checks that these forms share: arcs, pressure angles, kinds of wheels, and the numbering of the gears.
+The module includes the checks that all conjugate forms share: arcs, pressure angles, kinds of wheels, and the numbering
+of the gears.
 """
 
 from __future__ import annotations

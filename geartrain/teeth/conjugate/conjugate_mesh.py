@@ -1,7 +1,7 @@
 """Mesh of a gear pair with conjugate teeth in a train: spur, internal or bevel.
 
-It numbers the wheels as gear 1 and gear 2 of the form. It computes the faults of the pair, its results (arcs, contact
-ratio, transmission error, backlash, efficiency) and its design (sizes, path of contact, losses, outlines).
+The mesh numbers the wheels as gear 1 and gear 2 of the form. It computes the faults of the pair, its results (arcs,
+contact ratio, transmission error, backlash, efficiency) and its design (sizes, path of contact, losses, outlines).
 """
 
 from __future__ import annotations
@@ -263,12 +263,12 @@ class DesignLosses(Result):
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of a pair whose teeth in contact share the load."""
+    """Efficiency of a pair whose tooth pairs in contact share the load, with the assumption on which it is based."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency of sliding, exact in the friction coefficient."""
+    """Efficiency with friction of sliding teeth, exact in the friction coefficient."""
     assumption: str = SHARED
     """Assumption on how teeth in contact share the load, in words."""
 

@@ -34,7 +34,8 @@ class ConjugatePair(Shown):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has methods `pair` and `pair_of_arcs` that return one.
+    geartrain.teeth.Involute : Like every conjugate form, it has methods `pair` and `pair_of_arcs` that return such a
+    pair.
     """
 
     path: PathOfContact
@@ -93,7 +94,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has a method `transmission` that returns one.
+    geartrain.teeth.Involute : Like every conjugate form, it has a method `transmission` that returns such a function.
     """
 
     def __init__(self, pair: ConjugatePair, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:

@@ -145,7 +145,7 @@ class DisplacedWheelSizes:
     half_angle: float
     """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in one unit of these lengths, for example 1 if lengths are in modules."""
+    """Number of modules in the length unit of these sizes; 1 if lengths are in modules."""
 
     @property
     def pitch(self) -> float:
@@ -157,9 +157,9 @@ class DisplacedWheelSizes:
 class DisplacedContact:
     """Contact of one tooth pair throughout its engagement, and the effects of displaced flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are the lag of the driven wheel
-    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). Pairs of columns
-    are for the driver and the driven wheel, in this order.
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel
+    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs
+    of columns, the first column belongs to the driver, the second to the driven wheel.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -320,7 +320,7 @@ class OffDesignTransmission(OutlineTransmission):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has a method `transmission` that returns one.
+    geartrain.teeth.Involute : Like every conjugate form, it has a method `transmission` that returns such a function.
     """
 
     def __init__(

@@ -135,8 +135,8 @@ class InvolutePair:
     def arcs(self) -> tuple[float, float]:
         """Arcs X of approach and recess that the tip circles give [module].
 
-        One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one
-        side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
+        One arc is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on
+        one side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
         """
         pitch, psi = self.pitch, self.psi
         found = []

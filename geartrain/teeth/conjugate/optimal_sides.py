@@ -1,7 +1,7 @@
 """Sides of the optimal tooth forms: uniform stress, uniform temperature and minimum friction; and the involute.
 
-A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the one
-whose dedendum works: a = A, b = B in recess, exchanged in approach.
+A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the pitch
+surface whose dedendum works: a = A, b = B in recess, exchanged in approach.
 
 Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. For
 pressure angles below 45 deg exactly one solution is bounded there. Chebyshev collocation finds that solution, because
@@ -96,7 +96,7 @@ def _piece_over_arc(
 ) -> PathPiece:
     """Solve S v' + f = 0 for the piece that ends at the arc X, by Newton's method for its end d.
 
-    If an end cannot be reached, it is bisected towards the last one that could, whose solution is a better start.
+    If an end cannot be reached, it is bisected towards the last end that was reached, whose solution is a better start.
     """
     piece_maker = piece_maker or _sine_piece
     v: ChebyshevSeries | None = None
@@ -327,7 +327,7 @@ def fitted(
     nodes: int,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """Return the solution of the problem of `solved` with a fixed number of nodes."""
+    """Return the solution of the equation of `solved` with a fixed number of nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges

@@ -59,7 +59,7 @@ class PathLosses(Result):
 
     See Also
     --------
-    measure : Computes these quantities.
+    measure : Function that computes these quantities.
     """
 
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
@@ -106,7 +106,7 @@ class PathMeasures(Result):
 
     See Also
     --------
-    measure : Computes these quantities.
+    measure : Function that computes these quantities.
     """
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))

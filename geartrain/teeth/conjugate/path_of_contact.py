@@ -247,7 +247,7 @@ class PathContact(Shown):
 
     See Also
     --------
-    PathOfContact.at : Evaluates it.
+    PathOfContact.at : Method that computes the contact quantities.
     """
 
     X: Floats
@@ -305,7 +305,7 @@ class PathOfContact(Shown):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has a method `path` that returns one.
+    geartrain.teeth.Involute : Like every conjugate form, it has a method `path` that returns such a path.
 
     Examples
     --------

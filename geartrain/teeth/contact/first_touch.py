@@ -33,8 +33,9 @@ _LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the squ
 class AxlePlacement:
     """Relative position of two axles.
 
-    distance   centre distance; bevel: the shaft angle (rad)
-    ring       number of the wheel that is a ring gear; 0 if neither is
+    distance   centre distance; for bevel wheels, the shaft angle (rad)
+    ring       number of the wheel that is a ring gear; 0 without a ring gear
+
     Azimuths are 0 on the line of centres, on the side where the wheels meet, and increase as both turn forward.
     """
 

@@ -31,13 +31,13 @@ class FlankTable:
     azimuth: Floats
     """Coefficients of the azimuth [rad] by powers of u, shape (COUNT, pieces)."""
     corners: Bools
-    """Flags, (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
+    """Flags, shape (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
-    """Flags, (pieces,): True for circular arcs about the axle."""
+    """Flags, shape (pieces,): True for circular arcs about the axle."""
     first: Indices
-    """Index of the first piece of each tooth, (teeth + 1,)."""
+    """Index of the first piece of each tooth, shape (teeth + 1,)."""
     curve: Indices
-    """Number of the curve that each piece belongs to, (pieces,), counted through all teeth."""
+    """Number of the curve to which each piece belongs, shape (pieces,), counted through all teeth."""
     error: tuple[float, float]
     """Maximum differences between pieces and curves: radius [unit of the outline] and azimuth [rad]."""
 
@@ -53,7 +53,9 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Flags, (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row 1)."""
+        """Flags, shape (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row
+        1).
+        """
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])

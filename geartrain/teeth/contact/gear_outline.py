@@ -34,7 +34,7 @@ class OutlineCurve(Shown):
 
     See Also
     --------
-    polyline : Straight curves.
+    polyline : Function that returns straight curves.
     """
 
     points: Callable[[Floats], Floats]
@@ -150,7 +150,7 @@ class ToothFlanks(Shown):
 
     See Also
     --------
-    solve : An example with such teeth.
+    solve : Contact of two wheels, with an example of such teeth.
     """
 
     ahead: tuple[OutlineCurve, ...]
@@ -222,7 +222,7 @@ class GearOutline(Shown):
 
     See Also
     --------
-    solve : An example with such wheels.
+    solve : Contact of two wheels, with an example of such outlines.
     """
 
     teeth: tuple[ToothFlanks, ...]

@@ -200,8 +200,8 @@ class FlankContact(Shown):
 
     See Also
     --------
-    contact : Returns the contact of one flank.
-    solve : Returns the contacts of both flanks.
+    contact : Function that computes the contact of one flank.
+    solve : Function that computes the contacts of both flanks.
     """
 
     angle: Floats
@@ -239,7 +239,7 @@ class TwoFlankContact(Shown):
 
     See Also
     --------
-    solve : Returns the contacts of both flanks.
+    solve : Function that computes the contacts of both flanks.
     """
 
     front: FlankContact

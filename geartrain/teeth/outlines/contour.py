@@ -32,7 +32,7 @@ class Contour(Shown):
     """
 
     points: Floats
-    """Vertices of the contour, shape (n, 2) [mm]; the last vertex is joined to the first."""
+    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]; the last vertex is joined to the first."""
     bulges: Floats
     """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4). It is 0 for a straight edge and
     positive for an edge that turns left.
@@ -40,7 +40,7 @@ class Contour(Shown):
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """Return a contour through vertices with bulges. Edges of zero length are omitted.
+        """Return a contour through vertices with bulges. Edges shorter than 1e-9 are omitted.
 
         Parameters
         ----------

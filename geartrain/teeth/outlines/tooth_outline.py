@@ -206,7 +206,7 @@ def pin_span(R: float, radius: float) -> Floats:
 class FlankCurve:
     """Flank from its root end to its tip end, lengths in modules.
 
-    Its polyline is always inside the true tooth. Convex parts are approximated by chords and concave ones by tangents,
+    Its polyline is always inside the true tooth. Convex parts are approximated by chords and concave parts by tangents,
     so that teeth in contact without backlash do not overlap.
     """
 

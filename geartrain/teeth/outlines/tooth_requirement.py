@@ -118,7 +118,7 @@ class ToothRequirement(WheelRequirement):
         return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel can satisfy both requirements."""
+        """Return True if one wheel can satisfy both requirements, False otherwise."""
         if not isinstance(other, ToothRequirement):
             return False
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)

@@ -160,7 +160,7 @@ class TriangularContact:
 
     @cached_property
     def overhang(self) -> str:
-        """Statement of an overhanging flank that touches, or that would turn the driven wheel back; empty without such
+        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty without such
         a flank.
         """
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
@@ -222,7 +222,7 @@ class ClearanceWindow(Shown):
 
     See Also
     --------
-    find_window : Returns the window of a pair.
+    find_window : Function that computes the window of a pair.
     """
 
     jam: float

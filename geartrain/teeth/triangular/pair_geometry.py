@@ -69,7 +69,7 @@ class TriangularSizes(Shown):
 
     See Also
     --------
-    geartrain.teeth.Triangular : Its method `sizes` returns them from a declaration.
+    geartrain.teeth.Triangular : Its method `sizes` returns the sizes of a declared pair.
 
     Examples
     --------

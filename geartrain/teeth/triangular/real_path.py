@@ -68,7 +68,7 @@ class DriveInterval:
 
 
 class RealPath:
-    """Contact of all tooth pairs over one pitch of the driver."""
+    """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the pair that drives."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
         """Create the path; with `slips` it includes contacts that limit the driven wheel but cannot drive it."""
@@ -368,7 +368,8 @@ class _PitchTraversal:
     def append(self, interval: DriveInterval) -> None:
         """Append the next interval of the envelope.
 
-        It joins the last one, follows a dwell until it reaches the driven wheel, or clashes with its tip.
+        The interval joins the last interval, follows a dwell until its tooth reaches the driven wheel, or clashes with
+        a tip.
         """
         last = self.held or self.done[-1]
         y = self._dwell_angle(last, interval)

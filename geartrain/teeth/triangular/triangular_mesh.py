@@ -176,7 +176,7 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
-    """Sizes in m, or in the unit of the declared radii."""
+    """Sizes of the pair; lengths in m, or in the unit of the declared radii."""
     window: ClearanceWindow | None
     """Clearance window of the pair; None if such teeth do not exist."""
     intervals: tuple[DriveInterval, ...]
@@ -219,7 +219,10 @@ def triangular_figures(
     impacts: Result | None = None,
     losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
-    """Return the results of a pair; `losses` replaces the losses of the transmission function."""
+    """Return the results of a pair with triangular teeth.
+
+    `losses` replaces the efficiency of the transmission function; `impacts` are the energy losses of the impacts.
+    """
     found, moves = transmission.verdict, bool(transmission.intervals)
     return TriangularFigures(
         (transmission.sizes.z1, transmission.sizes.z2),

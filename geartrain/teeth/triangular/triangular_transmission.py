@@ -58,7 +58,7 @@ class TriangularTransmission(ToothTransmission):
 
     See Also
     --------
-    geartrain.teeth.Triangular : Its method `transmission` returns one from a declaration.
+    geartrain.teeth.Triangular : Its method `transmission` returns the function of a declared pair.
 
     Examples
     --------

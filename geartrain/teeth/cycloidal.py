@@ -73,7 +73,7 @@ class Cycloidal(ConjugateToothForm):
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
             raise bad(
                 "rolling",
-                "a rolling circle as large as the pitch circle generates a dedendum of zero height",
+                "a rolling circle as large as the pitch circle or larger generates no dedendum",
                 "give a fraction below 1 (1/2 makes radial flanks, a larger one undercut flanks)",
             )
         if self.thickness is not None:
@@ -85,7 +85,9 @@ class Cycloidal(ConjugateToothForm):
             min(height.value for height in self.addendum) < 0 or not sum(height.value for height in self.addendum)
         ):
             raise bad(
-                "height", "an addendum is negative, or both are 0", "give modules, 0 or more, not 0 for both wheels"
+                "height",
+                "an addendum is negative, or both are 0",
+                "give addenda of 0 or more modules, not 0 for both wheels",
             )
         return self
 

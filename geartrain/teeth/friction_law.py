@@ -233,7 +233,7 @@ class TabulatedFriction(FrictionLaw):
             raise bad(
                 "friction",
                 "speeds and coefficients do not form a table",
-                "give as many coefficients as speeds, two or more",
+                "give as many coefficients as speeds, at least two of each",
             )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
             raise bad(

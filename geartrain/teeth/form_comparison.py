@@ -88,7 +88,7 @@ class FormComparison(Result):
     base: MeasuredForm
     """Result for the involute."""
     forms: tuple[MeasuredForm, ...]
-    """Results for the compared forms."""
+    """Results for the compared forms, and for an involute with contact in recess only if a form has such contact."""
 
     @property
     def path(self) -> PathOfContact:
@@ -144,7 +144,8 @@ def compare_forms(
     Returns
     -------
     FormComparison
-        Results of the involute, and for each other form its ratios, or the faults that prevent the form from running.
+        Results of the involute, and ratios or faults of each form. If a form has contact in recess only, the last
+        result is an involute with the same arcs.
 
     Raises
     ------

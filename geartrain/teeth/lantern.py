@@ -200,8 +200,8 @@ class Lantern(ConjugateToothForm):
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact passes the pitch "
-                "point",
+                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact occurs at the "
+                "pitch point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
         # chord between the centres of two adjacent pins

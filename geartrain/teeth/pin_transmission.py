@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflows nor overflows
-# the mean of a smooth periodic function over equidistant samples is exact to rounding unless r is close to e
+# the mean of a smooth periodic function over equidistant samples is exact to rounding error unless r is close to e
 _SAMPLES = 4096
 
 

@@ -215,7 +215,7 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the mate's tip passes the point at which the line of action touches the base circle."""
+    """Yield a fault where the mate's tip goes beyond the point at which the line of action touches the base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         # radius of the mate at the point where the line of action touches the base circle of this gear

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import PairFigures
 
-_DESIGN = 1e-9  # relative difference of centre distances that counts as rounding
+_DESIGN = 1e-9  # relative difference of centre distances that counts as rounding error
 
 
 class ConjugateToothForm(ToothForm):

@@ -195,8 +195,8 @@ class ConjugateFigures(PairFigures):
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Return the results of a pair as driven; the kinematic results of involutes are computed even if the pair cannot
-    run.
+    """Return the results of a pair with the present driver; the kinematic results of involutes are computed even if the
+    pair cannot run.
     """
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)

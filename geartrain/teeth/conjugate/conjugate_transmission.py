@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 # 8 nodes give 1e-11 and 16 give rounding on usual teeth; twice as many for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(32)
-_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding
+_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding error
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,10 @@
 """Conjugate teeth away from their design: displaced flanks, and axles at another centre distance.
 
 A flank that protrudes by n along its normal at the contact turns the driven wheel ahead by n divided by the moment arm
-of the normal, docs/cut-by-hand.md (1). The normal passes the pitch point under the pressure angle psi, so the arm is R2
-cos psi on cylinders and sin R2 cos psi on cones; for an involute it is the base radius. Beyond the ends of the path the
-corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from the law of
-cosines.
+of the normal, docs/cut-by-hand.md (1). The normal passes through the pitch point under the pressure angle psi, so the
+arm is R2 cos psi on cylinders and sin R2 cos psi on cones; for an involute it is the base radius. Beyond the ends of
+the path the corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from
+the law of cosines.
 
 At a centre distance other than the design's, the transmission function follows from the contact of both outlines.
 These are the flanks of the design, each continued straight beneath its last designed contact.

@@ -41,10 +41,10 @@ if TYPE_CHECKING:
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
 _NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
-FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding
+FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding error
 _UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
 _STEPS = 25  # maximum number of Newton steps
-_ROUGH = 1e-9  # residuals below this are rounding
+_ROUGH = 1e-9  # residuals below this are rounding error
 _CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and tolerance of their rounding
 _NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
 # 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
@@ -124,7 +124,7 @@ def _end_step(piece: PathPiece, X: float) -> float:
 
 
 def _at_rounding(step: float, last: float, end: float) -> bool:
-    """Return True for a step at rounding, or near it once steps no longer decrease."""
+    """Return True if a step is rounding error, or nearly so once steps no longer decrease; False otherwise."""
     return abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last)
 
 
@@ -364,7 +364,7 @@ class _Collocated:
                 if part < 1e-9:
                     raise unreachable_end(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
-            # stop at rounding, or where the residual no longer decreases
+            # stop at rounding error, or where the residual no longer decreases
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
             v = trial
             if done:

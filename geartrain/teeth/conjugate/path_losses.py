@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # grid points of one piece in the search for a maximum
 _NARROWED, _ACROSS = 5, 33  # number of refinements of its bracket, and grid points of each
-_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding
+_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding error
 
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"

@@ -196,7 +196,7 @@ class PathSide:
 
     @cached_property
     def _offsets(self) -> dict[int, float]:
-        """Arc X at the start of each piece, by `id` of the piece."""
+        """Arc X at the start of each piece, with the `id` of the piece as key."""
         total, starts = 0.0, {}
         for piece in self.pieces:
             starts[id(piece)] = total

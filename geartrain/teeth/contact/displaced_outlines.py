@@ -1,10 +1,10 @@
 """Effect of displaced flanks on the driven wheel, for any two outlines without a path of contact.
 
-A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes the
-point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along the
-normal turns the driven wheel ahead by n divided by the moment arm of the normal about the driven axle,
-docs/cut-by-hand.md (1), as for conjugate teeth. Unlike for conjugate teeth, the lag of
-error-free wheels is not constant.
+A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes
+through the point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n
+along the normal turns the driven wheel ahead by n divided by the moment arm of the normal about the driven axle,
+docs/cut-by-hand.md (1), as for conjugate teeth. Unlike for conjugate teeth, the lag of error-free wheels is not
+constant.
 """
 
 from __future__ import annotations
@@ -90,8 +90,8 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of
-        speeds.
+        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
+        ratio of speeds.
 
         At that point itself the result is the normal of the flank.
         """

@@ -284,7 +284,7 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the touches of each segment to rounding: both ends, and the interior maximum of G if there is one."""
+        """Return the touches of each segment, exact except for rounding error: its ends and an interior maximum of G."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -302,7 +302,7 @@ class FirstTouchSearch:
         step = _ASIDE * (ends_u[1] - ends_u[0])
         stalled = self._stalled(segments)
         for side, way in ((0, 1), (1, -1)):
-            # where a curve is stationary at its end the slope there is 0 up to rounding
+            # where a curve is stationary at its end the slope there is 0 up to rounding error
             which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))
             ends_u[side, which] += way * step[which]
             slopes[side, which] = rising(ends_u[side, which], which)
@@ -336,7 +336,7 @@ class FirstTouchSearch:
             trusted = np.abs(off / np.where(at_end, change, rise)) <= _LEFT
             correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
-        # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding
+        # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding error
         angle = view.azimuth - a - correction - tooth_pairs.place[segments.tooth_pair]
         radius1 = value_alone(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.tooth_pair)

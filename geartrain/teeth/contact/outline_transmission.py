@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the fitted polynomials have degree 30
 _NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
-_FLAT = 1e-9  # smaller friction slopes against a contact are rounding, and do not lock
+_FLAT = 1e-9  # smaller friction slopes against a contact are rounding error, and do not lock
 _SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 
 
@@ -86,7 +86,7 @@ class OutlineTransmission(ToothTransmission):
         """Verdict on whether the pair can run: faults of its teeth, backlash and gaps in contact at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
-        # rad: without backlash the teeth touch on both sides up to rounding
+        # rad: without backlash the teeth touch on both sides up to rounding error
         found = self.gears.faults if backlash >= -1e-12 else (*self.gears.faults, _jam(self.distance, backlash))
         if not np.isfinite(backlashes).all():
             found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(backlashes)))))
@@ -154,8 +154,8 @@ class OutlineTransmission(ToothTransmission):
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S [rad]; NaN without contact or if friction locks the teeth.
 
-        The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the
-        speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
+        The common normal passes through the instantaneous pitch point, which divides the centre distance in the ratio
+        of the speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
         """
         return self._efficiency_of(_friction_terms(self.gears, self.driver, self._forward(S)))
 
@@ -255,7 +255,7 @@ def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[
     middle = forward + (at.pair + 0.25) * first.pitch
     ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
     off = along - R1
-    # closer to the pitch point the root above is rounding and does not determine a normal
+    # closer to the pitch point the root above is rounding error and does not determine a normal
     apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
     return _friction_terms_at(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding
+_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding error
 # Chebyshev nodes are interior, so that a stretch is never evaluated beyond its kinks
 _NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)
 # between the nodes, where fits have their largest errors, and inside the ends, beyond which the contact may change
@@ -264,7 +264,7 @@ class _Fitter:
     def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
         """Return flags of intervals that are within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
-        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding
+        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
         stuck = (stretches.off > before / 4) & (before < 1e-10)
         good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
         return good
@@ -293,7 +293,7 @@ class _Fitter:
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return the driver angles at which the contact changes in each interval, located to rounding."""
+        """Return the driver angles at which the contact changes in each interval, exact except for rounding error."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)

@@ -362,7 +362,7 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
     if low >= reach:
         return 0.0, 0.0
     start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
-    # close to the excess at which tips last touch the sign is due to rounding
+    # close to the excess at which tips last touch the sign is due to rounding error
     if start >= reach * (1 - 1e-6):
         return 0.0, 0.0
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)

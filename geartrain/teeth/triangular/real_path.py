@@ -28,7 +28,7 @@ from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP
 
 DWELL = "dwell"
 _ROUNDING = 1e-11  # of a pitch: shorter intervals are discarded
-_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding
+_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding error
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,7 +226,7 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """Return the lowest branch at t; within rounding the previous one, because branches may coincide over a
+        """Return the lowest branch at t; within rounding error the previous one, because branches may coincide over a
         range.
         """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]

@@ -121,8 +121,8 @@ class TriangularMesh(GearMesh):
     def separation(self) -> float:
         """Mean separating force divided by the tangential force, at constant torque on the driven wheel.
 
-        The normal makes the angle psi with the pitch line and passes both centres at n1 + n2 = D cos(psi), or at the
-        difference with a ring gear: (31) of docs/strength.md.
+        The normal makes the angle psi with the pitch line. The sum of its distances from both centres is n1 + n2 =
+        D cos(psi); with a ring gear, the difference: (31) of docs/strength.md.
         """
         sizes, arms = self.transmission.sizes, self.transmission.contact.path.tooth_pair.normal_arms
         radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0

@@ -176,7 +176,7 @@ class CircularArc(ToothForm):
                 why = (
                     f"circular-arc teeth are computed for {_FEWEST} to {_MOST_TEETH} teeth (BS 978 begins at 6 leaves)"
                 )
-                raise refused(f"a wheel of {z} teeth has no circular-arc teeth", why, IDEAL)
+                raise refused(f"a wheel of {z} teeth cannot have circular-arc teeth", why, IDEAL)
         pinion = self.pinion or (1 if z1 < z2 else 2)
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
         factor, many = addendum_factor(zp, zw / zp), zp > 10

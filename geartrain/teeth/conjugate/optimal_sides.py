@@ -278,7 +278,8 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
     """Return the first variation of the piece, docs/shapes.md (13) or (19).
 
-    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi).
+    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi), with lambda = S / cos psi at the
+    end of the piece. The S in these two terms is replaced by `loss` if friction depends on speed.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2

@@ -284,7 +284,7 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the touches of each segment, exact except for rounding error: its ends and an interior maximum of G."""
+        """Return the touches of all segments, exact to rounding error: both ends, and any interior maximum of G."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 

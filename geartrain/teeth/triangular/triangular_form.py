@@ -205,7 +205,7 @@ class Triangular(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Tooth numbers of the driver and of the driven wheel, 3 or more.
+            Tooth numbers of the first and of the second wheel, 3 or more. The first wheel drives.
         pitch_distance : float, optional
             Half the module times the sum of the tooth numbers, or times the difference for a ring gear [m]. It becomes
             the centre distance at which a tip touches the bottom of a space.
@@ -225,7 +225,7 @@ class Triangular(ToothForm):
         """
         for z in (z1, z2):
             if z < FEWEST:
-                what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
+                what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have triangular teeth"
                 raise refused(
                     what,
                     "flanks of fewer teeth do not meet in valleys",

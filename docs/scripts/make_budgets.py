@@ -210,7 +210,7 @@ $ geartrain budget assumed.yaml --of moon
 | theory | the anomaly of the pins differs from the true motion of Moon or Sun | peak to peak, at the best phase |
 | teeth | transmission error of perfectly made teeth | peak to peak |
 | lost motion | backlash of the teeth if the crank is turned back | maximum |
-| cutting | pointer error due to deviations of the wheels from their nominal shape | central 95 % range of the Monte Carlo trials |
+| cutting | pointer error due to deviations of teeth and wheels | central 95 % range of the Monte Carlo trials |
 
 **Ratio.** If $w$ is the mean speed of a pointer (turns per unit of time) and $t$ its target, the angle that the pointer
 gains during the time $T$ is

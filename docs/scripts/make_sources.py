@@ -22,9 +22,10 @@ HEAD = """# Sources and their errata
 
 This page compares every number, equation and statement of four sources with the values that geartrain computes. The
 tests recompute each value. A number is classified as reproduced if the computed value agrees with it to within half a
-unit of the last printed digit, and an equation if its two sides are equal at many positions. A number is classified as
-read if the shipped train or table declares it; such a number is not computed. The errata of each source are numbered,
-and the evidence for each erratum is the computed value. The last section lists errata of other publications.
+unit of the last printed digit; an equation is classified as reproduced if its two sides are equal at many positions. A
+number is classified as read if the shipped train or table declares it; such a number is not computed. The errata of
+each source are numbered, and the evidence for each erratum is the computed value. The last section lists errata of
+other publications.
 
 To see how a value is computed, run, for example, `python docs/scripts/make_sources.py 'Sorge Eq. (12)'`.
 """

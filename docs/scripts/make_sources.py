@@ -61,15 +61,14 @@ def section(source: Source) -> Iterator[str]:
     yield from (f"## {source.name}", "", f"{source.cite}. {source.text}", "")
     yield from table(("erratum", "place", "printed", "correct", "evidence"), errata(source))
     if equations:
-        yield f"**Equations reproduced** (maximum relative difference): {equal(equations)}."
-        yield ""
+        yield from table(("equations reproduced", "maximum relative difference"), equal(equations))
     if numbers:
         yield from table(("place", "number", "printed", "computed"), grouped(numbers))
     if statements:
         yield from table(("place", "statement", "computed"), [(r.place, r.claim, r.ours) for r in statements])
     outside = [row for row in source.rows if row.verdict == OUTSIDE]
     if outside:
-        yield from ("**Not computed**:", "", *not_computed(outside), "")
+        yield from table(("not computed", "reason"), not_computed(outside))
 
 
 def errata(source: Source) -> list[tuple[str, ...]]:
@@ -87,12 +86,12 @@ def errata(source: Source) -> list[tuple[str, ...]]:
     ]
 
 
-def equal(rows: Iterable[Row]) -> str:
-    """Return the places of equations by the bound of their difference."""
+def equal(rows: Iterable[Row]) -> list[tuple[str, ...]]:
+    """Return the places of equations and the bound of their difference, a line for each bound."""
     bounds: dict[str, list[str]] = {}
     for row in rows:
         bounds.setdefault(row.ours.removeprefix("equal to "), []).append(row.place)
-    return ". ".join(f"{bound}: {'; '.join(merged(places))}" for bound, places in bounds.items())
+    return [("; ".join(merged(places)), bound) for bound, places in bounds.items()]
 
 
 def merged(places: Iterable[str]) -> Iterator[str]:
@@ -126,13 +125,13 @@ def short(row: Row) -> str:
     return row.ours.partition(" = ")[0] if " = " in row.ours else row.ours
 
 
-def not_computed(rows: Iterable[Row]) -> list[str]:
-    """Return a list of reasons with the places of statements that are not computed."""
+def not_computed(rows: Iterable[Row]) -> list[tuple[str, ...]]:
+    """Return the places of statements that are not computed and the reason, a line for each reason."""
     reasons: dict[str, list[str]] = {}
     for row in rows:
         reason = row.why.partition("; ")[0] if row.why.startswith(NOT_COMPUTED) else row.why
         reasons.setdefault(reason, []).append(row.place)
-    return [f"- {'; '.join(places)}: {reason}" for reason, places in reasons.items()]
+    return [("; ".join(places), reason) for reason, places in reasons.items()]
 
 
 def table(header: tuple[str, ...], body: Iterable[tuple[str, ...]]) -> Iterator[str]:

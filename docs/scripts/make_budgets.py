@@ -254,11 +254,10 @@ error.
 
 ## Largest error of each train
 
-For each shipped train in its first state, the table lists the pointer with the largest total error and its two largest
-causes in degrees. "Assumed" means that the train declares no teeth, so the budget assumes the teeth of the example and
-bearing friction at every pointer. "None" means that triangular teeth cannot be assumed, because they cannot mesh with
-the tooth counts of the train.
-"""
+For each shipped train in its first state, the table lists the pointer with the largest total error and the two largest
+contributions to this error, in degrees. "Assumed" means that the train declares no teeth, so the budget assumes the
+teeth of the example and bearing friction at every pointer. "None" means that triangular teeth cannot be assumed,
+because triangular wheels with these tooth counts cannot turn. """
 
 PUBLISHED = """## Published statements
 

@@ -205,7 +205,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """Return all files of the requested kinds, small files first, followed by a README that lists them.
+    """Return all files of the requested kinds, followed by a README that lists them.
 
     Parameters
     ----------
@@ -243,7 +243,7 @@ def export_files(
             Problem(
                 f"'{unknown[0]}' is not a kind of export",
                 "each kind is the name of a format",
-                f"use some of {', '.join(KINDS)}",
+                f"use one or more of {', '.join(KINDS)}",
                 "--as",
             )
         )
@@ -372,7 +372,7 @@ def to_tables(work: SolidModel) -> Mapping[str, str]:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as exact and as decimal text; two empty texts for None."""
+    """Return a number as an exact and as a decimal string; two empty strings for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 

@@ -26,7 +26,7 @@ _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # a fixed date, so that the same trai
 
 
 def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
-    """Return the gear unit of a train as REXS JSON text."""
+    """Return the gear unit of a train in REXS JSON format."""
     return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -103,7 +103,7 @@ class _Unit:
         self.relate("assembly", assembly=shaft, part=number)
 
     def angle(self, name: str) -> float:
-        """Return the pressure angle of the first involute pair of a wheel [deg]; 20 without such a pair."""
+        """Return the rack angle of the first pair of a wheel whose tooth form has a rack [deg]; 20 without a rack."""
         forms = (self.declared.form_of(gear) for gear in self.declared.gears if name in gear.pair)
         angles = (form.rack_angle for form in forms if form is not None)
         return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)
@@ -140,7 +140,10 @@ class _Unit:
 
 
 def _per_minute(work: SolidModel) -> Mapping[str, Fraction]:
-    """Return the speeds of links in turns per minute; speeds that are not per time are taken as turns per minute."""
+    """Return the speeds of links in turns per minute; empty if the train is not solved.
+
+    Speeds that are not per time are taken as turns per minute.
+    """
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration
     factor = Fraction(1) if declared.unit_speed is None else 60 * declared.unit_speed

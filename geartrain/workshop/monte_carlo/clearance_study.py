@@ -51,7 +51,11 @@ class ClearanceCase(Result):
 
 
 def read_clearances(text: str) -> list[float]:
-    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9`; windows are below 1, factors are not."""
+    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9` into equally spaced clearances, ends
+    included.
+
+    Fractions of a window are below 1, and clearance factors are at least 1.
+    """
     name, _, rest = text.partition("=")
     bounds = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0)}.get(name.strip())
     try:
@@ -61,10 +65,10 @@ def read_clearances(text: str) -> list[float]:
         low, high, count = 0.0, 0.0, 0
     if bounds is None or not bounds[0] <= low <= high < bounds[1] or not 1 <= count <= _MOST:
         why = (
-            "a sweep is NAME=FIRST:LAST:COUNT of clearance_factor (1 to 10) or window (0 to 1), with a count up to "
-            f"{_MOST}"
+            "a sweep is NAME=FIRST:LAST:COUNT of ascending values of clearance_factor (1 to 10) or window (0 to 1), "
+            f"with a count of at most {_MOST}"
         )
-        fix = "give --vary clearance_factor=1.005:1.04:8"
+        fix = "for example, give --vary clearance_factor=1.005:1.04:8"
         raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, fix, "--vary"))
     return [float(each) for each in np.linspace(low, high, count)]
 
@@ -143,5 +147,6 @@ def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
     columns = [*marks.T, np.bitwise_or.reduce(marks, axis=1)]
     return [
         [[int(np.count_nonzero(cut & mark)), len(cut)] for mark in EVENTS.values()]
+        # trials with a wheel that cannot be cut are not counted, as in the trials themselves
         for cut in (each[(each & UNCUT) == 0] for each in columns)
     ]

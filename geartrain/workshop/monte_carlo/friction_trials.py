@@ -288,7 +288,7 @@ class FrictionTrials(Result):
     starting: TrialFigure
     """Starting torque of the train, in the trials without locking [N m, or the unit of the loads]."""
     efficiency: TrialFigure
-    """Efficiency over the run: output energy divided by input energy."""
+    """Efficiency over the run: output energy divided by input energy, in the trials in which it is defined."""
     locks: ProbabilityEstimate
     """Probability that friction locks the train at some position of the run."""
 

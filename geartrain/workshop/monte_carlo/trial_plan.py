@@ -76,7 +76,7 @@ class TrialPair(ABC):
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
     """Errors of the axes by kind, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
-    """Depth of one stroke of the file over the same tooth depth; 0 if the pair is not filed."""
+    """Depth of one stroke of the file divided by the same tooth depth; 0 if the pair is not filed."""
 
     @property
     @abstractmethod
@@ -118,7 +118,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair at another clearance."""
+        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the probability of a jam for normal pitch deviations `sigma` [pitch]; NaN without a
@@ -183,7 +183,9 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
+        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
+        limit.
+        """
         whole = _with_trial_axis(pair, pair.trials[0] if pair.trials else 1)
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(whole, tight_place, self.stroke * self.depth, limit)
@@ -261,7 +263,9 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
+        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
+        limit.
+        """
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
@@ -359,8 +363,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return the upper bound of the jam probability of a pair; NaN unless its wheels have only normal pitch
-        deviations.
+        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed or has other errors than
+        normal pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------
@@ -457,7 +461,7 @@ def find_trial_plan(
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no manufacturing errors"
         why = "without them all trials are identical"
-        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting pitch_deviation='2 %'"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting 'pitch_deviation=2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))

@@ -51,7 +51,7 @@ class TrialResults(Tabular):
         "trial": "Number of the trial, from 0.",
         "turns": "Position of the input [turn].",
         "* error (deg)": "Pointer error of the output [deg].",
-        "* events": "Sum of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not to be cut.",
+        "* events": "Bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.",
     }
 
     plan: TrialPlan
@@ -76,7 +76,7 @@ class TrialResults(Tabular):
     wheel].
     """
     filing: Floats
-    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs)."""
+    """Numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 * pairs)."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -200,6 +200,7 @@ class TrialResults(Tabular):
         }
         whole = sum(parts.values(), np.zeros(np.count_nonzero(runs)))
         total = float(np.var(whole)) if len(whole) else 0.0
+        # covariances instead of variances, because pairs with a common wheel are correlated
         return {name: float(np.mean(part * (whole - whole.mean()))) / total for name, part in parts.items() if total}
 
     @property
@@ -391,7 +392,7 @@ class PointerErrorStatistics(Result):
     """Root mean square of the error from first-order superposition, and root mean square of the pointer error [rad]."""
     shares: Mapping[str, float]
     """Share of each pair in the variance of the pointer error, from first-order superposition; the sum of the shares
-    is 1.
+    is 1. Empty if the variance is 0.
     """
 
     @property
@@ -408,7 +409,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def of_all(self) -> bool:
-        """True if the output can turn in fewer than 30 trials. The statistics are then computed from all trials."""
+        """True if the output can turn in fewer than 30 trials. The statistics are then computed from `all`."""
         return len(self.errors) < FEWEST
 
     @property
@@ -449,7 +450,8 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer error of one output over one revolution of the output, for each trial.
+    """Pointer error of one output over one revolution of the output (of the input if the output is fixed), for each
+    trial.
 
     See Also
     --------

@@ -38,6 +38,7 @@ def impact_of(transmission: TransmissionFunction) -> float:
     This ratio is the energy that inelastic impacts dissipate in a pitch, docs/motion.md (7), divided by the kinetic
     energy of the driven side.
     """
+    # energies are proportional to the square of a speed, and the mass cancels
     return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2
 
 
@@ -283,5 +284,5 @@ def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
 
 
 def rounded(sizes: ToothSizes) -> ToothSizes:
-    """Return the design with its sizes rounded to the digits of a declaration."""
+    """Return the design with its radii and window rounded to the digits of a declaration."""
     return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})

@@ -69,7 +69,7 @@ class SizeSearch:
 
     @property
     def bounds(self) -> tuple[Range, ...]:
-        """Bounds of the free parameters, in their order."""
+        """Bounds of the free parameters, in the order of `free`."""
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
@@ -77,8 +77,8 @@ class SizeSearch:
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective function of a point; designs that do not turn or violate a limit have values above all
-        others.
+        """Return the objective as a function of a point; designs that do not turn or violate a limit have larger values
+        than all feasible designs.
         """
 
         def figure(at: Point) -> float:
@@ -146,6 +146,7 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
 
 
 def _limit(aim: str, merit: float) -> SizeLimit:
+    # the merit of `jam` is minus the margin, because merits are minimised
     return SizeLimit(aim, -merit if aim == "jam" else merit)
 
 
@@ -162,7 +163,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
             why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
-            fix = f"use some of {', '.join(PARAMETERS)}"
+            fix = f"use one or more of {', '.join(PARAMETERS)}"
             raise QuestionError(
                 Problem(
                     what, why if name in _CLEARANCES else "other sizes follow from these parameters or are fixed", fix
@@ -176,7 +177,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
                 Problem(
                     what,
                     "the lower bound must be below the upper bound, and both must be in the permitted range",
-                    f"give bounds from {minimum:g} to {most:g}",
+                    f"give bounds from {minimum:g} to {most:g} (angles in rad)",
                 )
             )
         found[name] = (float(low), float(high))
@@ -185,7 +186,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             Problem(
                 "no parameter is free",
                 "a search needs at least one free parameter",
-                f"free some of {', '.join(PARAMETERS)}",
+                f"free one or more of {', '.join(PARAMETERS)}",
             )
         )
     return found
@@ -265,7 +266,7 @@ class PairTrials:
 def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
     """Return the best design within a probability limit, and its probability.
 
-    Designs are evaluated in the order of their objective; those near a rejected design are omitted.
+    Designs are evaluated in the order of their objective; designs near a rejected design are omitted.
     """
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
@@ -292,6 +293,7 @@ def _bisect_to_limit(
     beyond = min(refused, key=lambda other: distance(at, other, search.bounds))
     for _ in range(_HALVINGS):
         middle = tuple((a + b) / 2 for a, b in zip(at, beyond, strict=True))
+        # the objective comes first, because the probability needs Monte Carlo trials
         better = value(middle) < value(at) and (found := limit.probability(search.design(middle))) <= limit.bound
         at, beyond, probability = (middle, beyond, found) if better else (at, middle, probability)
     return search.design(at), probability
@@ -352,6 +354,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
     lows, highs = zip(*bounds, strict=True)
     # only the number of samples ends the search, not the volume or the side of a cell
     number = _DIVISIONS[min(len(bounds), len(_DIVISIONS)) - 1]
+    # the original DIRECT: the locally biased variant suits functions with few local minima
     direct(sampled, Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
     if len(bounds) == 1:
         for end in bounds[0]:  # neither DIRECT nor Brent's method evaluates an end

@@ -135,7 +135,7 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Return the objective of the train before and after as text: `pennestri-2002-teeth to 19: loss (%) 46.9 as
+    """Return a string of the objective of the train before and after: `pennestri-2002-teeth to 19: loss (%) 46.9 as
     declared, 15.7 optimised`.
     """
     before, after = (

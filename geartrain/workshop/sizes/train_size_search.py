@@ -31,7 +31,7 @@ from geartrain.workshop.sizes.size_search import Range, SizeSearch, checked_rang
 
 OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
-"""Turns of the input and number of positions for the error of a pointer. The positions do not affect its extremes."""
+"""Turns of the input and number of positions for the error of a pointer. Its extremes are refined between positions."""
 
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
 _TRIES = 8  # maximum evaluations of the train in one step of the descent
@@ -220,6 +220,7 @@ class TrainSizeSearch:
         self._on_step()
         if not self._is_joint:
             each = [sizes[name].merit(self.aim) for name in self._requested]
+            # the smallest margin decides on a jam, and impacts add up
             return max(each) if self.aim == "jam" else sum(each)
         try:
             return self._loss(self._resized(sizes)) if self.aim == "loss" else self._error(self._resized(sizes))
@@ -242,6 +243,7 @@ class TrainSizeSearch:
         """Optimise the sizes of the pairs, first separately and then together."""
         before = {name: self._starts[name] for name in self._requested}
         runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._requested}
+        # the train itself, because the sizes in `before` would be rounded to the digits of a declaration
         first = self.figure({}) if all(runs.values()) and self._is_joint else self.figure(before)
         apart = self._separate_optima()
         alone = self.figure(apart)
@@ -249,7 +251,7 @@ class TrainSizeSearch:
         best, together = (first, before) if first < alone and self._is_joint else (alone, apart)
         if best == inf:
             what = f"'{self.train.name}' cannot drive '{self.output}' with any sizes of its teeth"
-            why = "the train does not run with any sizes in the ranges"
+            why = "with all evaluated sizes, friction locks the train, or it cannot turn"
             raise QuestionError(Problem(what, why, f"see `geartrain torques {self.train.name}` for the cause"))
         if self._is_joint:
             best, together = self._descend(best, dict(together))
@@ -493,6 +495,7 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
         sizes = sizes.swapped()
     place = 0.5
     if window and mesh.verdict.kind == "runs":
+        # rounding can put a clearance at an end of the window outside it
         place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
     radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
     # friction that depends on speed is replaced by its mean coefficient at the speed of the pair

@@ -130,11 +130,15 @@ class SizeQuestion:
         if self.best is None:
             for option, given in (("--free", self.free), ("--within", self.within), ("--cutting", self.errors)):
                 if given:
-                    raise option_error(option, "the objective is missing", "give --objective too")
+                    raise option_error(
+                        option, "the option applies only to a search with --objective", "give --objective too"
+                    )
             return
         for option, other in others.items():
             if other:
-                raise option_error(option, "it cannot be combined with --objective", "omit one of them")
+                raise option_error(
+                    option, "the option cannot be combined with --objective", "omit one of the two options"
+                )
 
     def answer(self, pair: PairRequest, to: Sink, picture: Sink, json: bool) -> NoReturn:
         """Write the best sizes as report, data and plot, and exit."""
@@ -207,7 +211,7 @@ def _start(pair: PairRequest) -> ToothSizes:
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
-    """Parse texts NAME or NAME=LOW:HIGH to a mapping from name to bounds; without texts, the radii are free."""
+    """Parse strings NAME or NAME=LOW:HIGH to a mapping from name to bounds; without strings, the radii are free."""
     found: dict[str, tuple[float, float] | None] = {}
     for text in given or ("radii",):
         name, equals, rest = text.partition("=")
@@ -226,7 +230,7 @@ def _bound(name: str, text: str) -> float:
 
 
 def read_limits(given: Sequence[str]) -> list[SizeLimit]:
-    """Parse texts NAME=LIMIT; each limit is a maximum or a minimum, depending on the quantity."""
+    """Parse strings NAME=LIMIT; each limit is a maximum or a minimum, depending on the quantity."""
     from geartrain.workshop.sizes.size_design import SizeLimit
 
     found = []

@@ -150,6 +150,7 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     room = (found.high - found.low) * R
+    # NaN at positions in which the second wheel is nowhere free
     measured = room[~np.isnan(room)]
     blocked = bool((found.overlap > NOTHING).any())
     tips = zip(turned.materials, turned.reaches, turned.counts, strict=True)
@@ -225,7 +226,9 @@ def _findings(
         )
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
-        yield BuildFinding("T4", "note", Problem(what, "such narrow tips burn or break", "shorten the addendum"))
+        yield BuildFinding(
+            "T4", "note", Problem(what, "tips narrower than 0.2 modules burn or break", "shorten the addendum")
+        )
 
 
 _STUCK = "overlapping teeth cannot turn"

@@ -58,7 +58,7 @@ class TrainProof(Result):
     meshes: tuple[MeshProof, ...]
     """Measured values of every pair of wheels whose teeth are cut."""
     links: tuple[LinkFreedom, ...]
-    """Measured freedom of motion of every link that turns."""
+    """Freedom of every link except the frame and the inputs, while the inputs are held."""
     findings: tuple[BuildFinding, ...]
     """Findings of the check: errors, then notes on parts that are risky or could not be checked."""
 
@@ -69,7 +69,7 @@ class TrainProof(Result):
 
     @property
     def verdict(self) -> str:
-        """Verdict as one sentence."""
+        """Verdict in one sentence: "ready to cut", or the first error and the number of further errors."""
         errors = build_errors(self.findings)
         if not errors:
             return "ready to cut"
@@ -154,7 +154,7 @@ def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings on axes that the plates cannot bear and on obstacles of arbors."""
+    """Yield findings on axes that the plates cannot bear, on obstacles of arbors, and on cups of flexible wheels."""
     if work.frame is None:
         return
     for cup in work.frame.plan.stack.cups:
@@ -282,6 +282,7 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
     pitch, z = 2 * np.pi / counts, blank.teeth
     middle = wave.radius + wave.wave.wall / 2
     line = _divided(np.asarray(thin.exterior.coords)[:-1])
+    # over this range the wheel turns back by one of its pitches, after which the positions repeat
     for turn in np.arange(_POSITIONS) * pitch / _POSITIONS * counts / (counts - z):
         own = -turn * (counts - z) / z
         bent = shapely.Polygon(bent_line(line, middle, (wave.wave.rise, wave.wave.lobes), (own, turn)))

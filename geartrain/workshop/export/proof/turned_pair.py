@@ -58,7 +58,7 @@ class FreeTurn:
     overlap: Floats
     """Minimum common area over all lags [mm2]; 0 if wheel 2 is free."""
     place: tuple[float, float] | None
-    """Position of the largest overlap, relative to the axis of wheel 1 [mm]; None without overlap."""
+    """Position of the largest overlap [mm], relative to the axis of wheel 1; None without overlap."""
 
 
 @dataclass(frozen=True)
@@ -210,6 +210,7 @@ class TurnedPair:
         a = self.distance
         if not a:
             return pi, pi
+        # law of cosines in the triangle of both axes and an intersection of the tip circles
         one = (other**2 - tip**2 - a**2) / (2 * a * tip) * (1 if self.ring else -1)
         two = (a**2 + other**2 - tip**2) / (2 * a * other)
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
@@ -403,4 +404,6 @@ def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tole
 
 
 def _uncuttable(what: str, why: str) -> GearTrainError:
-    return GearTrainError(Problem(f"the drawing cannot be cut: {what}", why, "change its teeth, its bore or its rim"))
+    return GearTrainError(
+        Problem(f"the drawing cannot be cut: {what}", why, "change the teeth, the bore or the rim of the wheel")
+    )

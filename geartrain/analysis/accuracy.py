@@ -41,7 +41,7 @@ class MethodAccuracy(Shown):
 
     See Also
     --------
-    find_accuracy : Measures them.
+    find_accuracy : Measure all methods on a train.
     """
 
     stage: Stage
@@ -68,7 +68,7 @@ class TrainAccuracy(Tabular, TrainResult):
 
     See Also
     --------
-    find_accuracy : Returns it.
+    find_accuracy : Measure all methods on a train.
     """
 
     KEYS = ("state", "positions", "methods", "neglected")

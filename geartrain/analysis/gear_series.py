@@ -27,14 +27,14 @@ _FIGURES = 12  # decimals to which sums of squares are compared, so that roundin
 
 @dataclass(frozen=True)
 class PossibleGear(Result):
-    """Gear that results from closing a set of shift elements (clutches and brakes)."""
+    """Gear of a gearbox that results from closing a set of shift elements (clutches and brakes)."""
 
     engaged: tuple[str, ...]
     """Closed shift elements, in the order of declaration."""
     ratio: Fraction | None
     """Speed of the input divided by speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Declared states in which exactly these elements are closed."""
+    """Declared states that engage the same elements; empty for an undeclared gear."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class GearSearch(Tabular, Result):
 
     See Also
     --------
-    find_gears : returns it.
+    find_gears : Enumerate the gears.
     """
 
     MEANINGS: ClassVar = {
@@ -100,9 +100,9 @@ class GearSearch(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """Driving link."""
+    """Name of the driving link."""
     output: str
-    """Driven link."""
+    """Name of the driven link."""
     closed: int
     """Number of elements that must be closed so that the inputs determine all speeds."""
     combinations: int

@@ -47,7 +47,7 @@ class GearTrain:
 
     See Also
     --------
-    load : a train from a file or by name
+    load : Load a train from a file or by name.
 
     Notes
     -----
@@ -321,7 +321,7 @@ class GearTrain:
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """Yield the solved speeds of every state, in the order of declaration; one answer for a train without states."""
+        """Yield the solved speeds of every state in the order of declaration; one answer for a train without states."""
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
@@ -353,7 +353,7 @@ class GearTrain:
         Returns
         -------
         OutputFormula
-            Exact formula in lowest terms, available as text, LaTeX or a sympy expression.
+            Exact formula in lowest terms, available as plain text, LaTeX or a sympy expression.
 
         Raises
         ------
@@ -545,8 +545,8 @@ class GearTrain:
         Parameters
         ----------
         rate : str or float, optional
-            Speed of the first input that turns, in its declared sense, as text such as "1 turn/s" or a number [rad/s];
-            by default the declared drive.
+            Speed of the first input that turns, in its declared sense, as a string such as "1 turn/s" or a number
+            [rad/s]; by default the declared drive.
         turns : float
             Number of evaluated revolutions of that input in its mean motion.
         state : str, optional

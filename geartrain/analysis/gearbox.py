@@ -37,7 +37,7 @@ class GearState(Result):
     state: str
     """Name of the state."""
     engaged: tuple[str, ...]
-    """Closed shift elements."""
+    """Names of the closed shift elements."""
     verdict: Verdict
     """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
@@ -73,7 +73,7 @@ class GearState(Result):
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state to the next."""
+    """Shift from one state of a gearbox to a following state, with the elements that open and close."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -82,9 +82,9 @@ class Shift(Result):
     after: str
     """State after the shift."""
     released: tuple[str, ...]
-    """Elements that open."""
+    """Names of the elements that open."""
     applied: tuple[str, ...]
-    """Elements that close."""
+    """Names of the elements that close."""
 
     @property
     def is_double(self) -> bool:
@@ -123,7 +123,7 @@ class Gearbox(Tabular, Result):
 
     See Also
     --------
-    geartrain.GearTrain.gearbox : returns it.
+    geartrain.GearTrain.gearbox : Compute these results.
     """
 
     MEANINGS: ClassVar = {
@@ -145,9 +145,9 @@ class Gearbox(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """Driving link."""
+    """Name of the driving link."""
     output: str
-    """Driven link."""
+    """Name of the driven link."""
     states: tuple[GearState, ...]
     """States in the order of declaration."""
     elements: tuple[ShiftElement, ...]

@@ -29,7 +29,7 @@ class TrainVariants(Tabular, Result):
 
     See Also
     --------
-    geartrain.GearTrain.variants : returns it.
+    geartrain.GearTrain.variants : Compute the table.
     """
 
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")

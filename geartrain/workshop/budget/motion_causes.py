@@ -84,7 +84,7 @@ class ToothMotion:
     ripple: Mapping[str, RunningStatistics]
     """Statistics of the error due to the teeth [rad], by output."""
     lost: Mapping[str, tuple[float, float]]
-    """Maximum and rms of the motion lost when the crank reverses [rad], by output."""
+    """Maximum and rms of the lag of each output after a reversal of the crank [rad], by output."""
     pairs: Mapping[str, Mapping[str, float]]
     """Peak-to-peak error due to each single pair [deg], by output and pair."""
     declared: Mapping[str, DeclaredPairs]
@@ -177,7 +177,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
-    """Return the pairs that move an output, with the numbers of those with declared teeth and dimensions."""
+    """Return the pairs that move an output, with the numbers of pairs whose teeth or dimensions are declared."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
     sized = {joint.coupling.name for joint in motion._problem.pins}
@@ -270,7 +270,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """Error of the anomaly of one link against the true motion [rad], or the reason why it is unknown."""
+    """Error of the anomaly of one link relative to the true motion [rad], or the reason why this error is unknown."""
 
     known: bool
     """False if a pin that moves the link has no dimensions, or if several pins move it."""
@@ -312,7 +312,10 @@ def _represents(output: OutputResult, body: Body, unit_days: float | None) -> bo
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
-    """Return the error of the anomaly of one link with ideal teeth against the true motion of a body."""
+    """Return the error of the anomaly of one link with ideal teeth relative to the true motion of a body.
+
+    The error is unknown if a pin that moves the link has no dimensions, or if several pins move it.
+    """
     from geartrain.dynamics import Motion
 
     motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})

@@ -205,7 +205,10 @@ def find_budget(
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """Return the requested outputs; by default those with a target or a dial, or all outputs if none has one."""
+    """Return the requested outputs; by default all outputs with a target or a dial, or all outputs if none has one.
+
+    Raises `QuestionError` if a requested output does not exist or the train declares no outputs.
+    """
     for name in (*requested.outputs, *requested.bodies):
         check_choice("output", name, tuple(answer.outputs))
     if requested.outputs:

@@ -49,7 +49,7 @@ class CutWheel:
     radius: float
     """Tip radius R of the perfect wheel [any unit of length]; negative for an internal wheel."""
     half_angle: float
-    """Half angle of its teeth [rad]."""
+    """Half angle of the teeth of the perfect wheel [rad]."""
     place: Floats
     """Angle of each tip behind its nominal position [rad]."""
     tip: Floats
@@ -113,7 +113,10 @@ class CutWheel:
     # ------------------------------------------------------------------------------------------------------ with errors
 
     def placed(self, place: ArrayLike) -> CutWheel:
-        """Return the wheel with pitch deviations added: teeth with their flanks rotated backwards by `place` [rad]."""
+        """Return the wheel with pitch deviations added: each tooth is rotated backwards by `place` [rad].
+
+        Raises `RangeError` if a tooth cannot be cut.
+        """
         return replace(self, place=self.place + np.asarray(place)).checked()
 
     def grown(self, tip: ArrayLike) -> CutWheel:
@@ -183,7 +186,7 @@ class CutWheel:
     # ---------------------------------------------------------------------------------------------------------- checks
 
     def checked(self) -> CutWheel:
-        """Return the wheel itself. Raises `RangeError` if an error leaves no tooth or no tooth space."""
+        """Return the wheel itself; raise `RangeError` if an error leaves no tooth or no tooth space."""
         if not self.cuttable.all():
             bad = int(np.size(self.cuttable) - np.count_nonzero(self.cuttable))
             where = np.unravel_index(int(np.argmin(self.cuttable)), np.shape(self.cuttable))
@@ -338,7 +341,7 @@ class CutGearPair:
         return self.sizes.z1, self.sizes.z2
 
     def taken(self, part: slice | Ints) -> CutGearPair:
-        """Return the pairs of selected trials."""
+        """Return the pairs of the selected trials, given by a slice or by indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 

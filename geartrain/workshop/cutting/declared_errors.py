@@ -1,6 +1,4 @@
-"""Manufacturing errors that a train declares, as fractions of pitch, depth and half angle, and overrides of these
-errors.
-"""
+"""Manufacturing errors that a train declares, as fractions of pitch, tooth depth and half angle, with overrides."""
 
 from __future__ import annotations
 
@@ -232,7 +230,7 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Converter of the declared errors of one wheel or pair to fractions."""
+    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions."""
 
     place: str
     name: str

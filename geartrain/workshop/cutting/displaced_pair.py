@@ -136,7 +136,7 @@ class SideTerms:
     """
 
     driver: Any
-    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by its own n."""
+    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by the n of the driver."""
     driven: Any
     """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by its own n."""
     pitches: int
@@ -171,7 +171,7 @@ class DisplacedPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Return the pair with selected trials."""
+        """Return the pair with the trials of the given indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 

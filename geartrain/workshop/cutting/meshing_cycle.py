@@ -65,7 +65,7 @@ class MeshingVerdicts:
     dwell: Bools
     """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
-    """Mask of losses of contact: at some position no tooth can touch."""
+    """Mask of losses of contact: at some position no front or no back flanks can touch."""
 
     @property
     def jams(self) -> Bools:
@@ -502,7 +502,7 @@ class _EntriesAndExits:
 
     @property
     def disengaged(self) -> Bools:
-        """Mask of shape (trials,): True if at some position no tooth can touch."""
+        """Mask of shape (trials,): True if no tooth pair can touch at some position."""
         gap = self._between(1)[0].max(axis=1) > 2 * self.reach + ROUNDING * self.sizes.p1
         found: Bools = np.broadcast_to(gap, self.pair.trials).copy()
         return found

@@ -276,7 +276,7 @@ def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str],
 
 
 def parts_requested(kinds: Sequence[str]) -> bool:
-    """Return True if some of the kinds of files show parts to make."""
+    """Return True if any of the kinds of files shows parts to make, False otherwise."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
@@ -357,7 +357,7 @@ def kind_of(name: str) -> str:
 
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """Return the tables of a train as CSV text by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    """Return the tables of a train in CSV format by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
     made = {
         "wheels": _wheels,
         "links": _links,

@@ -129,7 +129,7 @@ class _Unit:
         self.relate("stage", stage=number, **roles)
 
     def running(self) -> list[dict[str, Any]]:
-        """Return the rotational speeds of shafts that can be given in revolutions per minute."""
+        """Return the REXS data of all shafts whose speed is known, each with its rotational speed [1/min]."""
         found = []
         for (kind, link), number in self.numbers.items():
             speed = as_float(self.speeds[link]) if kind == "link" and link in self.speeds else None

@@ -87,7 +87,9 @@ class FrictionPlan(Shown):
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the friction coefficients, by the train, pair or coupling that declares each of them."""
+        """Distributions of the random friction coefficients, by the train, pair or coupling that declares the
+        coefficient.
+        """
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     def follow(self, drawn: Train) -> tuple[float | None, ...]:

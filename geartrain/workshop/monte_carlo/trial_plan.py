@@ -61,7 +61,7 @@ _MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """Gear pair of a plan.
+    """Gear pair of a plan, with any tooth form.
 
     `first` and `second` are the indices of driver and driven wheel; `mirrored` marks wheels that turn against the
     numbering of their teeth.
@@ -303,7 +303,7 @@ class TrialPlan(Shown):
     name: str
     """Name of the train."""
     wheels: tuple[WheelErrors, ...]
-    """Wheels with cutting errors."""
+    """Sizes and cutting errors of the wheels in the pairs of the trials."""
     pairs: tuple[TrialPair, ...]
     """Gear pairs of the wheels with cutting errors, with the sizes and mounting errors of each pair."""
     composition: ErrorComposition
@@ -415,7 +415,7 @@ def find_trial_plan(
         Train with triangular or conjugate teeth. It must declare `cutting` or `fitting` errors unless `settings`
         contains errors.
     settings : sequence of ErrorOverride
-        Errors that replace the declared errors; `read_error_overrides` parses them from text.
+        Errors that replace the declared errors; `read_error_overrides` parses them from strings.
     outputs : sequence of str
         Names of outputs or links, by default all outputs.
     state : str, optional

@@ -112,7 +112,9 @@ class TrialResults(Tabular):
 
     @cached_property
     def bounds(self) -> Mapping[str, float]:
-        """Upper bound of the jam probability, 0 to 1, for each pair whose wheels have only normal pitch deviations."""
+        """Pair -> upper bound of the jam probability, 0 to 1. Pairs without a bound, such as pairs with other errors
+        than normal pitch deviations, are omitted.
+        """
         found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
         return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -244,7 +246,7 @@ class TrialResults(Tabular):
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
     """Return a mask, shape (trials,), of the trials in which the given pairs transmit motion.
 
-    In these trials no given pair jams, disengages or has a wheel that cannot be cut; clashes are allowed.
+    A trial is excluded if a given pair jams, disengages or has a wheel that cannot be cut; clashes are allowed.
     """
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
@@ -336,7 +338,7 @@ class ConvergenceStep:
     trials: int
     """Number of trials used, from the first one."""
     share: ProbabilityEstimate
-    """Probability estimated from these trials."""
+    """Probability estimated from the first `trials` trials."""
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers

@@ -120,7 +120,7 @@ class ToothSizes(Result):
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
-        """Clearance window of the pair; None if teeth with these sizes do not exist."""
+        """Clearance window of the pair; None if no teeth with these half angles and radii exist."""
         try:
             return find_window(self._unplaced) if self._unplaced.has_valleys else None
         except GearTrainError:
@@ -207,7 +207,7 @@ class ToothSizes(Result):
         return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
-        """Return the value of an objective to be minimised; infinite if the pair does not turn.
+        """Return the value of an objective to be minimised; infinite if it is undefined or the pair does not turn.
 
         Parameters
         ----------

@@ -73,7 +73,7 @@ class SizeSearch:
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return True if a design turns and satisfies all limits, including those in `more`."""
+        """Return True if a design turns and satisfies all limits of the search and of `more`, False otherwise."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
@@ -202,7 +202,7 @@ class ProbabilityLimit:
 
     See Also
     --------
-    find_tooth_sizes : Evaluates the limit for few designs, the best first.
+    find_tooth_sizes : Evaluate the limit for few designs, the best first.
     """
 
     bound: float
@@ -230,7 +230,7 @@ class PairTrials:
     """
 
     errors: Sequence[ErrorOverride]
-    """Cutting and mounting errors; `read_error_overrides` parses them from text."""
+    """Cutting and mounting errors; `read_error_overrides` parses them from strings."""
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
@@ -343,10 +343,10 @@ def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) ->
 
 
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
-    """Minimise `value` in a box and return all samples; the best sample is the minimum found.
+    """Minimise `value` in a box and return all samples; the best sample is the minimum.
 
     bounds   bounds of each variable, low < high
-    starts   further points to evaluate; the result is never worse than the best of these
+    starts   further points to evaluate; the result is never worse than the best start
     """
     sampled = SampledFunction(value, bounds)
     for start in starts:

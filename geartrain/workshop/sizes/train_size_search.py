@@ -186,8 +186,9 @@ class TrainSizeSearch:
 
     @cached_property
     def _common_angle_groups(self) -> tuple[tuple[str, ...], ...]:
-        """Groups of pairs with common wheels, which have one common half angle, if it is free and all of them are
-        sized.
+        """Groups of pairs that are connected by common wheels and share one half angle.
+
+        A group is omitted if some of its pairs are not optimised. There are no groups if the half angle is not free.
         """
         if "half_angle" not in self.free:
             return ()
@@ -216,7 +217,7 @@ class TrainSizeSearch:
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
-        """Return the objective of the train, to be minimised; infinite if the train does not run."""
+        """Return the objective of the train, which is minimised; infinite if the train does not run."""
         self._on_step()
         if not self._is_joint:
             each = [sizes[name].merit(self.aim) for name in self._requested]
@@ -345,7 +346,7 @@ class TrainSizeSearch:
     # ------------------------------------------------------------------------------------------------------ declaration
 
     def _declaration(self, sizes: Mapping[str, ToothSizes]) -> dict[str, Any]:
-        """Return the declaration of the train with these sizes; it extends the given train."""
+        """Return a declaration that extends the given train and contains the given sizes."""
         gears = []
         for gear in self.train.declaration.gears:
             if gear.name in sizes:
@@ -368,7 +369,7 @@ class PairSizes(Result):
 
     See Also
     --------
-    find_train_sizes : Find these sizes.
+    find_train_sizes : Find the sizes.
     """
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")

@@ -64,7 +64,7 @@ class TrainProof(Result):
 
     @property
     def is_ready(self) -> bool:
-        """True if no finding is an error."""
+        """True if the findings contain no error."""
         return not build_errors(self.findings)
 
     @property
@@ -132,7 +132,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
 
 
 def proof_is_installed() -> bool:
-    """Return True if shapely and manifold3d are installed."""
+    """Return True if shapely and manifold3d are installed, False otherwise."""
     try:
         return all(find_spec(name) is not None for name in ("shapely", "manifold3d"))
     except (ImportError, ValueError):

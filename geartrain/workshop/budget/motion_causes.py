@@ -298,6 +298,7 @@ def find_bodies(
         else:
             body = next((each for each in TRUE_MOTIONS if _represents(output, each, unit_days)), None)
         if body is not None:
+            # the first output of a link decides
             found.setdefault(output.of, body)
     return found
 

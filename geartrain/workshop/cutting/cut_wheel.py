@@ -208,6 +208,7 @@ class CutWheel:
         at_near = np.arctan2(np.abs(far) * np.sin(gap), near - far * np.cos(gap))
         at_far = np.arctan2(np.abs(near) * np.sin(gap), far - near * np.cos(gap))
         trailing, leading = self.half_angle + self.trailing, self.half_angle + np.roll(self.leading, -1, -1)
+        # the tip angles above are valid only for tips less than half a turn apart
         good = (self.sign * near > 0) & (gap > 0) & (gap < pi) & (trailing > 0) & (leading > 0)
         tipped: NDArray[np.bool_] = good & (trailing < at_near) & (leading < at_far)
         return tipped

@@ -85,6 +85,7 @@ class DisplacedWheel:
         if not np.any(self.e):
             return self.tip
         angle = np.arange(self.z) * (2 * pi / self.z) - np.asarray(self.towards)[..., None]
+        # to first order in the eccentricity, as all displacements of flanks
         found: Floats = self.tip + np.asarray(self.e)[..., None] * np.cos(angle)
         return found
 
@@ -227,6 +228,7 @@ class DisplacedPair:
             lowered = np.maximum(wheel.leading_low.max(initial=0.0), wheel.trailing_low.max(initial=0.0))
             moved = np.abs(wheel.place).max(initial=0.0) * (1.0 if gear else float(at.ratio))
             tips = at.longer[gear] * np.abs(wheel.tips).max(initial=0.0) * float(at.ratio)
+            # twice, because errors can delay one pair and advance the other; filing only delays
             found += float(2 * (moved + flanks * np.abs(at.tilt[gear]).max() + tips) + lowered * at.normal.max())
         # steepest lag beyond the ends: teeth with pitch deviations meet the ends at other positions
         late = np.abs(self.first.place).max(initial=0.0)

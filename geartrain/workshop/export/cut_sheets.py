@@ -158,6 +158,7 @@ def _label_off_holes(
         corners = [abs(at + along * complex(x, y)) for x in (-half, 0.0, half) for y in (-tall, tall)]
         if max(corners) > outer or min(corners) < inner:
             return False
+        # holes in the frame of the text, where the text is a rectangle parallel to the axes
         seen = [((middle - at) * along.conjugate(), radius) for middle, radius in holes]
         return all(hypot(max(abs(z.real) - half, 0), max(abs(z.imag) - tall, 0)) > radius + _GAP for z, radius in seen)
 

@@ -27,6 +27,7 @@ _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # a fixed date, so that the same trai
 
 def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
     """Return the gear unit of a train in REXS JSON format."""
+    # JSON has no NaN, so an undefined size must raise an error here and not in the reading program
     return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -177,6 +177,7 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
 def _sizes(given: Mapping[str, Size], process: str | None, spokes: int | None, sheet: str | None) -> ManufacturingSizes:
     from geartrain.scene import ManufacturingSizes
 
+    # lengths are read in m, but sizes of parts are in mm
     sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
     return ManufacturingSizes(**sizes, process=process, arms=spokes, sheet=None if sheet is None else _sheet(sheet))
 

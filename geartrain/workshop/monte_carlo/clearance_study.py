@@ -38,7 +38,7 @@ class ClearanceCase(Result):
     clearance: float | None
     """Clearance factor (1 or more), or fraction of each pair's clearance window; None for the declared clearance."""
     scale: float
-    """Factor by which all manufacturing errors are multiplied."""
+    """Factor by which manufacturing errors are multiplied, except errors measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
     """Probability that each event (jam, clash, stops (jam or clash), dwell, disengaged) occurs in at least one pair."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
@@ -81,8 +81,8 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of each event at every clearance and every scale of the errors. The same random wheels are
-    used for all of them.
+    """Return the probability of each event at every clearance and every scale of the errors, with the same random wheels in
+    all cases.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def jamming_map(
         are fractions of the clearance window of each pair; None is the declared clearance. The clearance varies in the
         outer loop.
     scales : sequence of float
-        Factors by which all errors are multiplied, 0 or more; by default 1.
+        Factors, 0 or more, by which all errors except measured tables are multiplied; by default 1.
     trials : int
         Number of trials of each case, 1 to 10^9; by default 256.
     seed : int

@@ -336,7 +336,7 @@ class TrialPlan(Shown):
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """Return a copy of the plan with all cutting and mounting errors multiplied by a factor.
+        """Return a copy of the plan with all errors multiplied by a factor; tables of measured errors are not scaled.
 
         Parameters
         ----------
@@ -347,6 +347,7 @@ class TrialPlan(Shown):
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
             return {each: off.times(factor) for each, off in errors.items()}
 
+        # measured tables describe one real wheel and keep their values
         wheels = tuple(replace(each, errors=times(each.errors)) for each in self.wheels)
         pairs = tuple(replace(each, fitting=times(each.fitting)) for each in self.pairs)
         return replace(self, wheels=wheels, pairs=pairs)

@@ -116,6 +116,7 @@ class ToothSizes(Result):
     @cached_property
     def _unplaced(self) -> TriangularSizes:
         z1, z2 = self.teeth
+        # tip radius 1, because no property depends on the absolute size
         return TriangularSizes(z1, z2, 1.0, self.radii * z2 / z1, *self.half_angles, 0.0, self.ring)
 
     @cached_property

@@ -129,6 +129,7 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
     second.
     """
     found: list[ToothSizes] = []
+    # in this order a design is dominated unless it improves the second objective
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
         if not found or each.merit(second) < found[-1].merit(second):
             found.append(each)

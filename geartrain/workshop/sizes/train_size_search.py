@@ -231,6 +231,7 @@ class TrainSizeSearch:
     def _loss(self, train: GearTrain) -> float:
         found = train.driven(self.link, self.source, self.state)
         efficiency = found.efficiency if found.verdict else None
+        # an efficiency of 0 or less means that the train is self-locking
         return inf if efficiency is None or efficiency <= 0 else 1 - float(efficiency)
 
     def _error(self, train: GearTrain) -> float:

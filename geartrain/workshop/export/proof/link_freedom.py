@@ -129,6 +129,7 @@ class _Motion:
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
             weights[at] += count * self.scene.bodies[at].sense
+        # tooth counts as coefficients would scale a linear programme badly
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:

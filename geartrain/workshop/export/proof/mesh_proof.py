@@ -149,6 +149,7 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
     """Return the measured values of a mesh that is turned, with findings on the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
+    # arc length on the pitch circle of the second wheel, as the declared backlash
     room = (found.high - found.low) * R
     # NaN at positions in which the second wheel is nowhere free
     measured = room[~np.isnan(room)]
@@ -188,6 +189,7 @@ def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
     if material.geom_type != "Polygon":
         return abs(tip - root)
     radius = tip - (tip - root) * _LAND
+    # 64 chords for each tooth
     circle = shapely.Point(0.0, 0.0).buffer(radius, quad_segs=max(64, 16 * teeth)).exterior
     return float(shapely.length(shapely.intersection(circle, material))) / teeth
 

@@ -116,7 +116,7 @@ class GearSearch(Tabular, Result):
     locked: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` elements that lock the train or contradict its inputs."""
     requested: int = 0
-    """Number of gears of the requested series; 0 if none was requested."""
+    """Number of gears of the requested series; 0 if no series was requested."""
     series: int = 0
     """Number of series whose steps and shifts satisfy the request; 0 if no series was requested."""
     widest: GearSeries | None = None
@@ -286,7 +286,7 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, the series with maximum spread, and the series with minimum deviation; None if there are none."""
+"""Number of series, the series with maximum spread, and the series with minimum deviation; None without any series."""
 _Way = tuple[float, int, tuple[int, ...]]
 """Sum of squares or variance of the logarithms of steps, number of double shifts, indices of the gears of a series."""
 

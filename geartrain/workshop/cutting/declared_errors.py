@@ -63,7 +63,7 @@ class WheelErrors:
 
     pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
     ring               True for an internal wheel
-    errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, the others in depths
+    errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, lengths in depths
     towards            direction of the eccentricity from the first tooth (rad); None for a random direction
     tables             values measured tooth by tooth, by kind, in the same fractions
     displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth

@@ -44,7 +44,7 @@ class ListedPart(Shown):
     mass: float
     """Mass of one part [g]."""
     fits: str
-    """Description of the holes or seats, and of the method of joining."""
+    """Description of the holes or seats, and of the method of joining; empty if there is none."""
 
     @property
     def count(self) -> int:

@@ -81,8 +81,9 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of each event at every clearance and every scale of the errors, with the same random wheels in
-    all cases.
+    """Return the probability of each event at every clearance and every scale of the errors.
+
+    The same random wheels are used in all cases.
 
     Parameters
     ----------
@@ -137,8 +138,9 @@ def jamming_map(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Return the counts of events in some trials of one case: by pair, then for the train, (count, trials) for each
-    event.
+    """Return the numbers of events in some trials of one case: a list for each pair, then a list for the train.
+
+    Each list has a pair [occurrences, trials] for each event, without trials in which a wheel cannot be cut.
     """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)

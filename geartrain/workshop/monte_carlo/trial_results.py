@@ -426,7 +426,9 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error over all trials in which teeth touch [rad]."""
+        """Standard deviation of the pointer error over all trials in which teeth touch [rad], with its confidence
+        interval.
+        """
         return deviation_of(self.all)
 
     @property

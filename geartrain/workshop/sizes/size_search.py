@@ -281,7 +281,9 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
         refused.append(at)
     what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
     why = "the cutting errors are too large for such teeth"
-    raise QuestionError(Problem(what, why, "raise the limit (--within stops=), or give smaller errors (--cutting)"))
+    raise QuestionError(
+        Problem(what, why, "raise the limit, such as --within stops=10%, or give smaller errors (--cutting)")
+    )
 
 
 def _bisect_to_limit(

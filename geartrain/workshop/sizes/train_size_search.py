@@ -186,9 +186,9 @@ class TrainSizeSearch:
 
     @cached_property
     def _common_angle_groups(self) -> tuple[tuple[str, ...], ...]:
-        """Groups of pairs that are connected by common wheels and share one half angle.
+        """Groups of pairs with common wheels, which share one half angle; empty if the half angle is not free.
 
-        A group is omitted if some of its pairs are not optimised. There are no groups if the half angle is not free.
+        A group is omitted if some of its pairs are not optimised.
         """
         if "half_angle" not in self.free:
             return ()
@@ -196,8 +196,8 @@ class TrainSizeSearch:
         return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the free parameters of one pair with their bounds; the half angle is not free if a wheel has a second
-        mate.
+        """Return the free parameters of one pair with their bounds; the half angle is not free if another pair shares a
+        wheel.
         """
         return {
             size: each

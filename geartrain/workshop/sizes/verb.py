@@ -127,7 +127,7 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Reject options that need `--objective`, and options that cannot be combined with it."""
+        """Reject options that apply only with `--objective` if it is missing, and options that it excludes."""
         if self.best is None:
             for option, given in (("--free", self.free), ("--within", self.within), ("--cutting", self.errors)):
                 if given:

@@ -268,7 +268,9 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
                         f"{area:.3g} mm2"
                     )
                     why = "overlapping teeth cannot turn"
-                    yield BuildFinding("T5", "error", Problem(what, why, "give more backlash: --backlash 0.1mm"))
+                    yield BuildFinding(
+                        "T5", "error", Problem(what, why, "give more backlash, such as --backlash 0.1mm")
+                    )
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:

@@ -234,7 +234,9 @@ class ErrorPropagation:
 def _nearest(value: Fraction) -> float:
     """Return the nearest float; beyond the range of float64, 0 or an infinity."""
     number = as_float(value)
-    return copysign(0.0 if abs(value) < 1 else inf, value) if number is None else number
+    if number is not None:
+        return number
+    return copysign(0.0 if abs(value) < 1 else inf, -1 if value < 0 else 1)
 
 
 def find_error_propagation(

@@ -788,6 +788,7 @@ class GearTrain:
     def _verdicts(self) -> str:
         try:
             return " or ".join(dict.fromkeys(answer.verdict.kind for answer in self.answers()))
+        # repr must not raise, even for a declaration that cannot be solved
         except GearTrainError as error:
             return error.problems[0].what
 

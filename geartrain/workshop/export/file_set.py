@@ -384,6 +384,7 @@ def _wheels(work: SolidModel) -> tuple[str, Rows]:
         rows.append(
             (
                 *(name, link, wheel.count, " ".join(map(str, uncertainty.allowed)) if uncertainty else "", wheel.kind),
+                # the normal module, by which gear cutters are named
                 *("yes" if wheel.internal else "", place.axis, place.layer, f"{place.module / wheel.slant:.9g}"),
                 *(f"{place.radius:.9g}", *(f"{each:.9g}" for each in place.centre), wheel.status, wheel.source),
             )

@@ -206,6 +206,7 @@ def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
 
 
 def _is_random(friction: Any) -> bool:
+    # a standard deviation of 0 gives the same coefficient in all trials
     return isinstance(friction, CoulombFriction) and friction.deviation is not None and bool(friction.deviation.value)
 
 

@@ -127,6 +127,7 @@ def _filing(found: MonteCarloResult) -> Section:
 
 
 def _pair_row(pair: PairEventRates) -> tuple[str, ...]:
+    # NaN, which is not equal to itself, marks an unknown value
     backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
     events = (share_text(pair.events[name]) for name in _EVENTS)
     return (pair.name, backlash, *events, bound)

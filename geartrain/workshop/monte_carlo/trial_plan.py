@@ -524,6 +524,7 @@ def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
 
 def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> tuple[int, ...]:
     alone = ErrorComposition(composition.spread, composition.sources, (composition.outputs[output],))
+    # `used` omits pairs without influence on this output
     used = {source.id for source in alone.used}
     return tuple(at for at, name in enumerate(names) if name in used)
 

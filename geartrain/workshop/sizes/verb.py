@@ -91,6 +91,7 @@ def run(
     check_distinct_outputs(to, picture)
     ranges, limits = read_free(free or ()), read_limits(within or ())
     train = load(file)
+    # an estimate: the number of evaluations is unknown before the search
     with progress("optimise", 10 * len(train.declaration.gears), patience=2) as bar:
         found = find_train_sizes(train, output, best, ranges, limits, state, bar.advance)
     if plot is not None:
@@ -175,6 +176,7 @@ class SizeQuestion:
         from geartrain.workshop.cutting.declared_errors import read_error_overrides
         from geartrain.workshop.sizes.size_search import PairTrials
 
+        # the strictest of several limits applies
         bound = min(quantity("--within", text, "fraction", plain=True, minimum="0") for text in given)
         return ProbabilityLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
 

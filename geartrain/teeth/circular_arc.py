@@ -28,14 +28,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from geartrain.numerics.quantity import Length
+from geartrain.numerics.quantity import Length, bad
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 from geartrain.teeth.tooth_form import (
     IDEAL,
     ShaftAngle,
     ToothForm,
     TwoFigures,
-    bad,
     check_above_0,
     check_one_of,
     in_modules,

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Figure
+from geartrain.numerics.quantity import Figure, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, check_above_0, check_one_of, refused
+from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, check_above_0, check_one_of, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

@@ -17,10 +17,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-from geartrain.numerics.quantity import Figure, Quantity, Velocity
+from geartrain.numerics.quantity import Figure, Quantity, Velocity, bad
 from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import root
-from geartrain.teeth.tooth_form import bad
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

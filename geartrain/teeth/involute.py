@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Angle
+from geartrain.numerics.quantity import Angle, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, check_above_0, refused
+from geartrain.teeth.tooth_form import TwoFigures, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

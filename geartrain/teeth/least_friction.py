@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Angle, Figure, Quantity
+from geartrain.numerics.quantity import Angle, Figure, Quantity, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.friction_law import FrictionLawOfText, PairFriction, PositiveVelocity
-from geartrain.teeth.tooth_form import TwoFigures, bad
+from geartrain.teeth.tooth_form import TwoFigures
 
 if TYPE_CHECKING:
     from collections.abc import Callable

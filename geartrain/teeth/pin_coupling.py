@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.quantity import Length, Quantity
+from geartrain.numerics.quantity import Length, Quantity, bad
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
-from geartrain.teeth.tooth_form import bad, check_above_0
+from geartrain.teeth.tooth_form import check_above_0
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission

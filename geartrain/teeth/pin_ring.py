@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
-from geartrain.numerics.quantity import Length, Quantity
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, check_above_0, in_modules, refused
+from geartrain.numerics.quantity import Length, Quantity, bad
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, check_above_0, in_modules, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.cycloidal_disc import CycloidalDisc, DiscTransmission

@@ -7,10 +7,9 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity
+from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity, bad
 from geartrain.numerics.results import summary_line, values_summary
 
 if TYPE_CHECKING:
@@ -217,11 +216,6 @@ class ToothForm(BaseModel, ABC):
             Copy with this backlash, or this form unchanged.
         """
         return self.model_copy(update={"backlash": backlash}) if "backlash" in self.own_play else self
-
-
-def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """Return a validation error for a declaration, with its fix."""
-    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import Field, model_validator
 
 from geartrain.errors import RangeError
-from geartrain.numerics.quantity import Angle, Figure, Length
+from geartrain.numerics.quantity import Angle, Figure, Length, bad
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, check_above_0, refused
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from geartrain.errors import Problem
-from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused, twice
+from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length, bad
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh

@@ -15,7 +15,8 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches

@@ -31,7 +31,7 @@ conjugate                     teeth from their path of contact, for spur and bev
 contact                       contact of two outlines of any shape
 outlines                      closed outlines of wheels to cut
 
-Conjugate forms keep the ratio of tooth counts by the law of gearing: the common normal passes the pitch point
+Conjugate forms keep the ratio of tooth counts by the law of gearing: the common normal passes through the pitch point
 (docs/shapes.md). Triangular teeth follow F. Sorge's equations (docs/teeth.md, with its errata). Teeth given only by
 their outlines are solved as a contact problem, and pins by plane geometry.
 """

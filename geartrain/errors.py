@@ -28,7 +28,7 @@ marks that change the writing direction, and lone surrogates.
 
 
 def printable(text: str) -> str:
-    r"""Escape the characters of a text that could control a terminal or hide other text.
+    r"""Escape the characters of a string that could control a terminal or hide other text.
 
     >>> printable("sun\x1b[2J")
     'sun\\x1b[2J'

@@ -155,12 +155,12 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
 
 
 def read_module(module: str | None) -> float | None:
-    """Parse the module [m]; None if not given. Raises `GearTrainError`."""
+    """Parse the module [m]; None if not given. Raises `GearTrainError` if it is not a positive length."""
     return None if module is None else quantity("--module", module, "length", minimum="above 0")
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError`."""
+    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if they cannot mesh."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))

@@ -153,7 +153,7 @@ _DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQU
 
 
 class _ReaderGoneError(Exception):
-    """Standard output was closed by its reader."""
+    """Error raised if standard output was closed by its reader."""
 
 
 class EndingGroup(TyperGroup):

@@ -110,7 +110,8 @@ class MotionFigures(Result):
     """Deviation, speed and further requested results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
     """Speeds of the driving link at which teeth first separate. The computed motion is valid only below these
-    speeds; None if no inertia is declared.
+    speeds; None if no link driven by the input has an inertia, if torques have no units, or if the optional package
+    `simulation` is not installed.
     """
     phases: PhaseSets | None
     """Random tooth phases that were evaluated; None unless requested."""

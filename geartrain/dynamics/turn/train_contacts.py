@@ -339,8 +339,8 @@ class BearingTorques(NamedTuple):
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """Return the friction of every link with bearing friction; viscous drag is included if its absolute speed is
-    known.
+    """Return the friction of every link with bearing friction; viscous drag is included if speeds and torques have
+    units.
     """
     train, unit = setting.train, _radians_per_second(setting)
     found = {}

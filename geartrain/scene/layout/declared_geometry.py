@@ -33,7 +33,7 @@ WORM = Fraction(5)  # default pitch radius of a worm over its axial module
 
 @dataclass(frozen=True, slots=True)
 class AxisLine:
-    """Axis of a train as declared."""
+    """Axis of a train as declared: a line in space, with the links that carry it."""
 
     label: str
     direction: Vector
@@ -43,9 +43,9 @@ class AxisLine:
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
-    """Axes about which these links turn, without the frame."""
+    """Axes about which the links in `bearers` turn, in the same order; the frame has none."""
     given: Vector | None
-    """Declared point of the axis (mm)."""
+    """Declared point of the axis [mm]; None if no position is declared."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Parallels:
 
     lines: tuple[AxisLine, ...]
     up: Vector
-    """Unit vector along the axes, in which heights increase: z upwards, or the coordinate nearest to it."""
+    """Unit vector along the axes, in which heights increase; its last nonzero coordinate is positive."""
     x: Vector
     """Unit vector across the axes, along the first coordinate of the plan."""
     y: Vector
@@ -68,12 +68,12 @@ class Parallels:
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Index of each axis."""
+        """Index of each axis in `lines`, by label."""
         return {line.label: at for at, line in enumerate(self.lines)}
 
     @property
     def frame(self) -> str:
-        """Link that carries all other links."""
+        """Link that carries all other links: the frame of the train."""
         return self.lines[0].bearers[-1]
 
     def flat(self, vector: Vector) -> Point:
@@ -86,7 +86,7 @@ class Parallels:
 
 
 def upwards(direction: Vector) -> Vector:
-    """Return a direction or its opposite, whichever points upwards along z, or its last nonzero coordinate."""
+    """Return a direction or its opposite, whichever has a positive last nonzero coordinate."""
     last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # smaller ones are rounding errors
     return direction if last > 0 else (-direction[0], -direction[1], -direction[2])
 
@@ -103,7 +103,7 @@ class ContactSide:
 
 @dataclass(frozen=True, slots=True)
 class PitchContact:
-    """Gear pair: wheels with their axes, and their kind of contact."""
+    """Gear pair with the axes of its wheels and the kind of contact of their pitch surfaces."""
 
     name: str
     wheels: tuple[str, str]
@@ -128,7 +128,7 @@ class PitchContact:
 
     @property
     def sides(self) -> tuple[ContactSide, ContactSide]:
-        """Pair from the side of its first and of its second wheel."""
+        """Gear pair from the side of its first wheel, and from the side of its second wheel."""
         (first, second), (axis, other) = self.wheels, self.axes
         return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
 
@@ -140,7 +140,7 @@ class PitchContact:
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """Pin in a slot: links and axes of pin and slot, and the distance between the axes [mm] if it is declared."""
+    """Coupling by a pin: links and axes of pin and slot, and the distance between the axes [mm] if it is declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]
@@ -155,7 +155,7 @@ class PinSlotTie:
 
 
 class DialEnds(NamedTuple):
-    """Ends (low and high) at which an arbor extends beyond the stack to a dial."""
+    """Flags for the low and the high end of an arbor: True if that end extends beyond the stack to a dial."""
 
     low: bool = False
     high: bool = False
@@ -181,9 +181,9 @@ class DeclaredGeometry:
     dial_ends: Mapping[str, DialEnds]
     """Ends that extend to a dial, by link."""
     driven: str | None
-    """Axis of the first input, which is at the origin if no position is declared."""
+    """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
     discs: Mapping[str, float]
-    """Extent (modules) of the discs of lantern pinions beyond the pitch circle, by wheel."""
+    """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -198,13 +198,13 @@ class DeclaredGeometry:
         return self.wheels[wheel][1].count or 1
 
     def radius(self, wheel: str) -> Fraction:
-        """Return the pitch radius of a wheel in normal modules."""
+        """Return the pitch radius of a wheel in normal modules, or of a worm in axial modules."""
         if self.wheel(wheel).kind == "worm":
             return WORM
         return Fraction(self.count(wheel), 2) * Fraction(self.wheel(wheel).slant)
 
     def distance(self, contact: PitchContact) -> Fraction:
-        """Return the centre distance of a pair with parallel or skew axes in modules."""
+        """Return the centre distance of a pair with parallel or skew axes [modules]."""
         first, second = (self.radius(wheel) for wheel in contact.wheels)
         return contact.stretch * (abs(first - second) if contact.kind == "ring" else first + second)
 
@@ -281,9 +281,9 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield lantern wheels with the extent of their discs beyond the pitch circle (modules).
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle [modules].
 
-    It is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
+    The extent is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
     """
     for gear in declared.gears:
         form = declared.form_of(gear)

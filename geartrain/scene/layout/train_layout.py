@@ -1,10 +1,10 @@
 """Layout of a train: positions of all axes and wheels in space, in the pose in which all angles are 0.
 
-Wheels are rotated on their arbors so that teeth of one mesh with tooth spaces of the other, in a breadth-first search
-over the gear pairs: the first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches
-by which a tooth is past the pitch point, positive as the wheel turns, teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1)
-when positive angles move the pitch point in opposite senses, and s_1 - s_2 = 1/2 otherwise. Conditions that a layout
-could not satisfy are reported as notices.
+Wheels are rotated on their arbors so that teeth of one wheel mesh with tooth spaces of its mate, in a breadth-first
+search over the gear pairs: the first wheel of a train has a tooth at a pitch point, and the angle of each mate follows.
+Let s be the number of pitches by which a tooth is past the pitch point, positive in the positive sense of rotation.
+Teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1) when positive angles move the pitch point in opposite senses, and if
+s_1 - s_2 = 1/2 otherwise. Conditions that a layout could not satisfy are reported as notices.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Return pairs whose pitch circles do not touch, with the gap [mm], negative for an overlap."""
+    """Return the gap of each pair whose pitch circles do not touch [mm], negative for an overlap."""
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -151,17 +151,17 @@ _NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def reference(direction: Vector) -> Vector:
-    """Return the unit vector perpendicular to an axis from which angles are measured: x if the axis is z."""
+    """Return the unit vector perpendicular to an axis from which angles are measured; it is x if the axis is z."""
     return frame(direction)[0]
 
 
 def pitch_directions(
     wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
 ) -> tuple[Vector, Vector]:
-    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to its axis.
+    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to the wheel's axis.
 
     ways    declared directions of the axes
-    rings   whether each wheel is a ring
+    rings   for each wheel, True if it is a ring
     """
     first, second = wheels
     between = minus(second.centre, first.centre)
@@ -178,10 +178,10 @@ def pitch_directions(
 def align_meshes(
     declared: DeclaredGeometry, places: Mapping[str, WheelPlace]
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the angles at which wheels mesh.
+    """Return the angles at which wheels mesh, and phase errors.
 
-    They are the angle of the first tooth of each wheel (rad, from 0 to a pitch), and the phase errors of pairs that
-    close a loop (pitches).
+    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors (pitches) are those of
+    pairs that close a loop and do not mesh.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
     angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel
@@ -248,8 +248,8 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from wheels that mesh, or `free` (placed without
-    overlap).
+    """Origin of the position: `given` in the declaration, `found` from wheels that mesh or from the offset of a pin, or `free`
+    (placed without overlap).
     """
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
@@ -275,18 +275,18 @@ class WheelPlace(Shown):
     radius: float
     """Pitch radius [mm]; for a bevel wheel, at the wide end."""
     module: float
-    """Pitch diameter divided by the tooth count [mm]."""
+    """Transverse module [mm], the pitch diameter divided by the tooth count; axial module of a worm."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False
-    """True if the module of this wheel, or of a wheel that meshes with it, is declared."""
+    """True if the module of the wheel, or of a wheel that meshes connect with it, is declared."""
     cone: float = 0.0
     """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
     """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of the level, from 0 for the level nearest to the origin, increasing along the axis; None for wheels that
-    are not on the main axes.
+    """Number of the level, from 0 for the lowest level along the main axes; None for wheels that are not on the main
+    axes.
     """
     turn: float = 0.0
     """Angle of the wheel's first tooth about the direction of the axis, measured from `reference` [rad]. At this
@@ -315,7 +315,8 @@ class Layout(Shown):
     wheels: Mapping[str, WheelPlace]
     """Wheels by name."""
     notices: tuple[Problem, ...] = ()
-    """Problems with wheels and axes that could not be placed as declared or that collide, with reasons and remedies."""
+    """Problems with wheels and axes that could not be placed as declared, or that collide, with reasons and remedies.
+    """
     front: int = 1
     """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
@@ -411,7 +412,7 @@ def _axis_places(found: Arrangement) -> dict[str, AxisPlace]:
 
 
 def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
-    """Return the places of all wheels, not yet rotated so that teeth mesh."""
+    """Return the positions of all wheels, not yet rotated so that teeth mesh."""
     geometry, declared = found.geometry, found.geometry.declared
     layers, coned = _layers(found), _coned_seats(found)
     places = {}
@@ -437,14 +438,16 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seat of each wheel with a cone. A wheel that also meshes about a parallel axis has none."""
+    """Return the seat of each wheel in a pair with non-parallel axes, except wheels that also mesh about a parallel
+    axis.
+    """
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lower end."""
+    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lowest slot."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

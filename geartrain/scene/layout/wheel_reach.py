@@ -19,7 +19,7 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the ratio of the size of a bevel wheel's teeth at the narrow end to the size at the wide end.
+    """Return the size of a bevel wheel's teeth at the narrow end divided by their size at the wide end.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def taper(cone: float, radius: float, thickness: float) -> float:
     Returns
     -------
     float
-        Between 0 and 1; 1 for teeth without length.
+        Ratio from 0.55 to 1; 1 for a face width of 0.
     """
     return 1 - min(_MOST_FACE, thickness * sin(cone) / radius)
 
@@ -58,7 +58,9 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of `reach` for a wheel whose teeth are not known, with usual heights for its module [mm]."""
+    """Return the extents of `reach` [mm] for a wheel whose teeth are not known, with standard tooth heights for its
+    module.
+    """
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 
@@ -75,7 +77,7 @@ def reach(cone: float, radius: float, thickness: float, root: float, tip: float)
 
 
 def web(cone: float, radius: float, thickness: float, root: float) -> tuple[float, float]:
-    """Return the extents of `reach` for the disc within the teeth."""
+    """Return the axial extents [mm], as `reach` does, of the disc inside the ring of teeth."""
     if not cone:
         return thickness / 2, thickness / 2
     front = height_on_cone(cone, radius, root - LAND * radius, taper(cone, radius, thickness))
@@ -83,5 +85,5 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return extents as positions along the direction of the axis from the pitch circle, in ascending order."""
+    """Return the extents of `reach` as positions along the axis relative to the pitch circle, in ascending order."""
     return (-towards, away) if facing > 0 else (-away, towards)

@@ -2,7 +2,7 @@
 
 SVG: one user unit is a millimetre, and y points downwards as SVG requires, so that the part is not mirrored.
 
-DXF: millimetres, one layer for each use, closed polylines with arcs.
+DXF: units are millimetres; each use has a layer, and contours are closed polylines with arcs.
 
 Outlines of single wheels are written as SVG, DXF or CSV, in mm.
 """
@@ -26,7 +26,7 @@ _STRAIGHT = 1e-9  # bulge below which an arc is drawn as a line
 
 
 def to_svg(drawing: FlatDrawing) -> str:
-    """Return a drawing as SVG, with one path to cut and a group for each layer that is not cut."""
+    """Return a drawing as an SVG string, with one path to cut and a group for each layer that is not cut."""
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
     lines = [
@@ -79,8 +79,9 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as DXF R2010, with its title as a custom property. Raise `MissingExtraError` if ezdxf is not
-    installed.
+    """Return a drawing as a DXF R2010 string, with its title as a custom property.
+
+    Raise `MissingExtraError` if ezdxf is not installed.
     """
     try:
         from ezdxf import units
@@ -150,7 +151,7 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
     MissingExtraError
         If the library that writes DXF is not installed.
     GearTrainError
-        If the suffix is not one of these.
+        If the suffix is not supported.
 
     Examples
     --------
@@ -173,7 +174,7 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
 def _csv(wheel: WheelOutline) -> str:
     """Return the points of the contours as CSV rows.
 
-    Each contour ends where it began. Arcs are approximated by chords within the wheel's tolerance.
+    Each contour ends at its first point. Arcs are approximated by chords within the wheel's tolerance.
     """
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):

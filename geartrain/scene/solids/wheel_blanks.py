@@ -1,4 +1,4 @@
-"""Flat shape of every wheel: teeth as cut for all its mates, hole for its arbor, and crossings.
+"""Flat shape of every wheel: its teeth as cut for all mates, the hole for its arbor, and crossings.
 
 Crossings are windows that leave a rim, spokes and a hub, with all inner corners rounded.
 """
@@ -53,11 +53,11 @@ def spoke_windows(
     module : float
         Module of the wheel [mm].
     bore : float
-        Diameter of the hole for its arbor [mm].
+        Diameter of the hole for the arbor [mm].
     spokes : int
         Number of spokes, 3 or more; fewer give no windows.
     corner : float, optional
-        Radius of inner corners [mm], at least that of the tool.
+        Radius of inner corners [mm], at least that of the tool; by default half a module.
     """
     if spokes < 3:
         return ()
@@ -75,7 +75,7 @@ def spoke_windows(
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """Return the window about the x axis between spokes at +-pitch/2 of half width `half`; None if it is too small.
+    """Return the window about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too small.
 
     Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
     """
@@ -118,7 +118,7 @@ def _mirrored(point: Point) -> Point:
 
 
 def _turned(contour: Contour, angle: float) -> Contour:
-    """Return the contour rotated about the origin; holes are counter-clockwise, as outlines are."""
+    """Return the contour rotated about the origin, with the same orientation."""
     c, s = cos(angle), sin(angle)
     x, y = contour.points.T
     points = contour.points.copy()
@@ -135,7 +135,7 @@ _THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """Wheel to cut, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
+    """Wheel to be cut flat, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
 
     wheel: str
     link: str
@@ -143,7 +143,7 @@ class Blank:
     kind: str
     """Kind of wheel: external, ring or pins."""
     form: str
-    """Description of its tooth form."""
+    """Description of the wheel's tooth form."""
     contours: tuple[Contour, ...]
     """Contours: first the outer contour, then holes."""
     module: float
@@ -153,32 +153,34 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
-    """Helix angle of its teeth (rad), positive for a right hand."""
+    """Helix angle of the teeth [rad], positive for a right hand."""
     arms: int = 0
     """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
-    """Pins of a ring, which are separate parts in seats on its inside (modules); None for other wheels."""
+    """Pins of a ring, which are separate parts in seats on the inside of the ring [modules]; None for other wheels."""
 
     @property
     def twist(self) -> float:
-        """Angle of its upper face relative to the lower one (rad)."""
+        """Angle by which the upper face of the wheel is rotated relative to its lower face [rad]."""
         return self.thickness * tan(self.helix) / self.pitch_radius
 
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Wheels that can be cut flat by name, notices on other wheels, and the backlash of every pair that is cut."""
+    """Flat shapes of the wheels of a train: wheels that can be cut flat by name, notices on wheels, and the backlash of every
+    pair that is cut.
+    """
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Wheel -> reasons why it cannot be cut; `flat` are all wheels with planar teeth parallel to the axis."""
+    """Wheel -> reasons why it cannot be cut; `flat` is the set of all wheels with planar teeth parallel to the axis."""
     flat: frozenset[str]
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """Return the flat shapes of all wheels of a train without holes, at the sizes of a layout."""
+    """Return the flat shapes, without holes, of all wheels that can be cut flat, at the sizes of a layout."""
     toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
@@ -216,7 +218,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     """Return a wheel that has no mates, with a notice.
 
-    An escape wheel has its teeth, and any other wheel is a disc of its pitch circle.
+    An escape wheel keeps its teeth, and any other wheel is a disc of its pitch circle.
     """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
@@ -250,7 +252,10 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return the blank with windows between its spokes, if there is space. A wheel that carries studs keeps its web."""
+    """Return the blank with windows between its spokes, if there is space, and notices.
+
+    A wheel with holes for other parts keeps its web, and so do rings, lantern pinions and helical wheels.
+    """
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
@@ -262,9 +267,7 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with the hole for its arbor, if there is space, and with holes for other parts that
-    it carries.
-    """
+    """Return the blank with the hole for its arbor, if there is space, and with holes for other parts, and notices."""
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":

@@ -1,4 +1,4 @@
-"""Picture of gears on a sphere in orthographic projection: near gears over far ones, teeth at their angles."""
+"""Picture of gears on a sphere in orthographic projection: near gears over far gears, teeth at their angles."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 def sphere_figure(
     configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
-    """Draw all gears of a set on their common sphere, in orthographic projection.
+    """Return a figure of all gears of a set on their common sphere, in orthographic projection.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def _face(kind: int) -> tuple[float, float, float, float]:
 
 
 def _outline(configuration: Configuration, i: int, cone: float, phase: float) -> Floats:
-    """Return the outline of a wheel with its teeth as points of the unit sphere (points, 3)."""
+    """Return the outline of a gear with its teeth as points (n, 3) of the unit sphere."""
     count = configuration.teeth[configuration.kinds[i]]
     module = 2 * np.sin(cone) / count
     polar = cone + module * np.tile([_FOOT, _TIP, _TIP, _FOOT], count)

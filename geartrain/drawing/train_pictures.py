@@ -24,14 +24,14 @@ def picture(
     labels: bool = True,
     outputs: Sequence[str] = (),
 ) -> Figure:
-    """Draw a picture of a train: plan to scale, stick diagram, kinematic graph, lever diagram or dials.
+    """Return a figure of a train: plan to scale, stick diagram, kinematic graph, speed diagram or dials.
 
     Parameters
     ----------
     train : GearTrain
         Train to draw.
     kind : {"plan", "stick", "graph", "lever", "dials"}
-        Kind of picture.
+        Kind of picture; "lever" is the speed diagram.
     state : str, optional
         Name of a state; by default the first, or all states for "lever".
     turns : Fraction
@@ -39,7 +39,7 @@ def picture(
     labels : bool
         True to add names and numbers.
     outputs : sequence of str
-        Outputs whose dials are drawn; by default all.
+        Outputs whose dials are drawn; by default all. Used by "dials".
 
     Returns
     -------

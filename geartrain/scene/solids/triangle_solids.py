@@ -166,7 +166,7 @@ class _Corners:
             heappush(self.heap, (-self.fatness[k], k))
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of the triangle of a corner, and its ratio to the square of the longest side."""
+        """Update twice the signed area of a corner's triangle, and its ratio to the square of the longest side."""
         (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
         turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)

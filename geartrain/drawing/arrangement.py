@@ -243,8 +243,8 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Positions of callouts in two columns next to a picture: the y of each callout on the left and on the right, and the
-    inner edges of the columns [in].
+    """Positions of callouts in two columns next to a picture: the y of each callout on the left and on the right, and
+    the inner edges of the columns [in].
     """
 
     left: Sequence[tuple[Callout, float]]

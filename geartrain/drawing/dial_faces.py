@@ -59,10 +59,11 @@ class PointerReading:
 
     @property
     def at(self) -> Fraction:
-        """Position of the pointer from the zero mark [turns], clockwise as read; from the zero mark if it is undetermined.
+        """Position of the pointer from the zero mark [turns], clockwise as read; from the zero mark if it is
+        undetermined.
 
-        The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line, and
-        an error of -1e-17 turns would put it in the cell before.
+        The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
+        and an error of -1e-17 turns would put it in the cell before.
         """
         return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
@@ -227,7 +228,8 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn of the spiral.
+    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn of the
+    spiral.
     """
     if reading.turned is None:
         return

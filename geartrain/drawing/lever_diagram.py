@@ -33,7 +33,8 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if undetermined).
+    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if
+    undetermined).
     """
 
     x: Fraction

@@ -53,8 +53,8 @@ _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the pane
 class _Trace(NamedTuple):
     """Motion of one output against the turns of the input.
 
-    The angle and its mean are in turns and the deviation in rad. The speed is divided by the mean speed of the output, or
-    by the input speed if the mean is 0.
+    The angle and its mean are in turns and the deviation in rad. The speed is divided by the mean speed of the output,
+    or by the input speed if the mean is 0.
     """
 
     name: str
@@ -80,10 +80,10 @@ _Drawer = Callable[[Any, _Trace], None]
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
     """Return a figure of the angle, the deviation from mean motion and the speed of outputs over a run.
 
-    For each output that deviates from uniform motion, panels show its deviation and its speed; backward motion is red. A
-    run of few turns also has a panel with the angle, and a run of many turns a panel with any backward motion. Outputs that
-    move uniformly are drawn only if all outputs move uniformly, each in one panel: the angle for few turns, otherwise the
-    speed.
+    For each output that deviates from uniform motion, panels show its deviation and its speed; backward motion is red.
+    A run of few turns also has a panel with the angle, and a run of many turns a panel with any backward motion.
+    Outputs that move uniformly are drawn only if all outputs move uniformly, each in one panel: the angle for few
+    turns, otherwise the speed.
 
     Parameters
     ----------
@@ -425,7 +425,8 @@ def _bounds(turns: Floats, values: Floats) -> tuple[float, float]:
 
 
 def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
-    """Return turns and losses (part, position), averaged over equal intervals of the run if there are many positions.
+    """Return turns and losses (part, position), averaged over equal intervals of the run if there are many
+    positions.
     """
     if len(turns) <= 2 * _BINS:
         return turns, powers

@@ -324,7 +324,8 @@ _NOTE_SIZE = 8.5  # points: text above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
-    """Return a figure of the scene to scale after `turns` of its driving link; a train that is not planar is drawn obliquely.
+    """Return a figure of the scene to scale after `turns` of its driving link; a train that is not planar is drawn
+    obliquely.
 
     Pairs in a loop that does not close are red. The verdict on a train that does not turn is written above the plan.
     """

@@ -260,7 +260,8 @@ class _Face:
 
 
 def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, and arms above all.
+    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, and arms above
+    all.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """

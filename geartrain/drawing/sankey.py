@@ -83,7 +83,8 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Return band, with the distances from its source and its target at which it turns, and the top of its lane [in].
+    """Return band, with the distances from its source and its target at which it turns, and the top of its lane
+    [in].
     """
 
     piece: BandSegment

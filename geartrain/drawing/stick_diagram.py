@@ -163,7 +163,8 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels. Within links and within wheels, labels with the fewest positions are placed first.
+        """Place and write all labels. Within links and within wheels, labels with the fewest positions are placed
+        first.
 
         A label without a free position is written at its best position.
         """
@@ -382,7 +383,8 @@ _HEAD, _FOOT = 0.7, 0.7
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
-    """Return a figure with axes, shafts, wheels and tooth counts, cranks of carriers, the hatched frame, brakes and clutches.
+    """Return a figure with axes, shafts, wheels and tooth counts, cranks of carriers, the hatched frame, brakes and
+    clutches.
 
     state   state whose brakes and clutches are drawn closed, by default the first
 

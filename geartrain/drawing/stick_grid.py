@@ -31,8 +31,8 @@ def find_levels(
 ) -> list[list[str]]:
     """Return the axes of each level, from the lowest level. Axes that do not overlap may share a level.
 
-    The axes are placed one after another (greedy search), each on a level near the axes with which it is paired, with the
-    minimum cost of line lengths and crossings.
+    The axes are placed one after another (greedy search), each on a level near the axes with which it is paired, with
+    the minimum cost of line lengths and crossings.
 
     spans   vertical lines between two axes, with the abscissa of their column
     """
@@ -144,7 +144,8 @@ def find_columns(
 ) -> tuple[list[tuple[Circuit, float]], list[StickCrank], list[tuple[str, float]], float]:
     """Return the columns of all meshes, the cranks, the columns of wheels without a mesh, and the total width [in].
 
-    A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in place.
+    A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in
+    place.
     """
     columns: list[tuple[Circuit, float]] = []
     cranks: list[StickCrank] = []

@@ -138,7 +138,8 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield all texts of an artist, except the texts of hidden axes, whose ticks would be created only for this query.
+    """Yield all texts of an artist, except the texts of hidden axes, whose ticks would be created only for this
+    query.
     """
     for child in artist.get_children():
         if isinstance(child, Text):
@@ -297,7 +298,8 @@ def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, fl
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure with one panel whose coordinates are inches from the lower left corner, and with a title at the top.
+    """Return a figure with one panel whose coordinates are inches from the lower left corner, and with a title at the
+    top.
 
     A title has at most two lines, which take 0.5 inches.
     """

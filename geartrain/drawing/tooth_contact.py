@@ -1,6 +1,6 @@
 """Picture of two wheels of triangular teeth in contact, to scale: outlines, contact point, normal, instant centre.
 
-The driver turns about (0, 0), the driven wheel about (D, 0), or (-D, 0) if one wheel is a ring whose signs require it.
+The driver turns about (0, 0), and the driven wheel about (D, 0), or about (-D, 0) if the driven wheel is a ring.
 Lengths are in the unit of `TriangularSizes`. In forward motion the entry side is above the line of centres, where
 alpha_1 and alpha_2 are positive. In backward motion it is below.
 """
@@ -118,10 +118,11 @@ class ToothPairPose:
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of all teeth of a wheel, or of the teeth within an angle [rad] from the line of centres.
+        """Return vertices (n, 2) of all teeth of a wheel, or of the teeth within an angle [rad] from the line of
+        centres.
 
-        In the second case the centre of an external wheel is a vertex too. The body of a ring ends at a circle beyond its
-        roots.
+        In the second case the centre of an external wheel is a vertex too. The body of a ring ends at a circle beyond
+        its roots.
         """
         z, tip, root, alpha = self.wheel(which)
         half = pi / z

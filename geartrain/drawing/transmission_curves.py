@@ -55,7 +55,8 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods of the pair.
+    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods of the
+    pair.
 
     Parameters
     ----------
@@ -207,8 +208,8 @@ def _values(
 ) -> tuple[tuple[Floats, ...], ...]:
     """Return the curves of each panel at alpha_1 = x [rad].
 
-    The curves are alpha_2 [deg], tau, the efficiency, and the relative moment arms of driver and driven wheel. Efficiency
-    and moment arms are NaN during a dwell, and the efficiency is NaN where friction locks.
+    The curves are alpha_2 [deg], tau, the efficiency, and the relative moment arms of driver and driven wheel.
+    Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction locks.
     """
     if held is not None:
         none = np.full_like(x, np.nan)
@@ -293,7 +294,8 @@ def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values that are far enough from each other.
+    """Return ticks for the instant centre between two speed ratios: round values that are far enough from each
+    other.
     """
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
@@ -464,7 +466,8 @@ def _places(path: PathOfContact) -> Floats:
 
 
 def _flat(points: Floats) -> Floats:
-    """Return x and y relative to the pitch point (..., 2); on the sphere, as viewed from outside above the pitch point.
+    """Return x and y relative to the pitch point (..., 2); on the sphere, as viewed from outside above the pitch
+    point.
     """
     return points[..., :2]
 

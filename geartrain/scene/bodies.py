@@ -140,8 +140,8 @@ def _root(z: float) -> float:
 def bevel(z: int, cone: float) -> ToothProfile:
     """Return a nominal tooth of a bevel wheel at its wide end, from the virtual spur wheel of its back cone (Tredgold).
 
-    Each radius of the profile is 1 plus the height above the pitch cone along the back cone; `cone` is the half angle of
-    the pitch cone (rad).
+    Each radius of the profile is 1 plus the height above the pitch cone along the back cone; `cone` is the half angle
+    of the pitch cone (rad).
     """
     # the back cone of a crown wheel is a cylinder: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
@@ -211,9 +211,9 @@ def _half(z: float, r: float) -> float:
 def _swept(z: float, r: float) -> float:
     """Return half the angle of the tooth space that the tips of a rack cut out at relative radius r [rad].
 
-    The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the wheel's
-    axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) - (u - b)
-    from the middle of the space.
+    The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the
+    wheel's axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) -
+    (u - b) from the middle of the space.
     """
     c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
@@ -429,7 +429,8 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power that is lost at each wheel's meshes; empty if no power loss can be computed.
+    """Return the fraction of the input power that is lost at each wheel's meshes; empty if no power loss can be
+    computed.
 
     Half of the loss of a pair is assigned to each of its wheels.
     """

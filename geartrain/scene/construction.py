@@ -79,8 +79,8 @@ _ROUNDS = 4
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
     """Return the angle of the first tooth of every wheel at which its teeth mesh with its mates, and notices.
 
-    Each angle (rad) is about the direction of the wheel's body, from the reference direction of the wheel. A wheel without
-    mates has its angle in the layout.
+    Each angle (rad) is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
+    without mates has its angle in the layout.
     """
     found = _Mounting(stage, moved)
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
@@ -164,9 +164,10 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
-        """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation [pitches].
+        """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation
+        [pitches].
 
-        position   position of the driver's tooth (pitches); if it differs from the phase of the transmission function, the
+        position   position of the driver's tooth (pitches); if it is off the phase of the transmission function, the
                    driven tooth is advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
@@ -305,7 +306,8 @@ def _original(wheel: str, own: dict[str, str], link: str) -> str:
 
 
 def _parent(train: Train) -> str:
-    """Return the name with which a declaration can extend the train: the shipped train, or else the file that was read.
+    """Return the name with which a declaration can extend the train: the shipped train, or else the file that was
+    read.
     """
     from geartrain.train.declaration_files import shipped
 

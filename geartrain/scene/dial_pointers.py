@@ -47,8 +47,8 @@ _BUDGET = 4_000_000  # maximum number of operations of the elimination
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
     """Return the names of the pairs and couplings on which each output depends, in order from the input.
 
-    All meshes in parallel, such as several planets between two wheels, are included. The result is empty for a train that
-    does not move, or whose system is too dense to be eliminated.
+    All meshes in parallel, such as several planets between two wheels, are included. The result is empty for a train
+    that does not move, or whose system is too dense to be eliminated.
     """
     if not stage.answer.verdict:
         return {}
@@ -150,7 +150,8 @@ _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the t
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
-    """Return every declared dial on which an output is read, once for each link that carries it and each pointer axis.
+    """Return every declared dial on which an output is read, once for each link that carries it and each pointer
+    axis.
     """
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
@@ -203,7 +204,8 @@ def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials, with each ball moved into the pointer of the link that carries it, if there is such a pointer.
+    """Return the dials, with each ball moved into the pointer of the link that carries it, if there is such a
+    pointer.
     """
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
@@ -263,8 +265,8 @@ def _train_width(stage: SceneContext) -> float:
 
 
 def _side_width(stage: SceneContext, normal: Vector) -> float:
-    """Return the width of the side on which a dial is mounted [mm]; infinite for dials that face towards or away from the
-    viewer.
+    """Return the width of the side on which a dial is mounted [mm]; infinite for dials that face towards or away from
+    the viewer.
     """
     if abs(dot(normal, stage.near)) > 0.5:
         return inf

@@ -53,7 +53,8 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: turn of the spiral and cell, both from 1, and the name of a run of cells with the cell in it.
+    """Reading of a pointer: turn of the spiral and cell, both from 1, and the name of a run of cells with the cell in
+    it.
 
     The name is empty, and `within` is 0, at cells without a name.
     """
@@ -91,13 +92,13 @@ class DialScale:
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
     counted: int = 0
-    """Number of divisions after which declared numerals start again; 0 without declared numerals, when cells are counted
-    from 1.
+    """Number of divisions after which declared numerals start again; 0 without declared numerals, when cells are
+    counted from 1.
     """
 
     def radius(self, turned: float) -> float:
-        """Return the relative radius of the scale after a number of turns from the inner end; for a circle always the outer
-        radius.
+        """Return the relative radius of the scale after a number of turns from the inner end; for a circle always the
+        outer radius.
         """
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
@@ -106,7 +107,8 @@ class DialScale:
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns. A pointer on a line reads the cell after that line.
+        """Return the reading of a pointer after a number of turns. A pointer on a line reads the cell after that
+        line.
         """
         along = turned % self.turns
         done = along / self.turns * self.divisions
@@ -116,15 +118,16 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number with which a cell is read: its own number, or on a scale with numerals the number of the line before
-        the cell.
+        """Return the number with which a cell is read: its own number, or on a scale with numerals the number of the
+        line before the cell.
         """
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as a string, such as `Leo, degree 14`, with the glyph in that cell; empty without divisions.
+        """Return the reading as a string, such as `Leo, degree 14`, with the glyph in that cell; empty without
+        divisions.
 
         The surrounding scale is not read, because no declaration specifies which pointer is read on it.
         """
@@ -306,7 +309,8 @@ def _fitting(text: str, radius: float, turn: Fraction) -> float:
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield the strokes of a string along a circle; if `turned`, strings below the centre are inverted, to be readable.
+    """Yield the strokes of a string along a circle; if `turned`, strings below the centre are inverted, to be
+    readable.
     """
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)

@@ -149,8 +149,8 @@ class ToothProfile(Shown):
     points: Sequence[tuple[float, float]]
     """Radius relative to the pitch radius, and angle [rad], of each point.
 
-    The angles of an open profile ascend from -pi/z to pi/z. For a bevel or contrate wheel the radius is 1 plus the height
-    above the pitch cone, along the back cone.
+    The angles of an open profile ascend from -pi/z to pi/z. For a bevel or contrate wheel the radius is 1 plus the
+    height above the pitch cone, along the back cone.
     """
     hole: bool = False
     """True if the profile is a closed curve, such as the pin of a lantern pinion. Its points then go once around
@@ -212,8 +212,8 @@ class SceneWheel(Shown):
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the meshes of the wheel; None if the losses are not known, for example
-    without declared loads.
+    """Fraction of the input power that is lost at the meshes of the wheel; None if the losses are not known, for
+    example without declared loads.
     """
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""

@@ -83,7 +83,8 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield gear pairs whose real teeth cannot run, as dictionaries like those of loops, with the reason and a remedy.
+    """Yield gear pairs whose real teeth cannot run, as dictionaries like those of loops, with the reason and a
+    remedy.
     """
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
@@ -190,7 +191,8 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
     """Return the angle by which the slot in the zero pose deviates from the direction of its pin [rad].
 
-    A transmission function assumes that slot and pin are in line if both angles are 0. Declared starting angles may differ.
+    A transmission function assumes that slot and pin are in line if both angles are 0. Declared starting angles may
+    differ.
     """
     setting = moved.driving.get(circuit.id)
     if setting is None:
@@ -200,7 +202,8 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from default proportions.
+    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from default
+    proportions.
 
     apart   distance between the placed axes (mm), to which declared sizes without a unit are scaled
     """

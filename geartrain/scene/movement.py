@@ -79,8 +79,8 @@ class ErrorSource(Shown):
 
         S = start + period frac(cycles t) + from_known delta[known] + own delta[sources]
 
-    with the coefficients of the step that contains the source (`ErrorStep`). The error of the pair is delta = sense e(S),
-    where e is the error table, and every body in `bodies` has this error times its weight.
+    with the coefficients of the step that contains the source (`ErrorStep`). The error of the pair is delta = sense
+    e(S), where e is the error table, and every body in `bodies` has this error times its weight.
 
     See Also
     --------
@@ -171,7 +171,8 @@ def step_of(step: Composed) -> ErrorStep:
 def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a table.
+    """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
+    table.
 
     way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
           about declared axes
@@ -247,8 +248,8 @@ class InitialPosition:
     def error_past(self, shift: float) -> float:
         """Return the minimum error of the driven side [rad] at which an out-of-phase driver does not overlap it.
 
-        The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate requires
-        e(S + shift), so c is the maximum of the difference e(S + shift) - e(S).
+        The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
+        requires e(S + shift), so c is the maximum of the difference e(S + shift) - e(S).
         """
         import numpy as np
 
@@ -329,8 +330,8 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
     """Return the movement in reverse and notices.
 
-    The movement is None if it equals the forward movement `ahead`. If it cannot be computed, it is the mean motion, and the
-    notices give the reasons.
+    The movement is None if it equals the forward movement `ahead`. If it cannot be computed, it is the mean motion, and
+    the notices give the reasons.
     """
     try:
         composition = motion._backward
@@ -343,7 +344,8 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition, with kind `exact` if ratios are constant. Backlash may still cause offsets.
+    """Return the movement of a composition, with kind `exact` if ratios are constant. Backlash may still cause
+    offsets.
     """
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)

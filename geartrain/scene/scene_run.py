@@ -320,7 +320,8 @@ def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield each contact with its kind, the body that carries the contact point, and the point in the zero pose [mm].
+    """Yield each contact with its kind, the body that carries the contact point, and the point in the zero pose
+    [mm].
     """
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
@@ -346,7 +347,8 @@ def _rim(wheels: Sequence[SceneWheel]) -> Vector:
 
 
 def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
-    """Return the pitch point of two wheels in the zero pose [mm], on the pitch circle of one towards the axis of the other.
+    """Return the pitch point of two wheels in the zero pose [mm], on the pitch circle of one towards the axis of the
+    other.
 
     If one wheel is a ring, it is on the pitch circle of the ring.
     """

@@ -74,8 +74,8 @@ class DialFace(Shown):
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
-    """Caption: the name of the dial. If dials on several axes have this name, the outputs that are read on this dial follow in
-    brackets.
+    """Caption: the name of the dial. If dials on several axes have this name, the outputs that are read on this dial
+    follow in brackets.
     """
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
     """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
@@ -243,8 +243,8 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date that corresponds to a number of turns of the driving link; None if no date is declared, the unit is not a time, or
-    no link is driven.
+    """Date that corresponds to a number of turns of the driving link; None if no date is declared, the unit is not a
+    time, or no link is driven.
     """
     formulas: SceneFormulas | None = None
     """Speeds as functions of tooth counts; None if they were not requested, do not exist, or the scene replays a run.
@@ -267,8 +267,8 @@ class Scene(Shown):
     def to_dict(self) -> dict[str, Any]:
         """Return the scene as plain data for JSON.
 
-        Arrays are encoded as base64 of little-endian numbers, row by row. The key `run` is included only for a scene with a
-        run.
+        Arrays are encoded as base64 of little-endian numbers, row by row. The key `run` is included only for a scene
+        with a run.
         """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:

@@ -39,7 +39,8 @@ _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 def page(
     scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
 ) -> str:
-    """Build a self-contained HTML page with animated trains. The page works as a local file and makes no network requests.
+    """Build a self-contained HTML page with animated trains. The page works as a local file and makes no network
+    requests.
 
     Parameters
     ----------

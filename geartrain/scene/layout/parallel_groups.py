@@ -185,7 +185,8 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to the height at its reference point [mm].
+        """Return the height of a crossing axis at a point in plan, relative to the height at its reference point
+        [mm].
         """
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
@@ -416,7 +417,8 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return points in plan of the axes that cannot move [mm]; if no axis is fixed, points of axes that are chosen.
+        """Return points in plan of the axes that cannot move [mm]; if no axis is fixed, points of axes that are
+        chosen.
         """
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:

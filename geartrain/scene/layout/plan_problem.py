@@ -89,8 +89,8 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return chosen distances [mm] for pins without dimensions, and for carried axes that no distance connects to the axis of
-    their carrier.
+    """Return chosen distances [mm] for pins without dimensions, and for carried axes that no distance connects to the
+    axis of their carrier.
     """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
@@ -140,7 +140,8 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield the axes of planets between a sun and a ring, each with its number of assembly positions, z_sun + z_ring.
+    """Yield the axes of planets between a sun and a ring, each with its number of assembly positions, z_sun +
+    z_ring.
     """
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:

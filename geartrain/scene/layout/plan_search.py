@@ -186,8 +186,8 @@ class PlanOrder:
     def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
         """Return the rank of an axis; the axis with the minimum rank is placed first.
 
-        An axis comes after the axis of its carrier. Among other axes, the one with the most placed neighbours comes first, then
-        the one with the largest radius, or without placed neighbours the one with the most bars.
+        An axis comes after the axis of its carrier. Among other axes, the one with the most placed neighbours comes
+        first, then the one with the largest radius, or without placed neighbours the one with the most bars.
         """
         late = at in self._pivot and self._pivot[at] not in placed
         tied = len(self._joined[at].keys() & placed)
@@ -212,7 +212,8 @@ class PlanOrder:
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
         """Return bounds from the shortest paths to placed axes over axes that are not placed yet.
 
-        The ends of a chain of bars are at most the length of the chain apart, and at least its longest bar minus the rest.
+        The ends of a chain of bars are at most the length of the chain apart, and at least its longest bar minus the
+        rest.
         """
         ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
@@ -248,9 +249,9 @@ _ROW = 1.2  # default distance between two axes on a line divided by the sum of 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
     """Return the intersections of two circles.
 
-    For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty for
-    concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d along the
-    line of centres and at sqrt(r^2 - x^2) on either side of it.
+    For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty
+    for concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d
+    along the line of centres and at sqrt(r^2 - x^2) on either side of it.
     """
     apart = hypot(b[0] - a[0], b[1] - a[1])
     if apart < 1e-12 * (radius + other):
@@ -411,8 +412,8 @@ class _BeamSearch:
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
         """Return points on the circle about the first axis to which the axis is tied.
 
-        The points are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are evenly
-        spaced from the first of these axes.
+        The points are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are
+        evenly spaced from the first of these axes.
         """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()

@@ -158,7 +158,8 @@ def reference(direction: Vector) -> Vector:
 def pitch_directions(
     wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
 ) -> tuple[Vector, Vector]:
-    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to the wheel's axis.
+    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to the wheel's
+    axis.
 
     ways    declared directions of the axes
     rings   for each wheel, True if it is a ring
@@ -180,8 +181,8 @@ def align_meshes(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the angles at which wheels mesh, and phase errors.
 
-    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors (pitches) are those of
-    pairs that close a loop and do not mesh.
+    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors (pitches) are those
+    of pairs that close a loop and do not mesh.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
     angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel
@@ -248,8 +249,8 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from wheels that mesh or from the offset of a pin, or `free`
-    (placed without overlap).
+    """Origin of the position: `given` in the declaration, `found` from wheels that mesh or from the offset of a pin, or
+    `free` (placed without overlap).
     """
     carrier: str
     """Link that carries the axis: the frame or a carrier."""

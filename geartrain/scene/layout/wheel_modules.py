@@ -227,8 +227,8 @@ class _ModuleSearch:
             ratios.join(*ends, far / other)
 
     def _join_nearby(self, ratios: RatioSets[int], tie: PinSlotTie) -> None:
-        """Record that the axes of a pin and its slot, which are close together, are equally far from each axis that both mesh
-        with.
+        """Record that the axes of a pin and its slot, which are close together, are equally far from each axis that
+        both mesh with.
 
         This is a choice and not a constraint, so it comes after all constraints.
         """

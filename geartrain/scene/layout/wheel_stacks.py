@@ -63,8 +63,8 @@ class StackProblem:
 
 
 class _OrderSearch:
-    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and equal keys are one
-    level.
+    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and equal keys
+    are one level.
 
     clash     stacks that must not share a level, by stack
     carried   stacks of each arbor, and of the wheel that carries its axis
@@ -128,8 +128,8 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Return the key of each stack: all stacks are placed, then each stack and runs of levels are moved until no move
-        improves the order.
+        """Return the key of each stack: all stacks are placed, then each stack and runs of levels are moved until no
+        move improves the order.
         """
         keys = np.full(self.count, np.nan)
         for at in self.order:
@@ -209,11 +209,11 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return the number of times that arbors interleave with fixed wheels on their axis, so that these wheels cannot be one
-        piece.
+        """Return the number of times that arbors interleave with fixed wheels on their axis, so that these wheels
+        cannot be one piece.
 
-        From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation means an arbor
-        beside the fixed wheels; each further alternation counts as half.
+        From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation means an
+        arbor beside the fixed wheels; each further alternation counts as half.
         """
         found = np.zeros(keys.shape[1])
         below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
@@ -386,7 +386,8 @@ class WheelStack:
     def heights(self) -> dict[str, float]:
         """Return heights of upright wheels [mm].
 
-        Given heights are kept, and all other stacks are shifted by the same amount as the first stack with a given height.
+        Given heights are kept, and all other stacks are shifted by the same amount as the first stack with a given
+        height.
         """
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)
@@ -416,8 +417,8 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, whose axes share one
-        stud.
+        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, whose axes
+        share one stud.
         """
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}

@@ -234,7 +234,8 @@ class ColumnProblem:
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
         """Yield the fixed pieces that can hold the fixed wheels: one piece, or two, of which one is next to its plate.
 
-        hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that plate
+        hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
+        plate
         """
         own, plates = self._fixed_discs, self._nearer(places)
         yield from ([self._fixed_piece(own, plate)] for plate in plates)
@@ -327,7 +328,8 @@ def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[Stack
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """Return the column with its obstacles: discs of other axes that are at its heights and nearer than the clearance.
+    """Return the column with its obstacles: discs of other axes that are at its heights and nearer than the
+    clearance.
     """
     # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
@@ -345,8 +347,8 @@ class CoaxialLink:
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which the piece carries discs or is held [mm]: the heights of its discs, and for fixed wheels the height of
-    the plate.
+    """Heights at which the piece carries discs or is held [mm]: the heights of its discs, and for fixed wheels the
+    height of the plate.
     """
     low: float
     high: float

@@ -88,8 +88,8 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return the possible seats of the axes that a link carries: on its wheels, then on a plate on either side of the wheels
-    of these axes.
+    """Return the possible seats of the axes that a link carries: on its wheels, then on a plate on either side of the
+    wheels of these axes.
     """
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
@@ -125,7 +125,8 @@ def carried_columns(
     """Return the columns of the axes that one carrier carries, in the order of `axes`, relative to the carrier.
 
     With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
-    stud of the axis whose wheels are farther from the seat starts at the end of the other, as one stud turned with a step.
+    stud of the axis whose wheels are farther from the seat starts at the end of the other, as one stud turned with a
+    step.
     """
     seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
     found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]
@@ -143,8 +144,8 @@ def carried_columns(
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """Return the stud of the nearer axis without a head, and the stud of the other axis, which starts at the end of the first
-    stud.
+    """Return the stud of the nearer axis without a head, and the stud of the other axis, which starts at the end of the
+    first stud.
     """
     up = max(each.high for each in far.members) > max(each.high for each in near.members)
     if up:

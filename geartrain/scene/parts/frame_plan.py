@@ -78,8 +78,8 @@ def best_places(
 ) -> PlateChoice:
     """Return the best positions of the plates and the best seats of carriers, by branch and bound.
 
-    At most 64 combinations of seats are tried. One plate is at an end of the stack; only if obstacles remain, both plates
-    may be inside the stack.
+    At most 64 combinations of seats are tried. One plate is at an end of the stack; only if obstacles remain, both
+    plates may be inside the stack.
 
     blocked   number of obstacles on axes that carriers bear
     cut       number of crossing wheels that a plate at some height would cut
@@ -136,7 +136,8 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """Return the number of obstacles of a set of columns; a pair of links that cannot be nested counts as one obstacle.
+    """Return the number of obstacles of a set of columns; a pair of links that cannot be nested counts as one
+    obstacle.
     """
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
@@ -195,8 +196,8 @@ class FramePlan:
     def choice(self) -> PlateChoice:
         """Positions of the plates with the fewest obstacles, and of these the lowest cost of studs.
 
-        If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar, provided
-        that this leaves fewer obstacles.
+        If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar,
+        provided that this leaves fewer obstacles.
         """
         first = self._best([])
         tangled = [each for each in first.columns if each.tangled]

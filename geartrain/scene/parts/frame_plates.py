@@ -66,8 +66,8 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield holes that lighten a wide wave generator, at least six, between its lobes; `bore` is the diameter of its hole
-    [mm].
+    """Yield holes that lighten a wide wave generator, at least six, between its lobes; `bore` is the diameter of its
+    hole [mm].
     """
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
@@ -223,8 +223,8 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes next to the hub of a wheel or plate: for studs of the axes that it carries, for posts and pins, and
-        for eccentrics.
+        """Return the holes next to the hub of a wheel or plate: for studs of the axes that it carries, for posts and
+        pins, and for eccentrics.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 

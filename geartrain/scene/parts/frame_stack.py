@@ -70,7 +70,8 @@ class AcrossWheel:
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return the passage of the wheel through a plate; None if it does not intersect the plate or has no section.
+        """Return the passage of the wheel through a plate; None if it does not intersect the plate or has no
+        section.
         """
         if self.section is None:
             return None
@@ -287,7 +288,8 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """Return the layout with wheels shifted along the normal; wheels of axes that are not upright move with their mates.
+        """Return the layout with wheels shifted along the normal; wheels of axes that are not upright move with their
+        mates.
 
         shift   function of the height (mm) that returns the shift (mm)
         """
@@ -306,7 +308,8 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """Return the stack with space for the heads of studs next to the wheels that carriers carry, and for washers.
+        """Return the stack with space for the heads of studs next to the wheels that carriers carry, and for
+        washers.
         """
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:

@@ -40,13 +40,13 @@ def pillar_places(
 ) -> list[Point]:
     """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    Their polygon contains all axes and has the shortest perimeter. If there is no such polygon, the result is up to five
-    positions that are far apart.
+    Their polygon contains all axes and has the shortest perimeter. If there is no such polygon, the result is up to
+    five positions that are far apart.
 
     In each direction from the middle of the axes the candidate is the innermost position with free space outwards.
     Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
-    same perimeter, some with three positions at one end and one at the other. With `even` the positions surround a single
-    axis evenly, wider than high.
+    same perimeter, some with three positions at one end and one at the other. With `even` the positions surround a
+    single axis evenly, wider than high.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -86,7 +86,8 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon of `count` candidates that contains all axes, shape (count, 2); None if there is none.
+    """Return the shortest polygon of `count` candidates that contains all axes, shape (count, 2); None if there is
+    none.
 
     Candidates and axes are relative to the middle of the axes.
     """

@@ -44,7 +44,8 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None if there is no space.
+    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None if there is no
+    space.
 
     size   radius and maximum length of the drum (mm); the length is reduced to a quarter if necessary
     """
@@ -57,8 +58,8 @@ def free_beside(
 def _beside(
     disc: StackDisc, longest: float, shortest: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Yield the ends of rings on either side of a wheel from the longest ring, each with the ends of the space that the ring
-    needs.
+    """Yield the ends of rings on either side of a wheel from the longest ring, each with the ends of the space that the
+    ring needs.
     """
     for part in (1.0, 0.75, 0.5, 0.25):
         length = max(part * longest, shortest)

@@ -153,7 +153,8 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and the windows within it. Passages that would divide the plate are omitted.
+    """Return a convex edge with notches, and the windows within it. Passages that would divide the plate are
+    omitted.
     """
     windows = []
     for each in passages:

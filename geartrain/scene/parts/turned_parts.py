@@ -47,7 +47,8 @@ class TurnedPart:
     kind: str
     """Kind of part.
 
-    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, wall, rod, bob or weight.
+    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, wall, rod, bob or
+    weight.
     """
     at: Point
     """Position of the part's axis in the stack [mm]."""

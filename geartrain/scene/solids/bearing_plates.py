@@ -203,15 +203,16 @@ def pin_diameter(radius: float) -> float:
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the slot of a bar from its axis at the origin along x, for a pin from |r - e| to r + e [mm].
+    """Return the edge and the slot of a bar from its axis at the origin along x, for a pin from |r - e| to r + e
+    [mm].
     """
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 
 
 def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the hole of a bar from its axis at the origin along x, with a round hole in which a pin revolves
-    [mm].
+    """Return the edge and the hole of a bar from its axis at the origin along x, with a round hole in which a pin
+    revolves [mm].
 
     A pin without declared sizes moves its slot uniformly, at the mean of the transmission function. If this mean ratio
     is 1 (r > e), the pin moves relative to the bar on a circle of radius e about (r, 0); if it is 0, on a circle of

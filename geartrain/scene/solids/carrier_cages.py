@@ -79,7 +79,8 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face, and downward direction; None without such a dial.
+        """Direction towards the reader of the first dial on a face, and downward direction; None without such a
+        dial.
         """
         normal = self.plan.stack.normal
         assert normal is not None
@@ -312,8 +313,8 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of one body whose axis is inclined to its carrier's axis; `reach` is the position along the body's direction to
-    which its arbor extends [mm].
+    """Support of one body whose axis is inclined to its carrier's axis; `reach` is the position along the body's
+    direction to which its arbor extends [mm].
     """
 
     body: int

@@ -102,8 +102,8 @@ def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearT
 
     Without a requested module and without declared tooth forms, it is the same train.
 
-    Raise `QuestionError` if the declaration gives sizes, which take precedence, if a wheel is too small or too large to be
-    made, or if teeth cannot have the backlash.
+    Raise `QuestionError` if the declaration gives sizes, which take precedence, if a wheel is too small or too large to
+    be made, or if teeth cannot have the backlash.
 
     layout   layout of the train as it is declared
     """

@@ -120,7 +120,8 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return the holes of a wheel for pins and for a slot, in the coordinates of the wheel with axes `turn` at `place`.
+    """Return the holes of a wheel for pins and for a slot, in the coordinates of the wheel with axes `turn` at
+    `place`.
     """
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
@@ -161,7 +162,8 @@ class CouplingParts:
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins, from their wheel to the slot's wheel, and arms and bars for couplings that are not cut into wheels.
+        """Yield pins, from their wheel to the slot's wheel, and arms and bars for couplings that are not cut into
+        wheels.
 
         Pins that are fixed in plates are omitted.
         """
@@ -188,7 +190,8 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the interval of height from the far face of the pin's wheel to the far face of the slot's wheel [mm].
+        """Return the interval of height from the far face of the pin's wheel to the far face of the slot's wheel
+        [mm].
         """
         ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
         return min(ends), max(ends)
@@ -353,7 +356,8 @@ def _round(centre: Point, radius: float) -> Iterator[Point]:
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of pin and slot.
+    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of pin and
+    slot.
 
     No circle is yielded unless that carrier is the link of `wheel`.
     """

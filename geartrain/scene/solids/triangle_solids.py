@@ -39,8 +39,8 @@ _NEXT = [1, 2, 0]
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
     """Return points (n, 2) of a polygon with holes, and triangles (m, 3) of their indices, counter-clockwise.
 
-    The points are those of the polygon and then those of its holes. Polygons (k, 2) may have either orientation. They must
-    not intersect themselves or each other.
+    The points are those of the polygon and then those of its holes. Polygons (k, 2) may have either orientation. They
+    must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
     points = np.concatenate(parts)
@@ -60,7 +60,8 @@ def area(polygon: Floats) -> float:
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point of the loop.
+    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point of the
+    loop.
 
     Only points to the right of the hole are considered. Raise `ValueError` if none is visible.
     """
@@ -367,8 +368,8 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow end, and the disc inside the ring of
-    teeth.
+    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow end, and the disc inside the
+    ring of teeth.
 
     The surface has rows of points, from the bore at the back round the outside to the bore at the front.
     """

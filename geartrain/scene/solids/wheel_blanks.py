@@ -75,7 +75,8 @@ def spoke_windows(
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """Return the window about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too small.
+    """Return the window about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too
+    small.
 
     Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
     """
@@ -167,8 +168,8 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Flat shapes of the wheels of a train: wheels that can be cut flat by name, notices on wheels, and the backlash of every
-    pair that is cut.
+    """Flat shapes of the wheels of a train: wheels that can be cut flat by name, notices on wheels, and the backlash of
+    every pair that is cut.
     """
 
     wheels: Mapping[str, Blank]

@@ -107,6 +107,7 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     """
     if not len(wanted):
         return []
+    # stable, so that boxes with equal centres keep the given order
     order = np.argsort(wanted, kind="stable")
     wide = np.asarray(needs)[order]
     steps = np.concatenate([[0.0], np.cumsum(wide[1:] + wide[:-1]) / 2])  # distances from the first box, without gaps

@@ -86,6 +86,7 @@ def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
     for pointer in scene.pointers:
         body, base = scene.bodies[pointer.body], scene.bodies[pointer.base]
         known = pointer.speed is not None
+        # about the axis of the output: the product of the senses is -1 if the axis of its base is opposite
         start = (body.start - base.start * body.sense * base.sense) / (2 * pi)
         swing = float(error[pointer.body] - error[pointer.base] * body.sense * base.sense) / (2 * pi) + start
         turned = turns_of(pointer.speed, turns) * pointer.sense if known else None
@@ -164,7 +165,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             Problem(
                 f"{len(faces)} dial faces do not fit on a page",
                 f"a page has space for {_MOST}",
-                "select outputs with --of",
+                "select fewer outputs with --of",
             )
         )
     return faces
@@ -184,6 +185,7 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
     outer = _OUTER
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
+        # hands of one dial differ in length, so that a hand does not hide another with the same reading
         share = 1.0 if face.scale.turns > 1 else (readings[at].reach or 0.97) - 0.07 * (order % 10)
         _draw_pointer(axes, face, readings[at], centre, outer * share, order)
     axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))

@@ -55,6 +55,7 @@ def _path(contour: Contour) -> str:
         if abs(bulge) < _STRAIGHT:
             parts.append(f"L {to}")
         else:
+            # a bulge is tan(angle / 4), so that above 1 the arc exceeds a semicircle; sweep flag 0 is counter-clockwise
             radius, large, turn = arc_radius(start, end, bulge), int(abs(bulge) > 1), int(bulge < 0)
             parts.append(f"A {radius:.6f} {radius:.6f} 0 {large} {turn} {to}")
     return " ".join([*parts, "Z"])

@@ -173,6 +173,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
     }
     places = settle(links, pairs, lengths)
     middle = places - places.mean(0)
+    # principal axes; the signs of singular vectors are arbitrary and are fixed below
     _, _, turned = np.linalg.svd(middle, full_matrices=False)
     flat = middle @ turned.T if len(links) > 2 else middle
     signs = np.where(flat[np.abs(flat).argmax(0), [0, 1]] < 0, -1.0, 1.0) if len(links) > 2 else 1.0
@@ -315,7 +316,7 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw the name of a link next to its vertex, where it hides the least ink.
+    """Draw the name of a link next to its vertex, at the position where it hides the minimum amount of ink.
 
     Of equal positions, the position on the side with the fewest edges is used.
     """

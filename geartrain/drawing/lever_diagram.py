@@ -119,6 +119,7 @@ def _even_rows(wide: Sequence[float]) -> list[list[int]]:
     """
     rows = len(_packed_rows(wide, _PAGE))
     ends = range(len(wide))
+    # the width of the longest row is the width of some run of panels, so only these widths are tried
     widths = sorted(
         {sum(wide[first : last + 1]) + _GAP * (last + 1 - first) for last in ends for first in ends[: last + 1]}
     )

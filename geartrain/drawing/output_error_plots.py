@@ -125,9 +125,9 @@ def _omitted(erring: int, exact: int) -> Iterator[str]:
         yield "every output moves uniformly"
     less = (erring or exact) - _OUTPUTS
     if less == 1:
-        yield f"1 output{' with a smaller deviation' if erring else ''} is left out: select it with --of"
+        yield f"1 output{' with a smaller deviation' if erring else ''} is omitted: select it with --of"
     elif less > 1:
-        yield f"{less} outputs{' with smaller deviations' if erring else ''} are left out: select them with --of"
+        yield f"{less} outputs{' with smaller deviations' if erring else ''} are omitted: select them with --of"
     if erring and exact:
         moves = "1 output that moves uniformly is" if exact == 1 else f"{exact} outputs that move uniformly are"
         yield f"{moves} not drawn"
@@ -394,6 +394,7 @@ def _mean_speed(found: TorqueCycle) -> float:
         return 1.0
     speed = np.asarray(found.speeds.values)[found.speeds.labels[0].index(found.link)]
     forth, most = np.trapezoid(speed, found.turns), np.trapezoid(abs(speed), found.turns)
+    # the mean speed of a link that swings is only a rounding error
     return float(abs(forth) / found.span) if abs(forth) > _MINIMUM * most else 0.0
 
 
@@ -430,6 +431,7 @@ def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
     """
     if len(turns) <= 2 * _BINS:
         return turns, powers
+    # averages of the integral conserve the energy, whatever the spacing of positions
     work = cumulative_trapezoid(powers, turns, initial=0)
     edges = np.linspace(turns[0], turns[-1], _BINS + 1)
     at_edges = np.array([np.interp(edges, turns, row) for row in work])

@@ -262,7 +262,7 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Hatch the regions of faults; name and bound the regions where the pair runs, if there are several."""
+    """Draw hatching in the regions of faults; name and bound the regions where the pair runs, if there are several."""
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)

@@ -265,6 +265,7 @@ class PlanNames:
         corners = spots[:, None] + np.array([(i * wide / 2, j * high / 2) for i in (-1, 0, 1) for j in (-1, 0, 1)])
         apart = corners - centre
         within = np.hypot(apart[..., 0], apart[..., 1]).max(1) < wheel.root * self.scale
+        # wheels are listed from the nearest, so that only earlier wheels can hide this one
         above = self.centres[:order], self.reach[:order]
         hidden = points_in_discs(corners.reshape(-1, 2), *above).reshape(len(spots), -1).any(1)
         yield from ((x, y, wide, high) for x, y in spots[within & ~hidden].tolist())

@@ -96,6 +96,7 @@ class ProjectedScene:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
         steps = 2 * np.pi / wheel.teeth * np.arange(wheel.teeth)
+        # a helix rotates by tan(helix) / radius per mm along the axis
         first = wheel.turn + (0.0 if wheel.cone else height * np.tan(wheel.helix) / wheel.radius)
         angle = first + (steps[:, None] + tooth[None, :-1, 1]).ravel()
         if wave := self.wave(wheel):
@@ -379,6 +380,7 @@ def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
     up = projected.seen(projected.axis(wheel)) * np.sign(high - low)
     near, light = (first, float(up[2])) if up[2] > 0 else (last, -float(up[2]))
     far = last if near is first else first
+    # 1 mm deeper than its deepest point, so that the hidden end does not cover the strips of its own wheel
     back = _Face(far, float(far[:, 2].min()) - 1.0, 0.3, 0.5)
     return back, _Face(near, float(near[:, 2].mean()), 0.45 + 0.4 * light, 0.8)
 

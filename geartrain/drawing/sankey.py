@@ -156,6 +156,7 @@ def abscissae(
         names = right[at] + left[at + 1] + 0.12
         behind, before = room.get((at, True), 0.0), room.get((at + 1, False), 0.0)
         turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
+        # beside a return band the text of the neighbouring column needs its whole width
         gaps.append(max(names, _MINIMUM_GAP, turning + 0.2))
     edges = left[0] + right[-1] + 0.2
     x = [left[0] + 0.1]

@@ -64,6 +64,7 @@ def sphere_figure(
     kinds = list(dict.fromkeys(configuration.kinds))
     towards = configuration.axes @ screen[2]
     axes.add_patch(Circle((0.0, 0.0), 1.0, fill=False, edgecolor=GREY, linewidth=0.8))
+    # painter's algorithm, by the height of the plane of each pitch circle towards the reader
     for i in np.argsort(towards * np.cos(cones)):
         near = towards[i] > 0
         face = _face(kinds.index(configuration.kinds[i])) if near else (*to_rgb(PALE), 0.5)

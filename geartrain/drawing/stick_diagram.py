@@ -261,6 +261,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
         tries.append((_overlaps(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
         if not tries[-1][0]:
             break
+    # the iteration may alternate between arrangements, so the one with the fewest overlaps is used
     shafts, columns, cranks, lone, width, levels = min(tries)[2]
     rows, height = _set_heights(levels, shafts)
     meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]

@@ -212,6 +212,7 @@ def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
     """
     paper, ink = (_oklab(_rgb_of(each)) for each in (theme.paper, theme.ink))
     light, *hue = _oklab(rgb)
+    # the Oklab lightness is 0 for black and 1 for white
     lightness = ink[0] + light * (paper[0] - ink[0])
     strong = 0.0 if theme is THEMES["print"] else 1.0
     return _rgb(np.array([lightness, *(strong * np.array(hue))]))

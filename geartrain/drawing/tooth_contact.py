@@ -275,6 +275,7 @@ class ToothViewport:
         near = min(side * (end - axis) for end in (self.left, self.right))
         if near <= 0:
             return pi
+        # one pitch more, so that the ends of the outline are outside of the picture
         return min(pi, atan2(max(self.top, -self.bottom), near) + 2 * pi / z)
 
 

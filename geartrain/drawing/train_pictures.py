@@ -72,7 +72,9 @@ def picture(
         return stick_figure(train, labels, state)
     if kind not in KINDS:
         kinds = ", ".join(KINDS)
-        raise QuestionError(Problem(f"'{kind}' is not a kind of picture", f"kinds are {kinds}", "use one of them"))
+        raise QuestionError(
+            Problem(f"'{kind}' is not a kind of picture", f"the kinds are {kinds}", "use one of these kinds")
+        )
     from geartrain.scene import make_scene
 
     scene = make_scene(train, state)

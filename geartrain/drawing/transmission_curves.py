@@ -401,7 +401,11 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """
     if not paths:
         raise QuestionError(
-            Problem("no tooth form can be drawn", "none of them can run", "change the arcs or the tooth counts")
+            Problem(
+                "no tooth form can be drawn",
+                "no form has a path of contact for this pair",
+                "change the arcs or the tooth counts",
+            )
         )
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)
@@ -494,6 +498,7 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
     """Yield each quantity with its label; lengths in modules, so that spur and bevel gears are comparable."""
+    # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)
     yield r"flash temperature $\Theta$", lambda c: c.flash * unit**0.25
@@ -519,6 +524,7 @@ def _along(
         top = min(float(away.max(initial=0.0)), _SPIKE * float(np.quantile(away, 0.9))) if len(away) else 0.0
         low, high = min(low, float(away.min(initial=inf))), max(high, top)
         tops.append(top)
+    # one form with a singular curve must not flatten the curves of all other forms
     high = min(high, _MOST * float(np.median(tops)))
     rim = max(0.1 * (high - low), 0.02 * high)
     axes.set_ylim(low - rim if low > _FLAT * high else 0.0, high + rim or 1.0)

@@ -62,6 +62,7 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
         own = layout.axes[label]
         counts = (declared.wheels[name][1] for name in gear.pair)
         lobes = abs(sum((wheel.count or 0) * (1 if wheel.internal else -1) for wheel in counts))
+        # only the offset perpendicular to the axis deforms the wheel: it may also be displaced along the axis
         offset = across(minus(place.point, own.point), unit_or_z(own.direction))
         if lobes and size(offset):
             yield BentWheel(thin, place.carrier, label, offset, lobes)
@@ -117,6 +118,7 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
     tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
     half = pi / z
+    # a space of an external wheel is wider than half a pitch by the backlash, and a tooth narrower by as much
     flank = [(r, half - _half(z, r) - 2 * _BACKLASH * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
         FORM, _mirrored([(r, min(max(angle, _LAND * half), _ROOM * half)) for r, angle in reversed(flank)], z)
@@ -205,6 +207,7 @@ def _half(z: float, r: float) -> float:
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
+    # the rack undercuts only where its path is inside the involute
     return min(involute, pi / z - _swept(z, r))
 
 
@@ -296,13 +299,13 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.approximations), []).append(wheel)
     for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
-        drawn = "drawn with the teeth for the first pair of each" if of_first else "drawn approximately"
+        drawn = "drawn with the teeth for the first pair of each wheel" if of_first else "drawn approximately"
         yield Problem(f"the wheels {names} are {drawn}: {what}", why, fix)
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
         if own.flexible and name not in bent:
-            why = "no wave generator deforms it: its axis is not carried by a generator inside a ring with more teeth"
-            fix = "declare it as in trains/engineering/strain-wave.yaml"
+            why = "its axis is not carried off centre by a wave generator inside a ring with another tooth count"
+            fix = "declare the strain wave gear as in trains/engineering/strain-wave.yaml"
             yield Problem(f"flexible wheel '{name}' is drawn undeformed", why, fix)
 
 
@@ -404,6 +407,7 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)
+    # relative to the axis: the complement of the lead angle, which tables of worms give
     return (-1 if wheel.hand == "left" else 1) * atan2(2 * pi * place.radius, lead)
 
 

@@ -83,6 +83,7 @@ def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, f
     without mates has its angle in the layout.
     """
     found = _Mounting(stage, moved)
+    # pairs with a transmission function, then pairs with a declared phase, because their angles are not free
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
     turns = {wheel: found.turns.get(wheel, as_placed(stage, wheel)) for wheel in stage.layout.wheels}
@@ -156,6 +157,7 @@ class _Mounting:
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
+        # teeth repeat after a pitch, so the shift is reduced to the nearest equivalent phase
         shift = (position - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
         return shift if abs(shift) > _NEAR else 0.0
 
@@ -230,9 +232,9 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "their driver meshes with several wheels, and its angle is set by the first of them; the driven teeth "
-                "are "
-                "rotated until no teeth overlap, so that they touch only once per pitch; the motion is exact",
+                "the driver of each of these pairs has several mates, and the mesh with the first determines its angle; "
+                "driven teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is "
+                "exact",
                 "",
             )
 
@@ -267,6 +269,7 @@ def find_count_formulas(
     own = originals(declared)
     counted = {wheel.id: _original(wheel.id, own, bodies[wheel.body].id) for wheel in wheels}
     try:
+        # unfolded, as each planet is a body of the scene, although equal planets share one count
         train_requested = _with_outputs(unfolded.declaration, state, [*requested, *filter(None, links)])
         found = find_formulas(train_requested, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:

@@ -72,6 +72,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
     """Return the used pairs, together with the pairs that turn the pins of used followers."""
     found, left = set(used), set(swings)
+    # repeated, because another follower may turn the link of a pin
     while met := found & left:
         left -= met
         found.update(*(swings[name] for name in met))
@@ -170,6 +171,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
+            # an upper bound, which `_fitted` reduces
             radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
             look=dial.look,
@@ -268,6 +270,7 @@ def _side_width(stage: SceneContext, normal: Vector) -> float:
     """Return the width of the side on which a dial is mounted [mm]; infinite for dials that face towards or away from
     the viewer.
     """
+    # a cosine of 0.5 (60 degrees) separates dials on the front and back from dials on the sides
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]

@@ -288,6 +288,7 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
     named = [part for part in scale.names if part[0]]
     # fewer names leave more space for each
     for every in range(1, 7):
+        # a name may extend over its omitted neighbours; 0.9 leaves a gap to the next name
         share = 1 if every == 1 else 0.9 * every
         heights = {part: share * _fitting(part[0], radius, scale.turn_of(part[2])) for part in named[::every]}
         kept = {part: height for part, height in heights.items() if height >= _MINIMUM}

@@ -181,6 +181,7 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
     if not isinstance(declared, PinsInHoles):
         return 0.0, 0.0
     apart = 2 * radius * sin(pi / declared.pins)
+    # a hole is wider than its pin by 2 offset, so that a large offset leaves little space for the pin
     pin = max(_PART * apart - 2 * offset, 0.1 * apart)
     if declared.pin_diameter is not None:
         own = declared.pin_diameter
@@ -211,6 +212,7 @@ def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
             radius, offset = radius / 1000, offset / 1000
+            # sizes without a unit define only a ratio: the distance of the placed axes sets the scale
             if apart > _NONE and offset > 0:
                 radius, offset = radius * apart / offset, apart
         return radius, offset

@@ -208,6 +208,7 @@ def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
     tables = (TabulatedTransmission(transmission, TOLERANCE, degree).error_table for degree in _DEGREES)
+    # a follower that swings has mean ratio 0: its tolerance is relative to the period of the driver
     pitch = (float(transmission.ratio) or 1.0) * transmission.period
     # if rounding errors keep all tables above the tolerance, the most accurate one is used
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))

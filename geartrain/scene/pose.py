@@ -64,6 +64,7 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
     error = body_errors(scene, turns)
     angles = np.array(
         [
+            # reduced to one turn as a fraction: the float of many turns would lose digits of the angle
             body.sense * (body.start + 2 * pi * float(turns_of(body.speed, turns) % 1) + error[at])
             for at, body in enumerate(scene.bodies)
         ]
@@ -126,8 +127,8 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
     raise RangeError(
         Problem(
             f"the pose of '{scene.name}' does not converge",
-            "fixed-point iteration diverges for pairs that depend on each other",
-            "compute the motion instead, or choose another number of turns",
+            "the fixed-point iteration for pairs that depend on each other diverges or is too slow",
+            "compute the motion with `GearTrain.motion`, or choose another number of turns",
         )
     )
 
@@ -135,6 +136,7 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:
     """Return the error of a pair [rad] if the errors of other pairs move its driver by `shift` [rad]."""
     transmission = scene.movement.transmissions[source.transmission]
+    # reduced to one period as a fraction, for the same reason as in `scene_pose`
     mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)
     return source.sense * _value(transmission, source.start + mean + shift)
 

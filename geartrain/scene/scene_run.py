@@ -209,6 +209,7 @@ class ShownSamples:
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
         """Return the course of a link from its angles at all samples [rad], simplified within a tolerance [rad]."""
         shown = self.of(turned)
+        # without the mean motion the stored angles are small, so that float32 has enough digits for them
         rate = float(shown[-1] - shown[0]) / float(self.time[-1])
         line = shown - rate * self.time
         kept = simplified(np.column_stack((_FLAT * self.time, line)), tolerance)

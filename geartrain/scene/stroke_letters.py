@@ -181,6 +181,7 @@ def curved_text(text: str, height: float, radius: float, angle: float, inwards: 
     along = -text_length(text) * height / 2
     for letter, advance in _advances(text):
         wide = (advance - _APART / _HIGH) * height
+        # letters are not bent: only the middle of each letter follows the arc
         turned = angle + way * (along + wide / 2) / radius
         along += advance * height
         if letter.isspace():

@@ -66,7 +66,7 @@ class LiveServer:
         try:
             self._sockets = tornado.netutil.bind_sockets(port, _LOCAL)
         except (OSError, OverflowError) as error:
-            fix = "give another --port, or omit it"
+            fix = "give another --port, such as --port 0 for any free port"
             raise QuestionError(Problem(f"port {port} cannot be used", str(error), fix)) from None
 
     @property
@@ -82,6 +82,7 @@ class LiveServer:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
             self.error = str(error)
+        # counted after an error too, so that open pages show the message
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:

@@ -77,8 +77,8 @@ def page(
     if len(scenes) < 1 + compare:
         raise QuestionError(
             Problem(
-                "too few scenes for a page",
-                f"{len(scenes)} scenes are given",
+                "there are too few scenes for a page",
+                f"the number of scenes is {len(scenes)}, and a page shows one scene, or two side by side",
                 "pass one scene, or two with compare=True",
             )
         )

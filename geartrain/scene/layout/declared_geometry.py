@@ -230,6 +230,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         contacts.append(_contact(train, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))
+    # a positive rotation about z is clockwise only for a viewer on the side of -z
     front = -1 if declared.view.positive == "clockwise" else 1
     return DeclaredGeometry(
         lines,
@@ -289,6 +290,7 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
             lantern = cast("Lantern", form)
+            # a diameter in mm cannot be given in modules here, because modules are determined later
             if lantern.pin_diameter.unit is None:
                 yield gear.pair[lantern.pins - 1], 1.5 * float(lantern.pin_diameter.value)
 
@@ -342,4 +344,5 @@ def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> in
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
         flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1
+    # a (w_i - w_k) + b (w_j - w_k) = 0: with equal signs of a and b the relative speeds are opposite
     return (-1 if circuit.a * circuit.b > 0 else 1) * flip

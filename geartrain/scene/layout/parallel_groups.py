@@ -294,6 +294,7 @@ def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequenc
     stack, because a chain of meshes may exceed Python's recursion limit.
     """
     tries = 0
+    # one slot is not sufficient, because some wheels clash
     for count in range(2, len(meshes) + 1):
         stack: list[tuple[int, Mapping[str, AxialSlots]]] = [(0, {})]
         while stack and tries < _TRIES:

@@ -65,6 +65,7 @@ def plan_problem(
             discs[axis][wheel] = geometry.sizes[wheel]
     pivots = {line.label: line.pivots[0] for line in parallels.lines if line.pivots}
     forced = {pair: far for pair, far in geometry.modules.distances.items() if parallels.index.keys() >= set(pair)}
+    # 1 mm for an axis without wheels, because chosen distances are relative to radii
     radius = {label: max((disc.outer for disc in discs[label].values()), default=1.0) for label in labels}
     chosen = _chosen_distances(declared, forced, pivots, radius)
     crossing = [each for each in geometry.crossing if each.side.axis in parallels.index]

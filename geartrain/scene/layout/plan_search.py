@@ -225,6 +225,7 @@ class PlanOrder:
             done.add(here)
             if here in placed:
                 if here not in self._joined[at]:
+                    # polygon inequality: the longest bar minus all other bars is 2 longest - length
                     found.append(DistanceBound(here, max(0.0, 2 * longest - length), length))
                 continue
             for other, bar in self._joined[here].items():
@@ -307,6 +308,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
         return points
     from scipy.optimize import least_squares
 
+    # to rounding accuracy, because pitch circles with larger gaps are reported as notices
     return fitted(least_squares(misses, start, xtol=1e-15, ftol=1e-15, gtol=1e-15).x)
 
 

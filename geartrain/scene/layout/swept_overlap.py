@@ -75,6 +75,7 @@ def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> S
                 break
             (x, y), (u, v) = places[centre], places[pivot]
             arm = hypot(x - u, y - v)
+            # the annulus of radii low and high, swept as its centre revolves at the distance arm
             low, high = max(0.0, low - arm, arm - high), high + arm
             centre = pivot
     count = len(lines)
@@ -159,6 +160,7 @@ def find_plan_overlap(
     axis_of = {block.link: block.axis for block in blocks}
     arbor: Indices = np.array([axis_of[link] for link in links], np.intp)
     pierce = off[arbor] < outer[None, :]
+    # an arbor that is always inside a ring does not pierce the ring
     pierce &= (swept.far[np.ix_(arbor, axis)] >= inner[None, :]) | (inner[None, :] == 0)
     pierce &= axis[None, :] != arbor[:, None]
     named = {block.wheel: at for at, block in enumerate(blocks) if not block.across}
@@ -174,6 +176,7 @@ def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, i
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])
     own = np.array([block.link in (pin.link, slot.link) for block in blocks])
+    # the radius of the pin is not known here: it may be anywhere on its wheel
     return np.asarray((off[pin.axis] - pin.outer < outer) & ~own)
 
 

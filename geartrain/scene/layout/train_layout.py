@@ -52,6 +52,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
     if contact.parallel:
         first, second = (found.points[axis] for axis in contact.axes)
         apart = pitch_distance(declared, found.geometry.modules.module, contact)
+        # heights do not matter: only the distance in plan determines whether pitch circles touch
         far = size(across(minus(second, first), lines[0].direction)) - apart
         # a wheel too far from the centre of a ring overlaps it
         return -far if contact.kind == "ring" else far
@@ -92,7 +93,7 @@ def notices(
             yield Problem(
                 f"the teeth of '{name}' do not mesh: their phase is wrong by {abs(miss):.3g} of a pitch",
                 "the pair closes a loop of wheels, whose positions determine the phases of all teeth",
-                "declare positions of the axes at which teeth mesh, or change tooth counts",
+                "declare axis positions at which the teeth mesh, or change tooth counts",
                 place[name],
             )
 
@@ -104,7 +105,7 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
         + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
         f"the centre distance that pair '{contact.name}' requires between axes '{axis}' and '{other}' is incompatible "
         "with other pairs, declared positions, modules or offsets",
-        "change a tooth count, a position or a module; speeds are not affected",
+        "change a tooth count, a position or a module; the gap itself does not affect speeds",
         place,
     )
 
@@ -126,8 +127,8 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they and their mates are on one level, and their axes are too close together",
-            "declare positions of their axes, or change the order of their pairs",
+            "the axes are too close together for wheels at overlapping heights",
+            "declare positions of the axes, or change the order of the gear pairs",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:

@@ -92,6 +92,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
     part = sum(other.length(modules) for other in loose)
     if not part:
         return False
+    # only the free part of the path grows: way_length + (factor - 1) part = length / _LOOSE
     factor = 1 + (length / _LOOSE - way_length) / part
     for root in {other.root for other in loose if other.root is not None}:
         modules[root] *= _simple(factor)
@@ -276,6 +277,7 @@ class _ModuleSearch:
         """Yield distances of parallel axes, each as a multiple of the module on which it depends or in mm."""
         lines = self.geometry.lines
         placed = [label for label, line in lines.items() if line.given is not None]
+        # a chain of the fixed axes is sufficient to find the paths between all of them
         for pair in pairwise(placed):
             if lines[pair[0]].group == lines[pair[1]].group:
                 yield AxisDistance(pair, float(self._declared_distance(pair) or 0), None)
@@ -293,6 +295,7 @@ class _ModuleSearch:
             yield axes, sum(far) / len(far)
         for tie in self.geometry.ties:
             if tie.offset is not None:
+                # after the gear pairs, so that a declared offset replaces their distance
                 yield tie.axis_pair, float(tie.offset)
 
 

@@ -35,6 +35,7 @@ def taper(cone: float, radius: float, thickness: float) -> float:
     float
         Ratio from 0.55 to 1; 1 for a face width of 0.
     """
+    # the cone distance is radius / sin(cone)
     return 1 - min(_MOST_FACE, thickness * sin(cone) / radius)
 
 

@@ -155,6 +155,7 @@ class ColumnProblem:
         def column(core: float) -> AxisColumn:
             return self._column(bearing, places, self._members(order, core, stud), tangled, core)
 
+        # the preferred diameter, which does not take obstacles into account
         first = column(self._core(order, stud))
         thinner = [core for core in _CORES if core < first.core]
         # the radius of a column increases with its core at every height: an obstacle of the thinnest blocks all
@@ -288,6 +289,7 @@ class ColumnProblem:
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
         found = [_WIDEST, *(USUAL * root for root in roots)]
         thick = [each.outer for each in self._members(order, 0.0, stud)]  # thickness added by pipes
+        # the outside diameter of a pipe is core + outer, and at most the root diameter of its smallest wheel
         found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
         return max(_MINIMUM, round(min(found), 2))
 

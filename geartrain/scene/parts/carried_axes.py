@@ -98,6 +98,7 @@ def carrier_seats(
     low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
     spots = tuple(each.label for each in carried)
     plate = StackDisc(f"{link} carrier plate", link, axis, at, 0.0, 0.0, reach + WIDEST)
+    # off the middle of the gap, so that several plates in one gap have a fixed order
     heights = gap_beside(slab_gaps, low, -1) + _NEAR, gap_beside(slab_gaps, high, 1) - _NEAR
     return [*found, *(plate_seat(plate, height, spots) for height in heights)]
 

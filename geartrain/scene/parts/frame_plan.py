@@ -232,6 +232,7 @@ class FramePlan:
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
+        # a requested diameter applies to all arbors, even if the declaration gives others
         if self.core is not None or not declared:
             return self.core, None
         thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the innermost
@@ -465,8 +466,8 @@ class FramePlan:
         for column in self.all_columns:
             if column.tangled:
                 one, other = column.tangled
-                why = f"each has a wheel between two wheels of the other, on axis '{column.axis}'"
-                fix = "move one of them to another axis, or remove one of these wheels"
+                why = f"on axis '{column.axis}' neither can be a pipe around the other without enclosing a wheel of it"
+                fix = "move one of the arbors to another axis, or remove a wheel from one of them"
                 yield Problem(f"arbors '{one}' and '{other}' cannot be nested", why, fix)
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
@@ -571,6 +572,7 @@ def stack_up(
         low, tall, room, name = row
         if before is not None:
             slabs = before[3][0] == name[0] == "slab"
+            # neighbouring slabs keep their gap of the layout; only plates need other gaps
             top += low - before[0] - before[1] if slabs else max(room, before[2])
         faces[name] = top, top + tall
         top, before = top + tall, row

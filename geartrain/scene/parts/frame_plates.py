@@ -72,6 +72,7 @@ def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
+    # a multiple of the number of lobes, so that the generator remains balanced
     count = wave.lobes * ceil(6 / wave.lobes)
     out = 0.55 * radius
     diameter = round(min(0.42 * radius, 1.6 * out * sin(pi / count)), 1)

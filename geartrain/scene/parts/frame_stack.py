@@ -280,6 +280,7 @@ class FrameStack:
             return AcrossWheel(place.wheel, low, high, ((centre, dist(centre, (x, y)) + hypot(outer, thick)),))
         if not flat:
             return AcrossWheel(place.wheel, low, high, (((x, y), outer),))
+        # in plan the wheel is a strip: circles with its half width as radius cover it
         count = max(1, ceil(outer / thick))
         steps = [outer * k / count / flat for k in range(-count, count + 1)]
         circles = tuple(((x - v * step, y + u * step), thick) for step in steps)
@@ -331,7 +332,7 @@ class FrameStack:
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
                 upright = self.is_upright(axis)
                 why = (
-                    f"its carrier '{axis.carrier}' turns on another carrier"
+                    f"its carrier '{axis.carrier}' does not turn about a frame axis perpendicular to the plates"
                     if upright
                     else "it is not perpendicular to the plates"
                 )

@@ -40,8 +40,8 @@ def pillar_places(
 ) -> list[Point]:
     """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    Their polygon contains all axes and has the shortest perimeter. If there is no such polygon, the result is up to
-    five positions that are far apart.
+    Their polygon contains all axes and has the shortest perimeter. Without such a polygon, the result is up to five
+    positions that are far apart.
 
     In each direction from the middle of the axes the candidate is the innermost position with free space outwards.
     Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
@@ -173,6 +173,7 @@ def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: f
     reach = min(plate[0], ring.low), max(plate[1], ring.high)
     circles += [(column.at, column.radius(*reach)) for column in plan.columns]
     tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+    # more than 0.5 mm does not matter: the first such rotation is used, so that the result is stable
     return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
 
@@ -184,7 +185,7 @@ def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Prob
         for disc in (each for each in inside if low < each.middle < high and each.hub):
             if (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0:
                 what = f"{post.name} collides with '{disc.name}'"
-                yield Problem(what, f"they overlap by {-room:.3f} mm", "support the ring by a bracket at its side")
+                yield Problem(what, f"they overlap by {-room:.3f} mm", "support the ring with a bracket at its side")
 
 
 def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:

@@ -44,8 +44,7 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None if there is no
-    space.
+    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None without space.
 
     size   radius and maximum length of the drum (mm); the length is reduced to a quarter if necessary
     """
@@ -112,6 +111,7 @@ class _Obstacles:
         """Return True if a ring on a member between two heights has clearance to all other parts."""
         if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
             return False
+        # a wider member at these heights would be a pipe around the ring
         inner = [each for each in self.column.members if each is not member and each.low < high and low < each.high]
         if any(each.outer > member.outer for each in inner) or any(a < high and low < b for a, b in self.walls):
             return False
@@ -184,7 +184,7 @@ class Barrel:
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
     """Return the barrel of the link at which power enters.
 
-    It is None if no weight or no drum is declared, or if there is no space.
+    It is None if a weight or a drum is not declared, and if the barrel has no space.
     """
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:

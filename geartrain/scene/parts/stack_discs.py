@@ -64,6 +64,7 @@ class StackDisc:
             away = dist(at, self.at)
             return max(away - self.outer, self.inner - away if self.inner else -self.outer) - radius
         away, aside = dist(at, self.carrier), dist(self.at, self.carrier)
+        # the column may also be near the carrier axis, inside the circle on which the disc revolves
         inside = self.inner - away - aside if self.inner else aside - self.outer - away
         return max(away - aside - self.outer, inside) - radius
 
@@ -181,6 +182,7 @@ def _is_inside(line: Floats, point: Floats) -> bool:
     a, b = line - point, np.roll(line, -1, axis=0) - point
     turned = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)).sum()
     edge = b - a
+    # 1e-300 avoids 0/0 where points are repeated
     foot = np.clip(-(a * edge).sum(1) / np.maximum((edge * edge).sum(1), 1e-300), 0.0, 1.0)
     apart = np.hypot(*(a + foot[:, None] * edge).T).min()
     return bool(abs(turned) > np.pi and apart >= _WEB)

@@ -132,8 +132,10 @@ def coupling_discs(
             fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; otherwise add them by hand"
             notices.append(Problem(what, why, fix))
         elif coupling.pin_radius is None or coupling.offset is None:
-            what = f"pin and slot of '{coupling.name}' are not modelled"
-            notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
+            what = f"the pin and slot of '{coupling.name}' are not modelled"
+            notices.append(
+                Problem(what, "the dimensions of the coupling are not declared", "declare pin_radius and offset")
+            )
         else:
             plates.append(_disc(coupling, coupling.pin, bores, slotted=False))
             plates.append(_disc(coupling, coupling.slot, bores, slotted=True))
@@ -222,6 +224,7 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     middle, rim = max(r, e), hole + 0.65 * pin
     aside = asin(wide / rim)
     x = middle - rim * cos(aside)
+    # bulge of the arc round the hole, which spans 2 (pi - aside)
     sweep = tan((pi - aside) / 2)
     edge = Contour.of([(0.0, wide, 1.0), (0.0, -wide, 0.0), (x, -wide, sweep), (x, wide, 0.0)])
     return edge, Contour.circle(hole, (middle, 0.0))
@@ -234,6 +237,7 @@ def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000
     pin = pin_diameter(r)
     low, high = (abs(r - e), r + e) if slotted else (r, r)
+    # a bore that would meet the slot is reduced
     own = min(diameters.get(link, 0.0), max(2 * (low - pin), 0.0))
     cut = [Contour.circle(high + pin / 2 + _LAND), around([(low, 0.0), (high, 0.0)], pin / 2)]
     if own:

@@ -85,6 +85,7 @@ def build_scene(
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
         dials = _with_seated(dials, pointers)
+        # again, for the hands of dials that are now seated on other hands
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     for at in range(len(dials)):
         dials, pointers = _on_bracket(at, scene, dials, pointers, parts)

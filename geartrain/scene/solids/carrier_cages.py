@@ -415,7 +415,7 @@ class _CageBuilder:
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of a wheel of the carrier whose tips are outside of a post; None if there is no such
+        """Return the nearest face of a wheel of the carrier whose tips are outside of a post; None without such a
         wheel.
         """
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)

@@ -200,6 +200,7 @@ def _circle(
     hole = 2 * (through + _ROOM)
     if radius <= hole:
         return None
+    # nested dials keep their relative sizes
     share = _SCALE * radius / max(face.radius for face in faces)
     ordered = sorted(faces, key=lambda each: -each.radius)
     scales, radii = {face.id: face.scale for face in ordered}, {face.id: share * face.radius for face in ordered}

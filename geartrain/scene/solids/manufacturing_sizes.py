@@ -93,7 +93,7 @@ def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) ->
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are accurate to 0.001 mm, and their arbors and plates are a few millimetres thick"
+    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 
@@ -178,6 +178,7 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
     form = declared.form_of(gear)
     if form is None:
         return gear
+    # from the decimal string: the float itself is not exactly that decimal
     share = Fraction(str(BACKLASH)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
     thinner = form.thinned(Quantity(share, None, f"{float(share):.9g}"))
     return gear if thinner is form else gear.changed(tooth_form=thinner)
@@ -242,6 +243,7 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
     if not free:
         return own
     usual = median(own[name] for name in free)
+    # nearest by ratio, because stock sizes are roughly a geometric series
     stock = min(_STOCK, key=lambda each: abs(log(each / usual)))
     return own if abs(log(stock / usual)) > log(_NEAR) else own | dict.fromkeys(free, stock)
 

@@ -263,6 +263,7 @@ class _Parts:
             )
             return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)
         flat = SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, blank.contours, blank.thickness)
+        # one pitch repeated, with twisted helical teeth, instead of the plain extrusion of the contours
         return replace(flat, drawn=wheel_solid(blank))
 
     def rods(self) -> Iterator[SolidPart]:

@@ -63,6 +63,7 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
+        # a round hole has a fixed centre, whereas a pin moves in its slot by the offset to either side
         far = coupling.hole / 2 if coupling.hole else e + half
         pins = _wide_wheels(scene, coupling.pin, blanks, bores, (r - half, r + half))
         slots = _wide_wheels(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
@@ -370,6 +371,7 @@ def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackD
     if r >= e:  # the bar turns with the pin
         yield (x, y), far + wide
         return
+    # a circle of radius r at the distance e is seen from the slot axis at +- asin(r / e)
     middle, swing = atan2(pin[1] - y, pin[0] - x), asin(r / e)
     for part in range(-_PARTS, _PARTS + 1):
         turn, along = middle + swing * part / _PARTS, 0.0

@@ -77,7 +77,7 @@ def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
         cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)
         if not (cross & away).any():
             return [*loop[: k + 1], *hole, hole[0], *loop[k:]]
-    raise ValueError("a hole is not inside its polygon")
+    raise ValueError("a hole is not inside its polygon, or intersects it")
 
 
 def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
@@ -167,10 +167,13 @@ class _Corners:
             heappush(self.heap, (-self.fatness[k], k))
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of a corner's triangle, and its ratio to the square of the longest side."""
+        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the square of the longest
+        side.
+        """
         (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
         turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
+        # the sum of two squares bounds the larger one, which is sufficient to rank corners
         longest = max((cx - ax) * (cx - ax) + (cy - ay) * (cy - ay), first + second)
         self.turn[at], self.fatness[at], self.blocker[at] = turn, turn / (longest or 1.0), -1
 

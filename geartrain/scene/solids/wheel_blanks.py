@@ -88,6 +88,7 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
         along = sqrt(centre**2 - (half + corner) ** 2)
         ends.append((circle, centre, pitch / 2 - lean, along))
     (rim, rim_centre, rim_turn, far), (hub, hub_centre, hub_turn, near) = ends
+    # -1e-9: at the limit the two arcs at one end meet on the x axis
     if min(rim_turn, hub_turn) < -1e-9 or far <= near:
         return None
     upper = [
@@ -228,7 +229,7 @@ def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     r = blank.pitch_radius
     form = "a disc of its pitch circle, because its teeth are not known"
     what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
-    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with"
+    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part with which it engages"
     notice = Problem(what, why, fix)
     return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), notice
 
@@ -236,7 +237,7 @@ def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
 def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
     """Yield a notice on helical teeth, which a flat file cannot show."""
     if wheel.is_helical:
-        what = f"wheel '{name}' is drawn flat: it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
+        what = f"wheel '{name}' is drawn flat, but it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
         fix = "print it from the .stl, or have it hobbed"
         why = "a flat drawing shows the transverse section, and the .step file extrudes it without twist"
         yield Problem(what, why, fix)
@@ -263,7 +264,11 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
     windows = spoke_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
         what = f"wheel '{blank.wheel}' keeps its solid web"
-        return blank, [Problem(what, "it has holes for other parts", "cut its windows by hand", "--spokes")]
+        return blank, [
+            Problem(
+                what, "it has holes for other parts, which windows could meet", "cut its windows by hand", "--spokes"
+            )
+        ]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 
 
@@ -274,7 +279,7 @@ def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Bla
     if not bore or blank.kind == "ring":
         return blank, []
     if bore / 2 >= _LAND * inner and bore / 2 >= inner - _THIN:
-        what = f"wheel '{blank.wheel}': a bore of {bore:g} mm does not fit"
+        what = f"wheel '{blank.wheel}' has no space for a bore of {bore:g} mm"
         why = f"its root circle has a diameter of {2 * inner:.4g} mm, so it is cut without a hole"
-        return blank, [Problem(what, why, f"pass less than {2 * _LAND * inner:.4g} mm", "--bore")]
+        return blank, [Problem(what, why, f"give a bore of less than {2 * _LAND * inner:.4g} mm", "--bore")]
     return replace(blank, contours=(*blank.contours, Contour.circle(bore / 2)), bore=bore), []

@@ -169,7 +169,9 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
     if suffix == ".csv":
         return _csv(wheel)
     what = f"an outline cannot be written as {suffix or 'a file without suffix'}"
-    raise GearTrainError(Problem(what, "", f"use one of {', '.join(OUTLINES)}", "--profile"))
+    raise GearTrainError(
+        Problem(what, "the suffix determines the format", f"use one of {', '.join(OUTLINES)}", "--profile")
+    )
 
 
 def _csv(wheel: WheelOutline) -> str:

@@ -189,7 +189,7 @@ def screen_of(view: Floats) -> Floats:
 class ScaledPage:
     """Page with axes in inches, on which millimetres are drawn to scale.
 
-    foot   height of the text below the side view (in)
+    foot   height of the text below the side view [in]
     """
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:

@@ -320,9 +320,7 @@ def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
 
 
 def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
-    """Reorder the columns in place to reduce crossings, by barycentre sweeps in both directions, then by swapping
-    spots.
-    """
+    """Reduce crossings by sorting columns in place, by barycentre sweeps in both directions, then by swapping spots."""
     whole = range(len(table))
     best, minimum = [list(column) for column in table], _crossing_cost(table, whole)
     for sweep in range(_SWEEPS):

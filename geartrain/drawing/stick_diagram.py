@@ -135,7 +135,7 @@ class StickLabels:
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
         """Add the name of a link: before its shaft, or above, behind or below the shaft.
 
-        left, right, y   ends and height of the shaft (in)
+        left, right, y   ends and height of the shaft [in]
         """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)

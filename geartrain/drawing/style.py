@@ -205,7 +205,7 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
     """Return a figure with one panel for horizontal bars and intervals, one for each name, the first on top.
 
-    height, width   size of the figure (in)
+    height, width   size of the figure [in]
     """
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.add_subplot()

@@ -288,7 +288,7 @@ def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
 
 
 def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
-    """Return the speed ratio tau at O1C / D."""
+    """Return the speed ratio tau at which the instant centre is at O1C / D, bounded as in `_centre_at`."""
     first, second = signs
     return centre / np.maximum(first * (1 - second * centre), 0.1)
 

@@ -105,12 +105,12 @@ _LAND = 0.08  # minimum half width of a tip, divided by half a pitch
 
 
 def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a wheel, at most `height` (modules) above the pitch circle."""
+    """Return a nominal tooth of a wheel, at most `height` [modules] above the pitch circle."""
     return ToothProfile(FORM, _tooth(z, min(ADDENDUM, height)))
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of an internal gear, at most `height` (modules) inside the pitch circle.
+    """Return a nominal tooth of an internal gear, at most `height` [modules] inside the pitch circle.
 
     The tooth has the shape of a tooth space of an external wheel.
     """
@@ -143,7 +143,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
     """Return a nominal tooth of a bevel wheel at its wide end, from the virtual spur wheel of its back cone (Tredgold).
 
     Each radius of the profile is 1 plus the height above the pitch cone along the back cone; `cone` is the half angle
-    of the pitch cone (rad).
+    of the pitch cone [rad].
     """
     # the back cone of a crown wheel is a cylinder: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
@@ -156,7 +156,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
     """Return a tooth of a crown wheel, whose spaces are slightly wider than the given tooth of its mate.
 
-    section   one tooth of the mate: radius relative to its pitch radius and angle (rad), by increasing angle
+    section   one tooth of the mate: radius relative to its pitch radius and angle [rad], by increasing angle
     """
     import numpy as np
 
@@ -337,7 +337,7 @@ def find_wheels(
     """Return all wheels in the order declared, and the tooth profiles to which the wheels refer.
 
     profiles   tooth profile by wheel
-    turns      angle (rad) of the first tooth of each wheel about the direction of its body
+    turns      angle [rad] of the first tooth of each wheel about the direction of its body
     """
     shared: dict[ToothProfile, int] = {}
     circuits: dict[str, list[str]] = {}

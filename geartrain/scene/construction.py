@@ -79,7 +79,7 @@ _ROUNDS = 4
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
     """Return the angle of the first tooth of every wheel at which its teeth mesh with its mates, and notices.
 
-    Each angle (rad) is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
+    Each angle [rad] is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
     without mates has its angle in the layout.
     """
     found = _Mounting(stage, moved)
@@ -169,7 +169,7 @@ class _Mounting:
         """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation
         [pitches].
 
-        position   position of the driver's tooth (pitches); if it is off the phase of the transmission function, the
+        position   position of the driver's tooth [pitches]; if it is off the phase of the transmission function, the
                    driven tooth is advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
@@ -232,8 +232,8 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "the driver of each of these pairs has several mates, and the mesh with the first determines its angle; "
-                "driven teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is "
+                "the driver of each of these pairs has several mates, and its mesh with the first determines its angle; "
+                "driven teeth are turned until no teeth overlap, and touch only once per pitch; the motion is "
                 "exact",
                 "",
             )

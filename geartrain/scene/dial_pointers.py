@@ -199,7 +199,9 @@ def _differences(line: Stroke) -> tuple[int, ...]:
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """Return the dial as a ball next to its own axis, which is used unless a pointer is found that carries the ball."""
+    """Return the dial as a ball next to the axis of its pointer, which is used unless another pointer carries the
+    ball.
+    """
     place = stage.layout.axes.get(key[2])
     foot = (0.0, 0.0, 0.0) if place is None else place.point
     return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
@@ -278,7 +280,7 @@ def _side_width(stage: SceneContext, normal: Vector) -> float:
 
 
 def _extent(stage: SceneContext, way: Vector) -> float:
-    """Return the extent of all wheels along a direction (mm)."""
+    """Return the extent of all wheels along a direction [mm]."""
     ends = []
     for wheel in stage.layout.wheels.values():
         along = dot(stage.layout.axes[wheel.axis].direction, way)

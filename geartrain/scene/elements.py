@@ -291,7 +291,7 @@ class SceneCoupling(Shown):
     offset: float
     """Distance between the axes of the pin's body and the slot's body [mm]."""
     drawn: bool
-    """False if the dimensions of the coupling are not declared and were therefore chosen for the picture."""
+    """True if the dimensions of the coupling are declared, False if they were chosen for the picture."""
     text: str
     """Equation of the coupling's fundamental circuit as a string."""
     slot_turn: float = 0.0

@@ -83,7 +83,7 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield gear pairs whose real teeth cannot run, as dictionaries like those of loops, with the reason and a
+    """Yield gear pairs whose real teeth cannot run, as dictionaries in the form of loops, with the reason and a
     remedy.
     """
     for mesh in stage.meshes:
@@ -206,7 +206,7 @@ def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
     """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from default
     proportions.
 
-    apart   distance between the placed axes (mm), to which declared sizes without a unit are scaled
+    apart   distance between the placed axes [mm], to which declared sizes without a unit are scaled
     """
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000

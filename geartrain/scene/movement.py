@@ -102,7 +102,7 @@ class ErrorSource(Shown):
     bodies: Sequence[int]
     """Indices of the bodies that the error of the pair moves."""
     weights: Sequence[float]
-    """Error of each of these bodies per unit of the pair's error [rad/rad]."""
+    """Error of each body in `bodies` per unit of the pair's error [rad/rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +139,7 @@ class Movement(Shown):
     """
 
     kind: str
-    """Kind of motion, which states whether transmission errors are included.
+    """Kind of motion: with or without transmission errors.
 
     `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: the mean motion is shown,
     because these errors cannot be computed. `still`: no speed is determined.
@@ -240,16 +240,16 @@ class InitialPosition:
     """Driving link; `forward` is 1, or -1 if it turns against the direction of its body."""
     forward: int
     S: float
-    """Forward angle of the driver (rad)."""
+    """Forward angle of the driver [rad]."""
     error: float
-    """Error of the driven side at S (rad)."""
+    """Error of the driven side at S [rad]."""
     transmission: ToothTransmission
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
         """Return the minimum error of the driven side [rad] at which an out-of-phase driver does not overlap it.
 
-        The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
+        The driver's teeth are `shift` [rad] ahead of their phase. The driven side follows e(S) + c and its mate
         requires e(S + shift), so c is the maximum of the difference e(S + shift) - e(S).
         """
         import numpy as np

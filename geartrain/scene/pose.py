@@ -142,7 +142,7 @@ def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> 
 
 
 def _value(transmission: ErrorTable, S: float) -> float:
-    """Return the tabulated transmission error at a driver's angle (rad)."""
+    """Return the tabulated transmission error at a driver's angle [rad]."""
     s = S % transmission.period
     # clamped, because rounding may make s equal to the period
     cell = min(max(int(np.searchsorted(transmission.breaks, s, side="right")) - 1, 0), len(transmission.breaks) - 2)

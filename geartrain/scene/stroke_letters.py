@@ -21,7 +21,7 @@ class HandOutline:
     """Outline of a hand along x from its axis, with the tip at x = 1."""
 
     reach: float
-    """Length relative to the radius of the scale on which it is read."""
+    """Length of the hand relative to the radius of the scale on which it is read."""
     stations: tuple[tuple[float, float], ...]
     """Pairs (x, half the width at x) from the tail to the tip, relative to the length."""
 

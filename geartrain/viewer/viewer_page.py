@@ -78,8 +78,8 @@ def page(
         raise QuestionError(
             Problem(
                 "there are too few scenes for a page",
-                f"the number of scenes is {len(scenes)}, and a page shows one scene, or two side by side",
-                "pass one scene, or two with compare=True",
+                f"a page requires at least one scene, or two to compare, and the number given is {len(scenes)}",
+                "pass at least one scene, or at least two with compare=True",
             )
         )
     # the default layout needs no entry

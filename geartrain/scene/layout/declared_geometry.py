@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.lantern import Lantern
 
 Point = tuple[float, float]
-"""Point in plan: coordinates (mm) perpendicular to parallel axes."""
+"""Point in plan: coordinates [mm] perpendicular to parallel axes."""
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
 _TOUCHING = 1e-12  # relative distance below which pitch circles touch
@@ -134,7 +134,7 @@ class PitchContact:
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of the pair in a fixed order, which is the same for all pairs between these axes."""
+        """Axes of the pair in alphabetical order, which is the same for all pairs between the two axes."""
         return min(self.axes), max(self.axes)
 
 
@@ -150,7 +150,7 @@ class PinSlotTie:
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of pin and slot in a fixed order, which is the same for all pairs between these axes."""
+        """Axes of pin and slot in alphabetical order, which is the same for all pairs between the two axes."""
         return min(self.axes), max(self.axes)
 
 

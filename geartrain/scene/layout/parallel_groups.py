@@ -70,7 +70,7 @@ def build_wheel_stack(
 ) -> WheelStack:
     """Return the stack of all upright wheels of a group of parallel axes, and of crossing wheels that mesh with them.
 
-    known   heights (mm) of wheels that are determined by parts that are already placed
+    known   heights [mm] of wheels that are determined by parts that are already placed
     """
     builder = _BlockBuilder(geometry, parallels, places)
     blocks = builder.blocks()
@@ -288,7 +288,7 @@ def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
 
 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
-    """Return the slots of one group of wheels; empty if no assignment exists, or if none was found within the limit.
+    """Return the slots of one group of wheels; empty if no assignment exists, or if the search limit is reached.
 
     Iterative deepening: the first success of a depth-first search has the minimum number of slots. It has an explicit
     stack, because a chain of meshes may exceed Python's recursion limit.

@@ -31,7 +31,7 @@ class PlanProblem:
     fixed: Mapping[str, Point]
     """Points in plan of the axes that cannot move [mm]."""
     distances: Mapping[tuple[str, str], float]
-    """Required distances between pairs of axes (mm)."""
+    """Required distances between pairs of axes [mm]."""
     discs: Mapping[str, Mapping[str, WheelSize]]
     """Upright wheels of each axis, by name."""
     cluster: Mapping[str, int]
@@ -46,7 +46,7 @@ class PlanProblem:
     """Axis of a planet -> number of positions around its pivot at which its teeth mesh with both sun and ring."""
 
     def radius(self, label: str) -> float:
-        """Return the radius of the widest wheel of an axis (mm)."""
+        """Return the radius of the widest wheel of an axis [mm]."""
         return max((disc.outer for disc in self.discs[label].values()), default=0.0)
 
 

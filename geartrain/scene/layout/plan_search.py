@@ -42,8 +42,8 @@ class PlanClearance:
     Axes that carriers move relative to each other are separated by levels instead.
 
     still    (axes, axes): True if the distance between the two axes is constant
-    radius   radius of the widest wheel of each axis (mm), without rings
-    need     (axes, axes): minimum distances between axes whose wheels share a level and do not mesh (mm)
+    radius   radius of the widest wheel of each axis [mm], without rings
+    need     (axes, axes): minimum distances between axes whose wheels share a level and do not mesh [mm]
     meet     (axes, axes): True if wheels of the two axes mesh
     """
 
@@ -140,7 +140,7 @@ class PlanOrder:
     """Order in which the axes are placed. Axes are joints, and required distances are bars between them.
 
     index    index of each axis
-    radius   radius of the widest wheel of each axis (mm)
+    radius   radius of the widest wheel of each axis [mm]
     bars     all required distances
     alike    axis -> all equivalent axes on its carrier, including itself, each with only one bar, of one length, to the
              carrier's axis
@@ -196,7 +196,9 @@ class PlanOrder:
         return late, -tied, -round(weight, 9)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
-        """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it is too large."""
+        """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it has more than 60
+        axes.
+        """
         left = set(range(len(self._joined)))
         count = [len(joined) for joined in self._joined]
         ends = [at for at in left if at not in placed and count[at] < 2]

@@ -75,8 +75,8 @@ def notices(
 ) -> Iterator[Problem]:
     """Yield all notices on a layout; notices that prevent a build are first.
 
-    gaps     gaps of pairs whose pitch circles do not touch (mm)
-    misses   phase errors of pairs whose teeth do not mesh (pitches)
+    gaps     gaps of pairs whose pitch circles do not touch [mm]
+    misses   phase errors of pairs whose teeth do not mesh [pitches]
     """
     # what cannot be built at all comes first
     yield from (each.problem for each in train.build_findings)
@@ -182,7 +182,7 @@ def align_meshes(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the angles at which wheels mesh, and phase errors.
 
-    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors (pitches) are those
+    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are those
     of pairs that close a loop and do not mesh.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1

@@ -49,7 +49,7 @@ class AxisDistance:
     root: int | None
 
     def length(self, modules: Mapping[int, Fraction]) -> float:
-        """Return the distance (mm) at given modules."""
+        """Return the distance [mm] at given modules."""
         return self.times * (1.0 if self.root is None else float(modules[self.root]))
 
 
@@ -148,7 +148,7 @@ class WheelModules:
     cluster: Mapping[str, int]
     """Wheel -> number of its cluster; a cluster is a set of wheels that meshes connect."""
     module: Mapping[str, float]
-    """Wheel -> module (mm)."""
+    """Wheel -> module [mm]."""
     declared: frozenset[str]
     """Wheels of clusters whose module is declared."""
     distances: Mapping[tuple[str, str], float]

@@ -42,7 +42,7 @@ def taper(cone: float, radius: float, thickness: float) -> float:
 def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> float:
     """Return the distance between a point of a tooth and the plane of the pitch circle [mm], positive towards the apex.
 
-    depth   height above the pitch cone, along the back cone at the wide end (mm)
+    depth   height above the pitch cone, along the back cone at the wide end [mm]
     scale   1 at the wide end, `taper` at the narrow end
     """
     apex = radius / tan(cone)
@@ -52,7 +52,7 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
     """Return the position of the back of a bevel wheel's body [mm], in the coordinate of `height_on_cone`.
 
-    root   height of the roots above the pitch cone (mm)
+    root   height of the roots above the pitch cone [mm]
     """
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
@@ -66,10 +66,10 @@ def bare_reach(cone: float, radius: float, thickness: float, module: float) -> t
 
 
 def reach(cone: float, radius: float, thickness: float, root: float, tip: float) -> tuple[float, float]:
-    """Return the axial extents (mm) of a wheel's body from its pitch circle, away from the apex and towards it.
+    """Return the axial extents [mm] of a wheel's body from its pitch circle, away from the apex and towards it.
 
-    cone        half angle of its pitch cone (rad), 0 for a cylinder
-    root, tip   heights above the pitch cone (mm)
+    cone        half angle of its pitch cone [rad], 0 for a cylinder
+    root, tip   heights above the pitch cone [mm]
     """
     if not cone:
         return thickness / 2, thickness / 2

@@ -52,7 +52,7 @@ class StackProblem:
     plates: Mapping[str, str]
     """Arbor -> wheel that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheels with a pin and with its slot, in the order of the rows of `pierce` after those of arbors."""
+    """Wheel with a pin and wheel with its slot, in the order of the rows of `pierce` after the rows of arbors."""
     still: str = ""
     """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
@@ -149,7 +149,7 @@ class _OrderSearch:
         return keys
 
     def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
-        """Return the best order with one run of levels moved or reversed, and whether it is an improvement."""
+        """Return the best order with at most one run of levels moved or reversed, and True if it is an improvement."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = self._costs(ranks, fixed_cost)
@@ -209,8 +209,8 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return the number of times that arbors interleave with fixed wheels on their axis, so that these wheels
-        cannot be one piece.
+        """Return a measure of how often arbors interleave with fixed wheels on their axis, which then cannot be one
+        piece.
 
         From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation means an
         arbor beside the fixed wheels; each further alternation counts as half.
@@ -377,7 +377,7 @@ class WheelStack:
     """Direction of increasing heights."""
     problem: StackProblem
     gap: float
-    """Gap between levels (mm)."""
+    """Gap between levels [mm]."""
     swept: SweptDistances
     """Distances between the axes while carriers turn."""
     given: Mapping[int, float]

@@ -99,7 +99,7 @@ class AxisColumn:
         return any(each.low < middle < each.high for each in self.members)
 
     def radius(self, low: float, high: float) -> float:
-        """Return the radius of the widest part between two heights (mm)."""
+        """Return the radius of the widest part between two heights [mm]."""
         wide = [each.outer / 2 for each in self.members if each.low < high and low < each.high]
         return max([*wide, self.core / 2 if self.low < high and low < self.high else 0.0])
 
@@ -118,7 +118,7 @@ class ColumnProblem:
     ends: Mapping[str, tuple[bool, bool]]
     """Link -> True or False for an end below the stack and for an end above the stack."""
     span: tuple[float, float]
-    """Lowest and highest point of the stack, including the space of dials (mm)."""
+    """Lowest and highest point of the stack, including the space of dials [mm]."""
     frame: str
     process: Process
     core: float | None = None

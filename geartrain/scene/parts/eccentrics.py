@@ -44,7 +44,7 @@ class FlexibleCup:
     wheel: str
     """Name of the flexible wheel."""
     at: Point
-    """Position of the cup's axis in the stack (mm)."""
+    """Position of the cup's axis in the stack [mm]."""
     reach: float
     """Outside radius of the wall [mm]; `wall` is its thickness [mm]."""
     wall: float
@@ -79,15 +79,15 @@ _OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """Strain wave of a flexible wheel: amplitude (mm), number of lobes, and wall thickness of the wheel (mm)."""
+    """Strain wave of a flexible wheel: amplitude [mm], number of lobes, and wall thickness of the wheel [mm]."""
 
     rise: float
     lobes: int
     wall: float
     towards: float
-    """Angle of the first lobe, in the plane of the stack (rad)."""
+    """Angle of the first lobe, in the plane of the stack [rad]."""
     length: float
-    """Length of the wall that connects the wheel to its cup (mm)."""
+    """Length of the wall that connects the wheel to its cup [mm]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,17 +101,17 @@ class Eccentric:
     axis: str
     """Label of the arbor's axis."""
     at: Point
-    """Position of the arbor in the stack (mm)."""
+    """Position of the arbor in the stack [mm]."""
     centre: Point
-    """Centre of the disc (mm)."""
+    """Centre of the disc [mm]."""
     radius: float
-    """Radius of the disc (mm)."""
+    """Radius of the disc [mm]."""
     wheels: tuple[str, ...]
     """Wheels that turn on the eccentric."""
     carried: str
-    """Label of the axis about which these wheels turn."""
+    """Label of the axis about which the wheels in `wheels` turn."""
     middle: float = 0.0
-    """Radius (mm) of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
+    """Radius [mm] of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
     coupling: str = ""
     """Name of the coupling of parallel cranks that it implements; empty for other eccentrics."""
     wave: Wave | None = None
@@ -177,11 +177,11 @@ class Eccentric:
 
 
 def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
-    """Return the radius of an eccentric (mm) on an arbor.
+    """Return the radius of an eccentric [mm] on an arbor.
 
-    offset   distance of its centre from the arbor's axis (mm)
-    arbor    diameter of the arbor (mm), if it is given
-    free     free radius round its centre (mm)
+    offset   distance of its centre from the arbor's axis [mm]
+    arbor    diameter of the arbor [mm], if it is given
+    free     free radius round its centre [mm]
     """
     wanted = offset + (USUAL_ARBOR if arbor is None else arbor) / 2 + WALL
     return round(min(wanted, free - WALL), 2)

@@ -194,7 +194,8 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Positions of the plates with the fewest obstacles, and of these the lowest cost of studs.
+        """Positions of the plates with the fewest obstacles, and of equal positions the one with the lowest cost of
+        studs.
 
         If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar,
         provided that this leaves fewer obstacles.

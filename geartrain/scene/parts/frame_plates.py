@@ -98,7 +98,7 @@ class FramePlates:
 
     @cached_property
     def pillar(self) -> float:
-        """Radius of a pillar (mm)."""
+        """Radius of a pillar [mm]."""
         places = self.plan.places
         turning = [(each.at, each.radius(places.back[1], places.front[0])) for each in self.plan.columns] + self.circles
         low, high = (

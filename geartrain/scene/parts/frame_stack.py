@@ -292,7 +292,7 @@ class FrameStack:
         """Return the layout with wheels shifted along the normal; wheels of axes that are not upright move with their
         mates.
 
-        shift   function of the height (mm) that returns the shift (mm)
+        shift   function of the height [mm] that returns the shift [mm]
         """
         normal, old = self.normal, self.layout
         assert normal is not None
@@ -341,7 +341,7 @@ class FrameStack:
 
 
 def rim(blank: Blank) -> float:
-    """Return the outside radius of a ring, or of a lantern's discs (mm)."""
+    """Return the outside radius of a ring, or of a lantern's discs [mm]."""
     return float(abs(blank.contours[0].points).max())
 
 
@@ -419,7 +419,9 @@ class StackEccentrics:
     # ---------------------------------------------------------------------------------------------- cranks side by side
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-        """Yield the parallel cranks that a link represents, carried about its own axis, as link, axis and coupling."""
+        """Yield the parallel cranks that a link represents, each carried about the link's axis, as link, axis and
+        coupling.
+        """
         tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot

@@ -185,7 +185,9 @@ def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Prob
         for disc in (each for each in inside if low < each.middle < high and each.hub):
             if (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0:
                 what = f"{post.name} collides with '{disc.name}'"
-                yield Problem(what, f"they overlap by {-room:.3f} mm", "support the ring with a bracket at its side")
+                yield Problem(
+                    what, f"post and wheel overlap by {-room:.3f} mm", "support the ring with a bracket at its side"
+                )
 
 
 def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:

@@ -55,5 +55,7 @@ def process_named(name: str | None) -> Process:
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         fix = suggest(wanted, PROCESSES)
-        raise QuestionError(Problem(f"'{wanted}' is not a manufacturing process", "", fix, "--process"))
+        raise QuestionError(
+            Problem(f"'{wanted}' is not a manufacturing process", "the processes are predefined", fix, "--process")
+        )
     return PROCESSES[wanted]

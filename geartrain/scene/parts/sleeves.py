@@ -46,7 +46,7 @@ def free_beside(
 ) -> tuple[float, float] | None:
     """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None without space.
 
-    size   radius and maximum length of the drum (mm); the length is reduced to a quarter if necessary
+    size   radius and maximum length of the drum [mm]; the length is reduced to a quarter if necessary
     """
     around, (radius, longest) = _Obstacles(plan, column), size
     disc = next(each for each in member.discs if each.name == name)
@@ -103,7 +103,7 @@ class _Obstacles:
 
     @cached_property
     def span(self) -> tuple[float, float]:
-        """Lowest and highest face of all discs; dials are beyond these heights."""
+        """Lowest and highest face of all discs [mm]; dials are beyond this interval."""
         faces = [face for disc in self.plan.discs for face in (disc.low, disc.high)]
         return min(faces), max(faces)
 

@@ -90,7 +90,7 @@ def gaps(taken: Sequence[tuple[float, float]]) -> list[float]:
 
 
 def swept_circle(disc: StackDisc) -> tuple[Point, float]:
-    """Return the circle that contains a disc in all positions of its carrier, as centre and radius (mm)."""
+    """Return the circle that contains a disc in all positions of its carrier, as centre and radius [mm]."""
     if disc.carrier is None:
         return disc.at, disc.outer
     return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
@@ -210,7 +210,7 @@ def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, flo
 
     If two passages are too close together, the earlier passage is kept.
 
-    holes   centres and radii (mm)
+    holes   centres and radii [mm]
     """
     there, found = list(holes), list[Passage]()
     for each in passages:

@@ -33,7 +33,7 @@ TOLERANCE = 0.001  # mm: tolerance of chords
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Letters of a given height (mm), with their centre (mm) and the angle of the text from the x axis (degrees)."""
+    """Letters of a given height [mm], with their centre [mm] and the angle of the text from the x axis [degrees]."""
 
     text: str
     at: tuple[float, float]
@@ -115,7 +115,7 @@ def coupling_discs(
 ) -> Plates:
     """Return the discs of pins and slots that are not in wheels, and notices on couplings that are not modelled.
 
-    bores   diameters of holes for arbors by link (mm)
+    bores   diameters of holes for arbors by link [mm]
     holed   couplings whose holes are in a wheel
     """
     plates: list[Plate] = []

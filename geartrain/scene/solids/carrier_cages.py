@@ -203,7 +203,7 @@ class Bracket:
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
     """Return the brackets of every arbor of the frame that is perpendicular to the plates' normal.
 
-    bores   diameters (mm) of arbors by axis
+    bores   diameters [mm] of arbors by axis
     """
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
@@ -325,7 +325,7 @@ class Cage:
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
     """Return the cage of every axis that is carried at an angle to its carrier's axis.
 
-    bores   diameters (mm) of arbors by axis
+    bores   diameters [mm] of arbors by axis
     """
     found = []
     for at, body in enumerate(scene.bodies):
@@ -363,7 +363,7 @@ class _CageBuilder:
         return np.array(self.carrier.direction)
 
     def height(self, point: object) -> float:
-        """Return the position of a point along the carrier's axis (mm)."""
+        """Return the position of a point along the carrier's axis [mm]."""
         return float((np.asarray(point, dtype=float) - np.array(self.carrier.point)) @ self.along)
 
     def cage(self) -> Cage:

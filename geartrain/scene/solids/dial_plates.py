@@ -229,8 +229,8 @@ def dial_feet(
 ) -> list[TurnedPart]:
     """Return the feet of a plate of dials: up to four, far apart inside its dials, otherwise outside all turning parts.
 
-    circles   centres and radii of the discs of its dials (mm)
-    faces     heights of its faces (mm)
+    circles   centres and radii of the discs of its dials [mm]
+    faces     heights of its faces [mm]
     """
     above = faces[0] > plan.places.front[1]
     plate = plan.places.front if above else plan.places.back

@@ -1,4 +1,4 @@
-"""Manufacturing sizes of a train, and the train with these sizes."""
+"""Manufacturing sizes of a train, and the train with its modules, thicknesses and backlash set to these sizes."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class ManufacturingSizes(Shown):
     bore: float | None = None
     """Diameter of the arbors [mm]. With 0, arbors, plates and the holes of wheels are omitted."""
     backlash: float | None = None
-    """Circumferential backlash at the pitch circle of every pair that does not declare its own [mm], 0 or more.
+    """Circumferential backlash at the pitch circle of every pair whose declaration does not fix it [mm], 0 or more.
 
     By default it is the backlash of a named process, otherwise 1/20 of the module.
     """
@@ -249,7 +249,9 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a spur wheel has the default thickness for its module, False if it is declared or broadened."""
+    """Return True if a wheel is a spur wheel with the default thickness for its module, neither declared nor
+    broadened.
+    """
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain

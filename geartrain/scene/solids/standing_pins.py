@@ -77,7 +77,7 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
 
 
 def pin_width(coupling: SceneCoupling) -> float:
-    """Return the diameter of the pins of a coupling (mm)."""
+    """Return the diameter of the pins of a coupling [mm]."""
     return coupling.pin_diameter or pin_diameter(coupling.pin_radius)
 
 
@@ -107,7 +107,7 @@ def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
 
 
 def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
-    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width (mm)."""
+    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width [mm]."""
     return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
 
 

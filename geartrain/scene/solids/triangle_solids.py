@@ -329,7 +329,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
     """Return an approximate solid of a wheel, centred at the origin, with its first tooth along x and its axis along z.
 
-    bore   diameter of its hole (mm); a ring has none
+    bore   diameter of its hole [mm]; a ring has none
     """
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius

@@ -244,7 +244,7 @@ def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
-    """Return a ring with seats for pins widened by `wider` (mm); any other wheel unchanged."""
+    """Return a ring with seats for pins widened by `wider` [mm]; any other wheel unchanged."""
     if blank.pins is None or not wider:
         return blank
     root = blank.contours[1].points  # corners of the seats are on the inner circle

@@ -190,7 +190,7 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Boxes (n, 4) on a page that are occupied, so that labels can be placed without overlap [in]."""
+    """Occupied boxes (n, 4) on a page [in], used to place labels without overlap."""
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 

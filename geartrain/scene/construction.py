@@ -232,8 +232,8 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "the driver of each of these pairs has several mates, and its mesh with the first determines its angle; "
-                "driven teeth are turned until no teeth overlap, and touch only once per pitch; the motion is "
+                "the driver of each of these pairs has several mates, and the first mesh determines its angle; driven "
+                "teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is "
                 "exact",
                 "",
             )

@@ -310,7 +310,7 @@ class SceneCoupling(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneShiftElement:
-    """Shift element of a scene: a brake or a clutch.
+    """Brake or clutch of a scene, which is engaged or open in the state of the scene.
 
     See Also
     --------

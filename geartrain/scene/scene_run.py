@@ -36,11 +36,11 @@ TimeRun: TypeAlias = Any
 
 @dataclass(frozen=True, slots=True)
 class LinkCourse(Result):
-    """Angle of a link as a function of time, stored as a mean speed and the deviations from it.
+    """Angle of a link as a function of time, stored as a mean speed and the deviations from uniform motion.
 
     See Also
     --------
-    SceneRun : contains one for each body.
+    SceneRun : contains a course for each body.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))

@@ -62,7 +62,7 @@ class Parallels:
 
     @classmethod
     def of(cls, lines: Sequence[AxisLine]) -> Parallels:
-        """Return a group from parallel lines."""
+        """Return the group of the given parallel axes."""
         up = upwards(lines[0].direction)
         return cls(tuple(lines), up, *frame(up))
 
@@ -210,7 +210,7 @@ class DeclaredGeometry:
 
 
 def read_geometry(train: GearTrain) -> DeclaredGeometry:
-    """Return the declared geometry of a train."""
+    """Return the declared geometry of a train: its axes, wheels, gear pairs and couplings."""
     declared, tree = train.declaration, train.kinematics.tree
     lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}

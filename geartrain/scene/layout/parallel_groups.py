@@ -194,7 +194,9 @@ class _BlockBuilder:
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Fix crossing axes that also mesh with each other at one point of the axis that both intersect."""
+        """Fix the heights of crossing axes that mesh with each other and with one axis: they intersect this axis at one
+        point.
+        """
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
@@ -327,7 +329,7 @@ _ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Positions of all axes and wheels [mm]."""
+    """Result of `arrange`: positions of all axes and wheels [mm], with the stacks of wheels."""
 
     geometry: SizedGeometry
     """Declared geometry; wheels whose mates are at different heights are widened."""

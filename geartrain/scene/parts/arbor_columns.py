@@ -33,7 +33,7 @@ _WIDEST = 6.0  # mm: maximum default diameter
 
 
 class AxisBearing(StrEnum):
-    """Bearing of an axis in the plates of the frame."""
+    """Kind of bearing of an axis in the plates of the frame."""
 
     THROUGH = "through"
     BACK_STUD = "stud in the back plate"

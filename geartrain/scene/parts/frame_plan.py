@@ -55,7 +55,9 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Heights of both plates in the stack of the layout, seats of carriers, and columns of all axes."""
+    """Choice of the heights of both frame plates, of the seats of carriers, and of the columns of all axes, with its
+    cost.
+    """
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]

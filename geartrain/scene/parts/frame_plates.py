@@ -38,14 +38,14 @@ class Hole:
 
 @dataclass(frozen=True, slots=True)
 class FlatPlate:
-    """Plate perpendicular to the axis of the stack."""
+    """Plate perpendicular to the axis of the stack, with its edge, its holes and its heights."""
 
     link: str
     """Link to which the plate belongs."""
     name: str
     """Name of the plate."""
     outline: Contour
-    """Edge, in the coordinates of the stack [mm]."""
+    """Edge of the plate, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
     """Round holes of the plate."""
     low: float

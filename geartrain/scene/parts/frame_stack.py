@@ -326,7 +326,7 @@ class FrameStack:
         return replace(self, layout=self.raised(lambda height: shifts[max(bisect_right(starts, height) - 1, 0)]))
 
     def omitted(self) -> Iterator[Problem]:
-        """Yield problems for axes without bearings."""
+        """Yield a problem for each axis that has wheels but no bearings."""
         for label, axis in self.layout.axes.items():
             used = any(place.axis == label for place in self.layout.wheels.values())
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:

@@ -62,7 +62,7 @@ class DialCircle:
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials, below the hole."""
+        """Yield the names of dials as letters to be engraved below the hole, relative to the centre of the disc."""
         height = max(_LETTER * self.radius, _SMALLEST)
         for depth, name in enumerate(self.scales):
             yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)

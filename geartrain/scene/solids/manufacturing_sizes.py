@@ -37,7 +37,7 @@ _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inver
 
 @dataclass(frozen=True, slots=True)
 class ManufacturingSizes(Shown):
-    """Manufacturing sizes of the parts of a train. A size that is None is chosen.
+    """Manufacturing sizes of the parts of a train. Sizes that are None are chosen to suit the train.
 
     Raises
     ------

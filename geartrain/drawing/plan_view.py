@@ -379,7 +379,7 @@ class _PlanSize:
     low: Floats
     """Lower left corner (2,), relative to the origin of the train."""
     size: Floats
-    """Width and height (2,)."""
+    """Width and height of the plan (2,)."""
     bottom: float
     """Height of the lowest layer towards the reader [mm]."""
     depth: float

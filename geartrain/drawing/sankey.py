@@ -29,7 +29,7 @@ class SankeySpot:
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """Power that passes through the node; `shed` is the width of its loss [in]."""
+    """Power that passes through the node; `shed` is the width of the node's loss [in]."""
     shed: float = 0.0
     left: float = 0.0
     """Space for text to the left of the node's centre [in]."""

@@ -41,7 +41,7 @@ class BentWheel:
     link: str
     """Link that is the wave generator."""
     axis: str
-    """Label of the generator's axis."""
+    """Label of the axis of the wave generator."""
     offset: Vector
     """Vector from the generator's axis to the axis on which the wheel is declared: amplitude and direction of the wave
     [mm].

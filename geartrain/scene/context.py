@@ -37,12 +37,12 @@ class SceneContext:
 
     @cached_property
     def case(self) -> StateCase:
-        """Prescribed inputs and outputs of this state."""
+        """Inputs and outputs that the state of the train prescribes."""
         return self.train.declaration.case(self.answer.state)
 
     @cached_property
     def outputs(self) -> Mapping[str, Output]:
-        """Outputs declared in this state; for a train without outputs, its first 100 links."""
+        """Outputs declared in the state; for a train without outputs, the first 100 links of the train."""
         from geartrain.train import Output
 
         declared = self.train.declaration
@@ -51,12 +51,12 @@ class SceneContext:
 
     @cached_property
     def body(self) -> Mapping[str, int]:
-        """Index of the body of each link."""
+        """Index of the body of each link, by name of the link."""
         return {link: at for at, link in enumerate(self.train.declaration.links)}
 
     @cached_property
     def wheel(self) -> Mapping[str, int]:
-        """Index of each wheel."""
+        """Index of each wheel, by name of the wheel."""
         return {wheel: at for at, wheel in enumerate(self.train.declaration.wheels)}
 
     @cached_property
@@ -133,7 +133,7 @@ class SceneContext:
 
     @property
     def unbuilt(self) -> tuple[Problem, ...]:
-        """Reasons why real teeth cannot be built."""
+        """Reasons why real teeth cannot be built; empty if they can be built."""
         return self._built[1]
 
     @cached_property

@@ -71,6 +71,6 @@ class SceneFormulas(Shown):
     input: str
     """Exact speed of the driving link."""
     exact: bool
-    """False if speeds are displayed as decimals."""
+    """True if speeds are displayed as fractions, False if as decimals."""
     parent: str
     """Name of the shipped train, or of the file, that the declaration of a changed train extends."""

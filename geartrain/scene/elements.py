@@ -71,7 +71,7 @@ class SceneHanger(Shown):
     direction: Vector
     """Unit vector along the axis about which the pendulum swings or the barrel turns."""
     down: Vector
-    """Unit vector downwards, perpendicular to that axis."""
+    """Unit vector downwards, perpendicular to `direction`."""
     length: float
     """Distance from the point of suspension to the middle of the bob, or to the weight in the zero pose [mm]."""
     rate: float
@@ -105,7 +105,7 @@ class SceneBody(Shown):
     axis: str
     """Label of the axis about which the link turns."""
     point: Vector
-    """Point on the axis [mm]."""
+    """Point on the axis of the link [mm]."""
     direction: Vector
     """Unit vector along the link's axis, in the reference direction of all axes that are parallel to it."""
     sense: int
@@ -200,7 +200,7 @@ class SceneWheel(Shown):
     profile: int
     """Index of the tooth profile of the wheel in `Scene.profiles`."""
     layer: int | None
-    """Level of the wheel in the stack, from 0; None if its axis is not parallel to the main axes."""
+    """Level of the wheel in the stack, from 0; None if the wheel's axis is not parallel to the main axes."""
     status: str
     """Status of the wheel: surviving, reconstructed or hypothetical; empty if no status is declared."""
     source: str
@@ -326,7 +326,7 @@ class SceneShiftElement:
     closed: bool
     """True if the element is engaged in this state."""
     text: str
-    """Description, such as `B brakes ring`."""
+    """Description of the brake or clutch, such as `B brakes ring`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -351,4 +351,4 @@ class SceneWave(Shown):
     middle: float
     """Radius of the middle line of the wall in the undeformed wheel [mm]."""
     wall: float
-    """Thickness of the wall [mm]."""
+    """Thickness of the wall of the wheel [mm]."""

@@ -32,9 +32,9 @@ class Theme:
     """Theme of drawings and pages: a colour, as #rrggbb, for each purpose."""
 
     desk: str
-    """Background of a page, behind cards."""
+    """Colour of the background of a page, behind cards."""
     paper: str
-    """Background of drawings and text."""
+    """Colour of the background of drawings and text."""
     ink: str
     """Colour of lines and text."""
     quiet: str
@@ -54,7 +54,7 @@ class Theme:
     scale: tuple[str, str, str]
     """Colours of the minimum, middle and maximum of a value; colours in between are interpolated."""
     series: tuple[str, ...]
-    """Ten colours of series, in order."""
+    """Ten colours of curves and areas, in the order in which they are used."""
     areas: tuple[tuple[str, str], ...] = ()
     """Colour and matplotlib hatch of the areas of each series, if they are not filled with the colour of the series."""
 

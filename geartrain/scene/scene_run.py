@@ -156,7 +156,7 @@ class SceneRun(Result):
     torque: float
     """Mean torque at the link where power enters [N m]."""
     complete: bool
-    """False if the simulation was stopped before its end."""
+    """True if the simulation ran to its end, False if it was stopped before."""
     links: Sequence[LinkCourse]
     """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]

@@ -115,7 +115,7 @@ class SceneEpoch(Shown):
     turns: str
     """Exact number of turns of the driving link at that date."""
     days: str
-    """Duration of one turn of the driving link, exact [d]; negative if it turns against its positive sense."""
+    """Exact duration of one turn of the driving link [d]; negative if the link turns against its positive sense."""
     calendar: str | None
     """Calendar in which dates are displayed; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str

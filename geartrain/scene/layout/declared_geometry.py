@@ -173,7 +173,7 @@ class DeclaredGeometry:
     wheels: Mapping[str, tuple[str, Wheel]]
     """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
-    """Thickness of the wheels for which it is declared [mm]."""
+    """Declared thickness by wheel [mm], for wheels with a declared thickness."""
     strays: tuple[tuple[str, str, str], ...]
     """Wheels that a pair has on another axis than earlier pairs have: wheel, pair and axis."""
     front: int

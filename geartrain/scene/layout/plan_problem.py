@@ -23,7 +23,7 @@ class PlanProblem:
     """Conditions on the plan of a group of parallel axes, as the input of `plan_axes`."""
 
     labels: Sequence[str]
-    """Labels of the axes."""
+    """Labels of the parallel axes, in the order of their indices."""
     bearers: Mapping[str, str]
     """Link that carries each axis."""
     pivots: Mapping[str, str]

@@ -26,7 +26,7 @@ INTEGRAL = 0.6  # modules between roots and arbor: with less a pinion is cut fro
 HAND = 1.6  # mm by which an arbor extends beyond its pipe if both carry hands
 _MINIMUM = 0.8  # mm: minimum diameter of an arbor
 USUAL = 2 / 3
-"""Diameter of an arbor relative to the root radius of its smallest wheel."""
+"""Default diameter of an arbor divided by the root radius of its smallest wheel."""
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: diameters of arbors that are tried to avoid obstacles
 _PIVOT = 0.55  # diameter of a pivot divided by that of its arbor, which leaves a shoulder
 _WIDEST = 6.0  # mm: maximum default diameter

@@ -46,7 +46,7 @@ class FlexibleCup:
     at: Point
     """Position of the cup's axis in the stack [mm]."""
     reach: float
-    """Outside radius of the wall [mm]; `wall` is its thickness [mm]."""
+    """Outside radius of the wall [mm]; `wall` is the thickness of the wall [mm]."""
     wall: float
 
     def part(self, plate: tuple[float, float], wheel: StackDisc) -> TurnedPart:
@@ -113,7 +113,7 @@ class Eccentric:
     middle: float = 0.0
     """Radius [mm] of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
     coupling: str = ""
-    """Name of the coupling of parallel cranks that it implements; empty for other eccentrics."""
+    """Name of the coupling of parallel cranks that the eccentric implements; empty for other eccentrics."""
     wave: Wave | None = None
     """Strain wave, if the eccentric is a wave generator; None for a round disc."""
 

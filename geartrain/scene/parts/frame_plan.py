@@ -320,7 +320,7 @@ class FramePlan:
 
     @cached_property
     def heights(self) -> StackHeights:
-        """Heights with all plates inserted."""
+        """Heights of all parts as built, with all plates inserted."""
         return stack_up(self._slabs, self.choice.places, self.turning, self.thickness)
 
     @property

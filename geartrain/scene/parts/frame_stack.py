@@ -97,7 +97,7 @@ class FrameStack:
 
     @property
     def frame(self) -> str:
-        """Fixed link."""
+        """Fixed link of the train."""
         return self.train.declaration.frame
 
     @cached_property
@@ -219,7 +219,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Pins in round holes for which no wheel of their own link is wide enough, by coupling."""
+        """Circles of pins in round holes, by name of the coupling, for which no wheel of the pins' link is wide enough."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property

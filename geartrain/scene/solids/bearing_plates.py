@@ -52,10 +52,10 @@ class FlatDrawing:
     pitch: tuple[Contour, ...] = ()
     """Curves that are not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
-    """Engraved letters."""
+    """Letters to be engraved."""
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
-    """Engraved polylines, shape (n, 2) each."""
+    """Polylines to be engraved, shape (n, 2) each."""
 
     @property
     def box(self) -> tuple[Floats, Floats]:

@@ -179,7 +179,7 @@ def _hung(name: str, band: Band) -> TurnedPart:
 
 
 GAP = 0.5
-"""Axial clearance between the last wheel of an arbor and its support [mm]."""
+"""Axial clearance between the last wheel of an arbor and the support of the arbor [mm]."""
 _ROOM = 1.5  # mm, the same for a bracket, including a web beside the wheel's window in the plate
 LAND = 2.0
 """Width of the metal around a bearing [mm]."""

@@ -89,7 +89,7 @@ class DialPlate:
 
     @property
     def at(self) -> Point:
-        """Origin of the coordinates of the plate [mm]: the centre of its first dial."""
+        """Origin of the coordinates of the plate [mm]: the centre of the first dial."""
         return self.circles[0].at
 
     @property

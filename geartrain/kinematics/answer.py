@@ -111,7 +111,9 @@ class Verdict(Result):
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """Error of a speed computed in float64: its estimate, and the true error if the exact speed is known."""
+    """Error of a speed computed in float64 [unit of the answer]: its estimate, and the true error if the exact speed is
+    known.
+    """
 
     estimate: float
     true_error: float | None
@@ -121,7 +123,7 @@ class SpeedAccuracy:
 
 
 class RowResiduals(TypedDict, total=False):
-    """JSON keys of float speeds only: residual of each row of the Willis system."""
+    """Keys that the JSON output has only for float speeds: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
     """Row label -> magnitude of the residual divided by the sum of the magnitudes of the terms of the row [1]."""
@@ -177,7 +179,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access; empty for float speeds.
     """
     method: str
-    """Method of solution: "exact", or float64 by sparse LU factorisation or by rounding exact speeds."""
+    """Method of solution: "exact", or "floats" for float64 speeds, found by sparse LU factorisation or by rounding exact
+    speeds.
+    """
     accuracy: Mapping[str, SpeedAccuracy]
     """Link -> error estimate [`unit`] and condition number of its speed. Computed at the first access; empty for exact
     speeds.
@@ -242,7 +246,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target."""
+        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target. Undetermined
+        outputs are included only if the verdict is `determined`.
+        """
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 

@@ -39,7 +39,7 @@ class Components:
     node_group: Sequence[int]
     """Component of each node."""
     ratios: FactoredRatios
-    """Speed of each node's link relative to its carrier, over the unknown speed of its component."""
+    """Speed of each node's link relative to its carrier, divided by the unknown speed of its component."""
     node_circuit: Sequence[int]
     """Circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
@@ -59,7 +59,7 @@ class Components:
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Return the speed of a node's link relative to its carrier, over the unknown speed of its component."""
+        """Return the speed of a node's link relative to its carrier, divided by the unknown speed of its component."""
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
@@ -217,9 +217,9 @@ def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], c
 class ReducedSystem:
     """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
-    Unknowns 0..g-1 belong to the components. Above them there is one for each carrier other than the frame, and one for
-    each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a link
-    that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1) for a
+    Unknowns 0..g-1 belong to the components. They are followed by one unknown for each carrier other than the frame, and
+    one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a link that
+    occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1) for a
     follower.
     """
 
@@ -328,6 +328,7 @@ def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[
     queue = deque(link for link, used in users.items() if len(used) == 1 and link not in wanted)
     while queue:
         link = queue.popleft()
+        # another leaf may have removed the last circuit of this link since it was queued
         if len(users[link]) != 1:
             continue
         (at,) = users[link]

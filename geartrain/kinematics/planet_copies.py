@@ -22,7 +22,7 @@ from geartrain.train.mechanism import Axis, Revolute
 
 
 def has_copies(train: Train) -> bool:
-    """Return whether a link is declared with `copies` above 1."""
+    """Return True if a link is declared with `copies` above 1."""
     return any(part.copies > 1 for part in train.links.values())
 
 
@@ -35,8 +35,8 @@ def check_copies(train: Train, tree: Tree) -> None:
 def with_copies(train: Train, tree: Tree) -> Train:
     """Return the train with every equal planet as a separate link (`p`, `p.2`, `p.3`), with its own pairs and axes.
 
-    Loads and bearings apply to each planet. Positions are rotated about the axis of the carrier; undeclared ones follow
-    from the layout. Inputs, brakes and locks of a planet apply to its first copy.
+    Loads and bearings apply to each planet. Declared positions and directions of axes are rotated about the axis of the
+    carrier.
     """
     return _Expansion(train, tree).train() if has_copies(train) else train
 
@@ -181,7 +181,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
 
 
 def _allows_copies(train: Train, coupling: Coupling) -> bool:
-    """Return whether the coupling keeps each of several equal links parallel to one other link."""
+    """Return True if the coupling keeps each of several equal links parallel to one other link."""
     counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
     return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
 

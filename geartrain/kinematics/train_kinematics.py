@@ -64,8 +64,7 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
 
 
 def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
-    """Return whether a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
-    overlap).
+    """Return True if a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth overlap).
     """
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
@@ -123,7 +122,7 @@ class TrainKinematics(Shown):
         Parameters
         ----------
         names : sequence of str
-            Names of the pairs to leave out.
+            Names of the omitted pairs.
 
         Raises
         ------
@@ -210,7 +209,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked: axes are placed or directed, and gear pairs form loops."""
+        """True if the assembly condition can be checked: axes have positions or directions, and gear pairs form loops.
+        """
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property

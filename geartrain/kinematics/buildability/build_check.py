@@ -183,8 +183,8 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes, each once for all
-    states.
+    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes. A clutch or brake that occurs in
+    several states is reported once.
     """
     reported = set()
     for case in train.cases:
@@ -215,7 +215,7 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
 def check_mates(train: Train) -> Iterator[BuildFinding]:
     """Yield findings of rule W1: wheels without a gear pair.
 
-    Wheels are exempt on a link with a pin or slot, as escape wheel, or with a note.
+    A wheel is exempt if its link has a pin or slot, if it is the escape wheel, or if it has a note.
     """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
     coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
@@ -313,15 +313,15 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
-"""Function that returns the outlines of the pairs with declared teeth, by name; it is called only if planets are
-compared.
+"""Function that returns the outlines of the pairs with declared teeth, by name. It is called only if equal planets, or
+two pairs that share a wheel, are compared.
 """
 
 
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """Yield the findings of all rules that need only the declaration (docs/buildability.md), ordered by rule."""
+    """Yield the findings of all rules that need only the declaration (docs/buildability.md), one rule after another."""
     yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)

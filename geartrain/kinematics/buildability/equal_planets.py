@@ -60,7 +60,7 @@ class AssemblyMesh:
 
     @property
     def is_free(self) -> bool:
-        """True if at least one of its tooth counts is free."""
+        """True if at least one tooth count of the pair is free."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
@@ -72,7 +72,7 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet with its meshes. Planets that mesh with each other form a tree; the first one is its root."""
+    """Planet and its meshes: a node in the tree of planets that mesh with each other. The first planet is the root."""
 
     link: str
     inward: AssemblyMesh | None
@@ -260,6 +260,7 @@ class TrainAssembly:
 
     def _set(self, carrier: str, links: list[str]) -> PlanetSet:
         among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]
+        # a connected graph of n planets is a tree only if it has n - 1 meshes
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
         # start at the planet whose central wheels come first, so that equal sets have isomorphic trees
@@ -432,6 +433,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
            (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
+    # 2 A B sin(delta), because Q = 2 A B cos(delta)
     sines = root(4 * A * A * B * B - Q * Q)
     return A * A, B * B, -c * Q, -s * sines, -tips * tips
 
@@ -634,7 +636,9 @@ class _EqualPlanets:
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return whether a wheel is much larger than the distance of its axis from the carrier's axis."""
+        """Return True if a wheel is on an eccentric: the distance of its axis from the carrier's axis is less than `ON_ECCENTRIC`
+        pitch radii, but not 0.
+        """
         wheel = planet.own(mesh)
         reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
@@ -664,8 +668,8 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the tip clearance between a planet and the mates of its neighbours [modules]; None if it is
-        unknown.
+        """Return the minimum tip clearance between a planet and the mates of its neighbours [modules]; None if it is unknown, for
+        a pair with a ring, and for planets with declared positions.
         """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
@@ -694,7 +698,9 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap."""
+        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if their distances
+        are unknown.
+        """
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number

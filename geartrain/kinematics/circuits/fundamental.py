@@ -53,7 +53,7 @@ class Circuit(NamedTuple):
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
-    """Note on a sense of rotation that is only a convention; empty if no such note is necessary."""
+    """Note that the sense of rotation is only a convention; empty if it is determined."""
 
     @property
     def swings(self) -> bool:

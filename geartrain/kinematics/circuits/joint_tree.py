@@ -167,7 +167,8 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note.
+    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note, which is
+    empty unless the sense is only a convention.
 
     With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
     the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
@@ -280,7 +281,9 @@ class Axes:
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """Return 1, or -1 if the axis is opposite to the first declared direction that is parallel to it."""
+        """Return -1 if an axis is opposite to the reference direction of the axes parallel to it, else 1. The reference is z, or
+        for other directions the first declared axis.
+        """
         return self._senses.get(label or "", 1)
 
     @property
@@ -313,7 +316,9 @@ class Axes:
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return True if all these axes have the same or opposite directions in the pose in which all angles are 0."""
+        """Return True if all axes in `labels` have the same or opposite directions in the pose in which all angles are
+        0.
+        """
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
@@ -499,7 +504,7 @@ class JointLines:
         return one == other or self._axes.are_one_line(one, other)
 
     def rigid(self, labels: Sequence[str]) -> bool:
-        """Return whether a closed chain of turning pairs with these axes has no mobility."""
+        """Return True if a closed chain of turning pairs with these axes has no mobility, False if it may move."""
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
             return True

@@ -18,8 +18,8 @@ from geartrain.kinematics.formulas import laurent
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step, which take some seconds; longer polynomials are too long to be
-useful.
+"""Maximum number of products of terms in one step, a computation of some seconds; longer polynomials are of no practical
+use.
 """
 
 
@@ -33,7 +33,7 @@ class Term(NamedTuple):
 
 
 class TooLongError(Exception):
-    """Error raised if a polynomial becomes too long to be useful."""
+    """Error raised if a polynomial needs more than `MOST_PRODUCTS` products of terms in one step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +208,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
     low_p, low_q = p.lowest(), q.lowest()
     rest = dict(p.shifted(_negated(low_p)).terms)
     divisor = q.shifted(_negated(low_q)).terms
+    # tuples compare lexicographically: a monomial order that multiplication preserves
     lead = max(divisor)
     found: dict[Exponents, Fraction] = {}
     while rest:

@@ -36,7 +36,7 @@ _Residues = dict[int, int]
 
 
 class SymbolicValue(NamedTuple):
-    """Rational function of tooth counts."""
+    """Value of a linear form as a rational function of tooth counts, not reduced to lowest terms."""
 
     numerator: Laurent
     denominator: Laurent
@@ -244,7 +244,7 @@ class SymbolicEquations:
         return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
-        """Return the speed of every node relative to its carrier, over the unknown speed of its component."""
+        """Return the speed of every node relative to its carrier, divided by the unknown speed of its component."""
         found: dict[int, Laurent] = {}
         for start in range(len(parts.node_link)):
             chain = []

@@ -135,8 +135,7 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
     """Return the links that meshes lock for any tooth counts, after removal of the meshes `gone`.
 
-    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links
-    that
+    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links that
     are also at rest for other ratios are returned.
     """
     less = _without(part, gone)
@@ -175,7 +174,7 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
 
 
 def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
-    """Return whether removal of the meshes `gone` makes every loop consistent and every link movable."""
+    """Return True if removal of the meshes `gone` makes every loop consistent and every link movable."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _locked_links(part, gone)
 

@@ -116,7 +116,7 @@ class LockedSubgraph(Result):
     links: tuple[str, ...]
     """Names of all links of the component."""
     meshes: int
-    """Number of meshes in the component."""
+    """Number of gear pairs in the component; couplings, which cannot be disengaged, are not counted."""
     by: Literal["sign", "ratio"]
     """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
     release: MeshRemoval
@@ -211,6 +211,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
         return parts[0]
     return MeshRemoval(
         tuple(mesh for part in parts for mesh in part.meshes),
+        # the weakest proof of all parts counts: `RemovalMethod` is in that order
         max((part.method for part in parts), key=get_args(RemovalMethod).index),
         sum(part.at_least for part in parts),
         (),

@@ -66,6 +66,7 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
         found = _solve(network, loops, 1)
         if found.x is None:
             break
+        # the solver's bound may exceed an integer by its feasibility tolerance
         at_least = max(at_least, ceil(found.mip_dual_bound - 1e-6))
         gone = [mesh for mesh, part in enumerate(found.x) if part > 0.5]
         # beyond a limit, a smaller set may exist

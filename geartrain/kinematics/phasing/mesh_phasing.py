@@ -1,7 +1,7 @@
 """Phase closure of the loops of a train: verdict, loops, wheel angles for assembly, and distributed errors.
 
 The result for a loop has its gears in order, the divisibility rule of its tooth counts (a modulus that divides a count
-or a weighted sum of counts), and the error of its last mesh if all others mesh exactly.
+or a weighted sum of counts), and the error of its last mesh if all other meshes are exact.
 """
 
 from __future__ import annotations
@@ -178,6 +178,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
             continue
         pivot = min(entries, key=lambda row: math.gcd(row[column], power))
         common = math.gcd(pivot[column], power)
+        # invertible, because the common divisor with a prime power contains every factor p
         turn = pow(pivot[column] // common, -1, power)
         pivot = [value * turn % power for value in pivot]
         rest = []
@@ -528,8 +529,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if the backlash of each pair absorbs the phase error in `errors`; None if the backlash of a pair with a
-        phase error is unknown.
+        """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a backlash is too
+        small. None if a loop is unclear, or the backlash of a pair with a phase error is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True

@@ -136,8 +136,8 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then inputs, brakes and
-    locks.
+    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then brakes, locks and inputs;
+    and the statements of the last three.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -231,8 +231,8 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """Return the verdict with all undetermined links, and a smallest set of links whose speeds would determine the
-    others.
+    """Return the verdict with all undetermined links, and a smallest set of links (at most 12) whose speeds would determine
+    the other links.
     """
     index = reduced.components.index
     rows: list[LinearForm] = []
@@ -245,6 +245,7 @@ def free_verdict(
         if eliminate([*rows, loose]).rank > len(rows):
             rows.append(loose)
             fixes.append(link)
+        # each suggestion costs an elimination, and a reader needs only a few
         if len(fixes) == min(freedom, 12):
             break
     given = len(case.inputs)
@@ -547,7 +548,7 @@ def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int
 
 
 def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """Return whether no link can move; solution of a case whose inputs are all 0 does not show this."""
+    """Return True if no link can move. The speeds of a case whose inputs are all 0 do not show this."""
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 

@@ -1,8 +1,7 @@
 """Float64 speeds by sparse LU and iterative refinement with extra-precise residuals, and their error bounds.
 
 The coefficients are integers, so that the residual of a float solution can be computed in twice the working precision
-by
-error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
+by error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
 (docs/accuracy.md), as long as the factors have any correct digit of the inverse. Beyond that no bound from the same
 factors is valid, and the solution is refused (Demmel, Hida, Kahan, Li, Mukherjee and Riedy, Error bounds from
 extra-precise iterative refinement, 2006).
@@ -51,7 +50,7 @@ _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within
 class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds by sparse LU and iterative refinement, with an estimate of their error (docs/theory.md, 11).
 
-    `floats[link]` returns the speed of a link in the first case. Speeds are 0, or between 1e-120 and 1e120.
+    `floats[link]` returns the speed of a link in the first case. Magnitudes of speeds are 0, or 1e-120 to 1e120.
 
     Notes
     -----

@@ -75,7 +75,7 @@ def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> in
 
 
 def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Sequence[float]) -> bool:
-    """Return whether no term can underflow or overflow in float64, whatever the order of multiplication.
+    """Return True if no term can underflow or overflow in float64, whatever the order of multiplication.
 
     terms     nonzero coefficients, and exponents of all variables
     largest   log10 of the maximum value of each variable; the minimum value is 1

@@ -58,7 +58,7 @@ class DisjointSets(Generic[V]):
         self._above[self.find(second)] = self.find(first)
 
     def are_apart(self, first: V, second: V) -> bool:
-        """Return whether two elements are in different sets."""
+        """Return True if two elements are in different sets."""
         return self.find(first) != self.find(second)
 
 
@@ -96,7 +96,7 @@ class RatioSets(Generic[V]):
             self._above[other] = root, ratio * times / multiple
 
     def ratio(self, first: V, second: V) -> Fraction | None:
-        """Return the first quantity over the second; None if their ratio is unknown."""
+        """Return the first quantity divided by the second; None if their ratio is unknown."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         return times / multiple if root == other else None
 

@@ -45,11 +45,11 @@ if TYPE_CHECKING:
 
 
 class Epoch(Declared):
-    """Date at a given position of the train: number of turns of the input since all pointers were at the start of their
+    """Date at which the position of the train is known, as turns of the input since all pointers were at the start of their
     scales.
 
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
-    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single text instead of a mapping is
+    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping is
     the date.
 
     See Also
@@ -103,7 +103,7 @@ class Epoch(Declared):
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
-"""An epoch, or its date as a single text."""
+"""An epoch, or its date as a single string."""
 
 
 # ---------------------------------------------------------------------------------------------------- friction in force
@@ -257,8 +257,7 @@ class Train(Declared):
         return summary_line("Train", f"{self.name}: {counts}{more}")
 
     def place(self, *loc: str | int) -> str:
-        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it did not come
-        from a file.
+        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it was not read from a file.
 
         Parameters
         ----------
@@ -294,8 +293,8 @@ class Train(Declared):
         return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of
-        the train.
+        """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the train;
+        None if none is declared.
 
         Parameters
         ----------
@@ -306,8 +305,8 @@ class Train(Declared):
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the
-        train.
+        """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the train;
+        None if none is declared.
 
         Parameters
         ----------
@@ -318,7 +317,7 @@ class Train(Declared):
         return gear.damping or (form.damping if form is not None else None) or self.damping
 
     def restitution_of(self, part: GearPair | Coupling) -> float | None:
-        """Return the coefficient of restitution of a pair or coupling, by default of the train; None if it is not
+        """Return the coefficient of restitution of a pair or coupling, by default the coefficient of the train; None if neither is
         declared.
 
         Parameters
@@ -394,8 +393,8 @@ class Train(Declared):
             )
 
     def single_state(self, state: str | None) -> str | None:
-        """Return the given state, or the only state. Raises `QuestionError` if there are several states and none is
-        given.
+        """Return the given state, by default the only state; None for a train without states. Raises `QuestionError` if there are
+        several states and none is given.
 
         Parameters
         ----------
@@ -432,7 +431,7 @@ class Train(Declared):
         return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
 
     def has_torque_units(self, state: str | None) -> bool:
-        """Return True if the loads and bearings of one state are given with units.
+        """Return True if one state has loads or bearing torques other than 0, and all of these torques have units.
 
         Parameters
         ----------
@@ -471,6 +470,7 @@ class Train(Declared):
         without units.
         """
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
+        # the train's inputs are unused if every state has its own
         if len(groups) == len(self.states) and groups:
             speeds = [speed for group in groups for speed in group.values()]
         else:

@@ -112,7 +112,7 @@ class _SectionSource:
 
     @property
     def head(self) -> str:
-        """Comment on the line of the section's key."""
+        """Comment on the line of the section's key; "" if there is none."""
         return self._behind.get(self.first, "")
 
     @property
@@ -125,7 +125,7 @@ class _SectionSource:
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
     def is_written_as(self, entries: Sequence[_Entry]) -> bool:
-        """Return whether all entries of a list are already written like this."""
+        """Return True if the list is already written as `entries`."""
         return [each.text for each in entries] == [self.source(node) for node in self.items]
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:

@@ -1,4 +1,4 @@
-"""Examples of declarations: those of the reference, of the JSON Schema, and of error messages."""
+"""Examples of declarations for the reference, the JSON Schema and error messages."""
 
 from __future__ import annotations
 

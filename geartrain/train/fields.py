@@ -104,7 +104,9 @@ def _replacement_problem(error: Mapping[str, Any]) -> Problem:
 
 
 def whole_number(raw: object, low: int, high: int) -> int | None:
-    """Return an integer within the bounds, given as such or as its digits; None for any other value."""
+    """Return an integer from `low` to `high`, inclusive, given as an integer or as its digits; None for any other
+    value.
+    """
     try:
         # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
@@ -136,7 +138,7 @@ def _boolean(raw: object) -> bool:
 
 
 def side(raw: object) -> object:
-    """Convert the texts "1" and "-1" to integers; return other values unchanged."""
+    """Convert the strings "1", "+1" and "-1" to integers; return other values unchanged."""
     return int(raw) if raw in ("1", "+1", "-1") else raw
 
 

@@ -59,7 +59,7 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
 
 
 def _moved_wheels(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
-    """Yield a problem for each wheel that a child declares on another link although it is still on the parent's."""
+    """Yield a problem for each wheel that a child declares on another link although the parent's link still has it."""
     owner = {wheel: link for link, part in _child(parent, "links").items() for wheel in _child(part, "wheels")}
     for link, part in _child(child, "links").items():
         for wheel in _child(part, "wheels"):

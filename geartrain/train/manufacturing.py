@@ -80,7 +80,9 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Vickers hardness as a pressure [Pa]: force divided by the surface area of the indentation."""
+        """Vickers hardness as a pressure [Pa]: force divided by the surface area of the indentation; None if it is not
+        declared.
+        """
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 
@@ -124,8 +126,8 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
 class _DeclaredError(Declared):
-    """A fixed error, or one that is drawn for each tooth, wheel or pair. A single value instead of a mapping is
-    fixed.
+    """Manufacturing error, fixed or drawn at random for each tooth, wheel or pair. A single value instead of a mapping is a
+    fixed error.
     """
 
     @model_validator(mode="after")
@@ -142,7 +144,7 @@ class _DeclaredError(Declared):
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random. A single value instead of a mapping is fixed; a number is a fraction of the
+    """Error of an angle, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction of the
     nominal value.
     """
 
@@ -154,7 +156,7 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random. A single value instead of a mapping is fixed; a number is a fraction of the
+    """Error of a length, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction of the
     tooth depth.
     """
 
@@ -219,7 +221,7 @@ class WheelManufacture(Declared):
 
 
 class Filing(Declared):
-    """Fitting of a pair by filing: where it jams, the most protruding flank is filed until the tooth pair passes.
+    """Fitting of a pair by filing: where the pair jams, the most protruding flank is filed until the teeth pass.
 
     See Also
     --------

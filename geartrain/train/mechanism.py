@@ -243,7 +243,9 @@ class Teeth(Declared):
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain."""
+        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain, or if `range` contains more
+        than 10^6 counts.
+        """
         if self.choices is not None:
             return self.choices
         if self.range is None or self.range[1] - self.range[0] > 10**6:

@@ -41,8 +41,8 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """Label of one or more consecutive divisions of a dial. In a declaration, a single text instead of a mapping is
-    the label.
+    """Label of one or more consecutive divisions of a dial. In a declaration, a single string instead of a mapping is the
+    label.
 
     See Also
     --------
@@ -57,7 +57,7 @@ class DialName(Declared):
 
 class DialNumerals(Declared):
     """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a single
-    text instead of a mapping is their style.
+    string instead of a mapping is their style.
 
     See Also
     --------
@@ -115,6 +115,7 @@ class Graduation(Declared):
                 raise PydanticCustomError("dial", "unknown scale '{names}'", {"names": names, "fix": fix})
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
+            # a division is a degree or a day only if the scale keeps its number of divisions
             if str(own["divisions"]) == str(sum(span for _, span in parts)):
                 own.setdefault("cell", cell)
             own["names"] = [
@@ -159,7 +160,7 @@ class Graduation(Declared):
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
-        """Label, first division and number of divisions of every name, as exact fractions."""
+        """Label, start and length of every name; start and length are exact fractions [divisions]."""
         found, first = [], Fraction(0)
         for each in self.names:
             span = Fraction(self.divisions, len(self.names)) if each.span is None else Fraction(each.span)
@@ -238,8 +239,8 @@ _TOLERANCE = checked(
 
 
 class Target(Declared):
-    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single text instead
-    of a mapping is its name.
+    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single string instead of a
+    mapping is its name.
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.

@@ -73,6 +73,7 @@ def julian_day(date: CalendarDate) -> Fraction:
     >>> julian_day(read_date("2000-01-01 12:00"))
     Fraction(2451545, 1)
     """
+    # years begin in March here, so that a leap day is the last day of its year
     month = (date.month - 3) % 12
     year = date.year - (date.month < 3)
     days = 365 * year + year // 4 + (153 * month + 2) // 5 + date.day - 1
@@ -106,6 +107,7 @@ def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
     since = day - _MARCH[calendar]
     whole = since // 1
     year, rest = _split_gregorian(whole) if calendar == "gregorian" else _split_julian(whole)
+    # inverse of (153 month + 2) // 5, the number of days before a month, counted from March
     month = (5 * rest + 2) // 153
     return CalendarDate(
         year + (month > 9), (month + 2) % 12 + 1, rest - (153 * month + 2) // 5 + 1, since - whole, calendar

@@ -26,7 +26,9 @@ def _cases(train: Train) -> Iterator[tuple[Loc, Train | State]]:
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of inputs with and without units in one train; inputs of 0 are compatible with both."""
+    """Yield problems of inputs with and without units in one train, and of inputs per time if the train's unit is not a time.
+    Inputs of 0 are compatible with both.
+    """
     inputs = [
         ((*loc, "inputs", link), speed) for loc, part in _cases(train) for link, speed in (part.inputs or {}).items()
     ]
@@ -78,7 +80,8 @@ _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem for each target that is not in the table, or whose dimension differs from the train's unit."""
+    """Yield a problem if a target is not in the table or is a count, or if its dimension differs from the train's unit.
+    """
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)

@@ -1,6 +1,6 @@
 """Operation of a train: clutches, states, drives, and all prescriptions of one state.
 
-Drives run a train in time: a hand, a spring, a falling weight, an escapement.
+A drive moves the train in time-domain simulations: a hand, a spring, a falling weight, an escapement.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ _KINDS = ("rate", "torque", "weight", "spring", "hand")
 
 
 class Drive(Declared):
-    """Drive of the train for simulations in time, declared by exactly one of rate, torque, weight, spring and hand.
+    """Drive of the train for time-domain simulations, declared by exactly one of rate, torque, weight, spring and hand.
 
     A drive acts at the link where power enters, which is `crank` or by default the input, in the direction in which
     this link turns. A rate is the mean speed of the input, like the train's `rate`. If `crank` is another link, its
@@ -273,7 +273,7 @@ class State(Declared):
 
 
 class Erratum(Declared):
-    """An error in a published source."""
+    """Error in a published source, with the correct value and the evidence for it."""
 
     place: Id = Field(description="Page or table of the source")
     printed: Id = Field(description="Printed value or statement")
@@ -323,19 +323,21 @@ class StateCase(Shown):
     loc: Loc
     """Path of the keys that declare the inputs."""
     engaged: tuple[str, ...]
-    """Names of closed clutches and brakes."""
+    """Names of engaged clutches and brakes."""
     clutches: Mapping[tuple[str, ...], str]
     """Fixed link, or pair of locked links -> name of the brake or clutch that fixes or locks them."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     """Torques on links; positive if they supply power to the train."""
     solve_for: str | None = None
-    """Link whose torque is unknown."""
+    """Link whose torque is unknown; None if none is declared."""
     exact: bool = True
     """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
     drive: Drive | None = None
-    """Drive in time: the drive of the state, otherwise of the train, otherwise the train's `rate`."""
+    """Drive in force: the drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is
+    declared.
+    """
     rate: Quantity | None = None
-    """Speed of the input in real time, if it is given by `drive` or the train's `rate`."""
+    """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
     expect: ExpectedVerdict = "determined"
     """Expected kind of verdict, which is not reported as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)

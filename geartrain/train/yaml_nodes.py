@@ -74,7 +74,8 @@ class YamlNode:
 
 
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError`."""
+    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError` for invalid YAML.
+    """
     builder = _Builder(name)
     try:
         for event in yaml.parse(text, Loader=_Loader):
@@ -134,6 +135,7 @@ class _Builder:
             raise DeclarationError(
                 Problem("the file is too large", why, "build the train in Python with `GearTrain.declare`", self.name)
             )
+        # stops early, because a large file that is wrong can have millions of problems
         if len(self.problems) > MOST_REPORTED + 1:
             raise DeclarationError(self.problems)
         place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
@@ -271,7 +273,7 @@ def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
 
 
 def texts(node: YamlNode | None) -> Iterator[str]:
-    """Return an iterator over the texts of a list node."""
+    """Return an iterator over the scalars of a list node as strings; it is empty for None."""
     return (item.text for item in node.items) if node else iter(())
 
 

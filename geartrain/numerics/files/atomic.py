@@ -61,6 +61,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
     """
     real = destination(path, force)
     try:
+        # in the same folder, because a rename is atomic only within one file system
         handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:64]}.")
         temporary = Path(name)
         try:

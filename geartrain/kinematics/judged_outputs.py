@@ -416,6 +416,7 @@ def sensitivity(
         }
         for result in outputs:
             shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
+            # outputs that the wheel does not affect are omitted
             if any(value != 0 for value in shift.values()):
                 allowed = wheel.uncertainty.allowed if wheel.uncertainty else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))

@@ -68,6 +68,7 @@ class FactoredRatios:
             here = self.anchor[here]
         value = self._kept.get(here) or coprime(self.top[here], self.bottom[here])
         for hop in reversed(hops):
+            # the anchor is kept, because the number read next probably has the same one
             if hop == at:
                 self._keep(self.anchor[at], value)
             value = coprime(*times(value.numerator, value.denominator, self.top[hop], self.bottom[hop]))

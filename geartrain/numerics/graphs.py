@@ -31,6 +31,7 @@ def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple
     (['c', 'b'], ['d', 'b'])
     """
     up, down = chain_to_root(i, above), chain_to_root(j, above)
+    # both chains end at the root, so their common end is removed from there
     while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
         up.pop()
         down.pop()

@@ -132,6 +132,7 @@ def _polynomial(column: Floats, u: Floats) -> Floats:
 
 def ends(coefficients: Floats) -> Floats:
     """Return the values at both ends of the pieces, shape (2, pieces)."""
+    # all powers of u are 1 or -1 there, so that sums are sufficient
     signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
     return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
 

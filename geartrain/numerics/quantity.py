@@ -129,12 +129,14 @@ def turns_in(unit: str) -> Fraction:
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """Return whether one unit is a rational multiple of the other; radians are rational multiples only of radians."""
+    """Return True if one unit is a rational multiple of the other; radians are rational multiples only of radians."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 
 def nearest_unit(unit: str, dimension: str) -> str:
-    """Return a text with known units that are similar to an unknown one, such as `rpm` for RPM."""
+    """Return advice on an unknown unit: the most similar known unit, such as `rpm` for RPM, or all units of the
+    dimension.
+    """
     known = units_of(dimension)
     if re.search(r"\b(year|yr|month)s?\b", unit):
         return (
@@ -148,7 +150,7 @@ def nearest_unit(unit: str, dimension: str) -> str:
 
 
 def units_of(dimension: str) -> str:
-    """Return all units of a dimension, or of several dimensions joined by `or`, as text."""
+    """Return all units of a dimension, or of several dimensions joined by `or`, as a string with commas."""
     known = [*UNITS.items(), *IRRATIONAL.items()]
     return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
 
@@ -353,6 +355,7 @@ class Quantity:
     @property
     def si(self) -> float:
         """Value in SI units (m, rad, s, rad/s, N m and others); a number without a unit is unchanged."""
+        # radians are SI units already; conversion to turns and back would round twice
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -391,6 +394,7 @@ class Quantity:
                 raise _no_unit(text, dimension)
             return _in_range(cls(figure.value, None, text), dimension)
         unit = " ".join(match[2].split())
+        # an exponent with more than three digits is no part of the number, but not a unit either
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
         unit = SPELT.get(unit, unit)

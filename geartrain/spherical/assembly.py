@@ -208,7 +208,7 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 
 def _canonical(shares: Sequence[Fraction | float]) -> tuple[Fraction | float, ...]:
-    """Return factors modulo integers; a loop traversed backwards has the same ones."""
+    """Return factors modulo integers, in a form that is equal for a loop traversed in either direction."""
     if all(isinstance(share, Fraction) for share in shares):
         return min(tuple(share % 1 for share in shares), tuple(-share % 1 for share in shares))
     # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule

@@ -169,7 +169,9 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
 
 @dataclass(frozen=True)
 class TipCollision:
-    """Two gears that do not mesh, and are too close to each other."""
+    """Two gears that do not mesh and whose tips may collide, because their pitch circles are less than two modules
+    apart.
+    """
 
     gears: tuple[str, str]
     """Names of the two gears."""

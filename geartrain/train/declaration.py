@@ -364,6 +364,7 @@ class Train(Declared):
         return StateCase(
             state,
             inputs={link: self._speed(speed) for link, speed in inputs.items()},
+            # without duplicates: a brake may fix a link that is fixed in every state
             fixed=tuple(dict.fromkeys(fixed)),
             locks=tuple(locks),
             outputs=outputs,

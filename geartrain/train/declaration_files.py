@@ -370,6 +370,7 @@ def _read(path: Path) -> str:
     place = str(path)
     try:
         status = path.stat()
+        # a directory is reported by the read below
         if not S_ISREG(status.st_mode) and not S_ISDIR(status.st_mode):
             why = "a device or a pipe may be endless, and cannot be read twice"
             raise DeclarationError(Problem("this is not a regular file", why, "save the declaration as a file", place))
@@ -397,6 +398,7 @@ def _read(path: Path) -> str:
             )
         ) from None
     try:
+        # utf-8-sig, because some editors write a byte order mark
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise DeclarationError(

@@ -76,6 +76,7 @@ def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[
     if not isinstance(root, yaml.MappingNode) or root.flow_style:
         return text
     parts = [(key, value) for key, value in root.value if key.value in writers]
+    # from the last section to the first, so that the line numbers of earlier sections stay valid
     for key, value in sorted(parts, key=lambda part: -part[0].start_mark.line):
         written = _SectionSource(text, key, value)
         found = writers[key.value](written)
@@ -205,6 +206,7 @@ def _long_joints(written: _SectionSource) -> list[str] | None:
         for other in names[1:]:
             text = f"{{pair: [{names[0]}, {other}], axis: {written.source(key)}}}"
             entries.append(_Entry(text, own.before, own.behind))
+            # the comments of an axis are kept at its first entry only
             own = _Entry("")
     return list(_section("revolutes", entries, written.head, "", "- "))
 

@@ -66,6 +66,7 @@ def example_line(loc: Loc, kind: type) -> str:
 
 def _named(key: str) -> Iterator[Any]:
     """Yield the values of a key in the examples."""
+    # reversed, so that the stack returns values in the order of the examples
     stack: list[Any] = [data for _, data in example_data()][::-1]
     while stack:
         value = stack.pop()

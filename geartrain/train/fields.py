@@ -112,6 +112,7 @@ def whole_number(raw: object, low: int, high: int) -> int | None:
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
     except ValueError:
         return None
+    # `int` also accepts digits of other scripts, which are refused
     return number if low <= number <= high and str(raw).isascii() else None
 
 

@@ -53,6 +53,7 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
         return declared.place(*loc)
 
     merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
+    # a changed copy keeps name, title and note, which a child file does not inherit
     kept = {key: getattr(declared, key) for key in _NOT_INHERITED if key in declared.model_fields_set}
     new = {key: value for key, value in merged.plain().items() if key != "remove"}  # already applied
     return declare(kept | new, merged.place_of)

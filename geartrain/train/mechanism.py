@@ -131,6 +131,7 @@ DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 
 def _at_most_one(efficiency: Quantity) -> Quantity:
     if efficiency.base > 1:
+        # a number up to 100 was probably meant as a percentage
         meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
         raise PydanticCustomError(
             "efficiency",
@@ -248,6 +249,7 @@ class Teeth(Declared):
         """
         if self.choices is not None:
             return self.choices
+        # a wider range is not enumerated, because its tuple would need much memory
         if self.range is None or self.range[1] - self.range[0] > 10**6:
             return ()
         return tuple(range(self.range[0], self.range[1] + 1))

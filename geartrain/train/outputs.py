@@ -123,6 +123,7 @@ class Graduation(Declared):
             ]
         elif isinstance(names, list | tuple):
             spans = [each.get("span") if isinstance(each, dict) else None for each in names]
+            # raw data are not validated yet: only spans written as digits can be added
             whole = [int(str(span)) for span in spans if str(span).isascii() and str(span).isdigit()]
             own.setdefault("divisions", sum(whole) if len(whole) == len(spans) else len(spans))
         return own

@@ -150,6 +150,7 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
     part = Fraction(3600 * hour + 60 * minute + second, 86400) if found[4] else Fraction(1, 2)
     chosen = calendar or ("julian" if (year, month, day) < (1582, 10, 15) else "gregorian")
     date = CalendarDate(year, month, day, part, chosen)
+    # a date that does not exist is not preserved by conversion to a Julian day and back
     if date_of(julian_day(date), calendar) != date:
         raise ValueError(f"{date} does not exist in the {chosen} calendar{' of its time' if calendar is None else ''}")
     return date

@@ -87,6 +87,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
         row = period_table().get(target.name)
         if row is None:
             what = f"unknown astronomical period '{target.name}'"
+            # a name that begins with a digit was probably meant as a speed or a period
             fix = _TARGET_KEYS if re.match(r"[\d+-]", target.name) else suggested_period(target.name)
             yield Problem(what, "a target that is a text is a name in the table of periods", fix, place)
             return

@@ -367,6 +367,7 @@ def _wheels(text: str) -> list[str]:
 
 
 def _invalid_pair(gear: YamlNode) -> Problem:
+    # separators that are written by mistake instead of a tilde
     names = re.split(r"\s*[-,/]\s*|\s+", gear.value.strip())
     fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "write for example `sun ~ planet`"
     why = "a pair is two wheels with a tilde between them"

@@ -142,6 +142,7 @@ class _Builder:
         match event:
             case yaml.ScalarEvent():
                 self._check_tag(event.tag, place)
+                # only an unquoted null becomes None: "null" in quotes is a string
                 plain = event.implicit[0] and event.value in _NULLS and event.style in (None, "")
                 self._put(YamlNode(None if plain else event.value, place), event.anchor, place)
             case yaml.MappingStartEvent() | yaml.SequenceStartEvent():
@@ -211,6 +212,7 @@ class _Builder:
                 self.problems.append(
                     Problem(f"{text} is used as a key", "keys are names", "quote it, or give a name", place)
                 )
+            # a unique substitute for an invalid key, so that parsing continues and collects further problems
             key = node.text if isinstance(node.value, str) else f"?{place}"
             pending[0] = (key, place)
         else:

@@ -150,6 +150,7 @@ def _triangle(
     sizes: PitchDistances, axes: tuple[str, str, str], pairs: tuple[PitchPair, PitchPair, PitchPair]
 ) -> Iterator[BuildFinding]:
     found = [sizes.distance(pair.axis_pair) for pair in pairs]
+    # multiples of unrelated lengths cannot be compared
     if len({root for root, _ in found}) > 1:
         return
     order = sorted(range(3), key=lambda at: found[at][1])

@@ -607,6 +607,7 @@ class _EqualPlanets:
         teeth, else a note.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
+        # addendum at which the tips just touch if all undeclared teeth are shortened equally
         fits = _FULL + gap / free if free else 0.0
         if gap <= 0 and fits >= _STUB:
             what += f" unless their addenda are at most {floor(1000 * fits) / 1000:g}"

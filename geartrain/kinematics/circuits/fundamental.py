@@ -166,6 +166,7 @@ def _carrier(tree: Tree, i: str, j: str) -> str | None:
     axis_i = parent[i][1] if i in parent else None
     axis_j = parent[j][1] if j in parent else None
     top_i, top_j = top.get(i), top.get(j)
+    # coaxial links have no centre distance, and so no carrier
     if axis_i == axis_j:
         return None
     if top_i is not None and top_i == top_j:

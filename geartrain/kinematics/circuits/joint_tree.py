@@ -91,6 +91,7 @@ def find_tree(train: Train) -> Tree:
                 problems.append(_cycle(train, Tree(train.frame, parent, top), link, other, at))
                 continue
             parent[other] = (link, axis)
+            # a link on the axis of its parent has the carrier of its parent
             top[other] = top[link] if link in parent and parent[link][1] == axis else link
             first_top, first_at = bearer.setdefault(axis, (top[other], at))
             if first_top != top[other]:

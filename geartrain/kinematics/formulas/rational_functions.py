@@ -289,6 +289,7 @@ def make_formula(
 
     wheels   names of the variables of both polynomials, by index
     """
+    # 1/0 in lowest terms: the function has no value anywhere
     if not denominator:
         return Formula(label, (), (Term(1, ()),), (), (), (Term(1, ()),), ()), Laurent.constant(1, len(wheels))
     grouping = find_grouping([numerator, denominator])

@@ -535,6 +535,7 @@ class MeshPhasing(Result):
         if not self.missing:
             return None if self.kind == "unclear" else True
         errors = self.errors
+        # a tooth in the middle of its gap can move by half of the backlash to either side
         if any(abs(error) > self.backlashes[name] / 2 for name, error in errors.items() if name in self.backlashes):
             return False
         # errors below 1e-9 pitch are rounding errors, and need no backlash

@@ -74,6 +74,7 @@ class LongTable:
 
     def _truncate_to_whole_rows(self) -> int:
         """Cut the partial file off after its last complete row; return the number of complete rows."""
+        # -1, because the first line is the header
         rows, end = -1, 0
         with self.partial.open("rb") as file:
             for line in file:

@@ -104,6 +104,7 @@ class Journal:
     def _resumable_length(self, question: Any, resume: bool) -> int:
         """Return the number of bytes of the file that can be resumed, 0 for none, and index the tasks in them."""
         first = self._reader.readline(_MOST_HEADER_BYTES)
+        # an incomplete first line: the run was killed while it wrote the header
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _MOST_HEADER_BYTES:
@@ -134,6 +135,7 @@ class Journal:
     def _enter(self, task: int, at: int) -> None:
         if task >= len(self._at):
             self._at.extend([-1] * (task + 1 - len(self._at)))
+        # a task that was stored twice is counted once
         self._count += self._at[task] < 0
         self._at[task] = at
 

@@ -1,7 +1,7 @@
 """Ordered results of independent tasks, the same for every executor, even if workers die.
 
 Results are converted to JSON text in the process that computes them, so that they are the same from this process,
-another process, another machine or a journal: tuples become lists and keys become texts.
+another process, another machine or a journal: tuples become lists and keys become strings.
 """
 
 from __future__ import annotations
@@ -318,6 +318,7 @@ class _Run:
         submission.deaths += times
         if submission.deaths >= _MOST_DEATHS:
             raise _killer_error(submission)
+        # fewest deaths first, so that innocent tasks finish before a suspect runs by itself
         self.again = deque(sorted([*self.again, submission], key=lambda each: (each.deaths, each.index)))
 
     def _cancel(self) -> None:

@@ -179,8 +179,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access; empty for float speeds.
     """
     method: str
-    """Method of solution: "exact", or "floats" for float64 speeds, found by sparse LU factorisation or by rounding exact
-    speeds.
+    """Method of solution: "exact", or "floats" for float64 speeds, found by sparse LU factorisation or by rounding
+    exact speeds.
     """
     accuracy: Mapping[str, SpeedAccuracy]
     """Link -> error estimate [`unit`] and condition number of its speed. Computed at the first access; empty for exact
@@ -246,8 +246,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target. Undetermined
-        outputs are included only if the verdict is `determined`.
+        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target.
+        Undetermined outputs are included only if the verdict is `determined`.
         """
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)

@@ -217,10 +217,10 @@ def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], c
 class ReducedSystem:
     """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
-    Unknowns 0..g-1 belong to the components. They are followed by one unknown for each carrier other than the frame, and
-    one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a link that
-    occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1) for a
-    follower.
+    Unknowns 0..g-1 belong to the components. They are followed by one unknown for each carrier other than the frame,
+    and one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a
+    link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1)
+    for a follower.
     """
 
     components: Components

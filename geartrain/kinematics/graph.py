@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 def build_graph(train: Train) -> Graph:
     """Return a graph with links as vertices, and turning pairs, gear pairs and couplings as edges.
 
-    Edges have the data `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or name
-    of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or coupling;
-    turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
+    Edges have the data `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or
+    name of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or
+    coupling; turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
@@ -164,8 +164,8 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also name their wheels, couplings their pin
-    and slot.
+    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also name their wheels, couplings
+    their pin and slot.
 
     Parameters
     ----------
@@ -190,8 +190,8 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also name their wheels, couplings their
-    pin and slot.
+    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also name their wheels, couplings
+    their pin and slot.
 
     Parameters
     ----------

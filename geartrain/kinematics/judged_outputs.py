@@ -153,8 +153,8 @@ class JudgedFigure(Result):
     found: SpeedValue | None
     """Same quantity, calculated for this train; None if it is not determined."""
     holds: bool | None
-    """True if both agree in all printed digits, or within a declared tolerance; False if they differ, or if the quantity is
-    not determined.
+    """True if both agree in all printed digits, or within a declared tolerance; False if they differ, or if the
+    quantity is not determined.
     """
 
 
@@ -191,8 +191,8 @@ class OutputResult(Result):
     declared.
     """
     published_holds: bool | None
-    """True if the output agrees with the declared `published` value, False also if it is not determined; None if no value is
-    published.
+    """True if the output agrees with the declared `published` value, False also if it is not determined; None if no
+    value is published.
     """
     targets: tuple[TargetResult, ...]
     """Comparisons with the declared targets; empty if the speed is not determined."""
@@ -401,7 +401,8 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Yield the change of each output that is affected by one tooth fewer or one tooth more of an uncertain wheel [ppm].
+    """Yield the change of each output that is affected by one tooth fewer or one tooth more of an uncertain wheel
+    [ppm].
 
     solve_with   function that solves the train with other circuits, and returns the function for relative speeds
     """

@@ -122,8 +122,8 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
             if bearer in train.links and train.links[bearer].copies > 1:
                 what = f"'{link}' turns on '{bearer}', which has `copies: {train.links[bearer].copies}`"
                 fix = (
-                    f"write `copies: {train.links[bearer].copies}` for it too; or, if all share one '{link}', add a "
-                    "link coaxial with the carrier on which it turns, with the coupling "
+                    f"declare `copies: {train.links[bearer].copies}` for this link too; or, if all copies share "
+                    f"one '{link}', add a link coaxial with the carrier on which it turns, with the coupling "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
                 why = f"each of the {train.links[bearer].copies} links '{bearer}' would need its own '{link}'"

@@ -64,7 +64,8 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
 
 
 def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
-    """Return True if a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth overlap).
+    """Return True if a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
+    overlap).
     """
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
@@ -209,7 +210,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked: axes have positions or directions, and gear pairs form loops.
+        """True if the assembly condition can be checked: axes have positions or directions, and gear pairs form
+        loops.
         """
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
@@ -351,7 +353,7 @@ class TrainKinematics(Shown):
             raise QuestionError(
                 Problem(
                     f"'{train.name}' has no output or link '{output}'",
-                    "it must be a declared output or link",
+                    "speeds are reported for declared outputs and links",
                     suggest(output, known),
                 )
             )
@@ -549,7 +551,7 @@ def _nearest(speed: Fraction) -> float:
     """Return the nearest float64. Raises `RangeError` beyond its range."""
     value = as_float(speed)
     if value is None:
-        why = "its ratio would become 0 or infinity"
+        why = "in float64 it would become 0 or infinite"
         fix = "use `method='exact'`, with input speeds in turns and not in radians"
         raise RangeError(Problem("a speed leaves the range of float64", why, fix))
     return value

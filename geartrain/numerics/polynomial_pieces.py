@@ -61,7 +61,7 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
         raise RangeError(
             Problem(
                 f"a curve cannot be interpolated near parameter {start:.6g}",
-                "it is not smooth there, or not finite",
+                "the curve is not smooth or not finite there",
                 "split it into curves at its kinks, or use another parameter",
             )
         )

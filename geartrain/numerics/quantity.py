@@ -386,7 +386,7 @@ class Quantity:
         match = _QUANTITY.match(text) if isinstance(raw, str) and len(text) <= _MOST_DIGITS else None
         if match is None and (number := re.match(r"[\d.]+ +(?=.*[A-Za-z])", text[:_MOST_DIGITS])):
             known = units_of(dimension)
-            fix = f"write for example '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
+            fix = f"for example, write '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
             raise PydanticCustomError("unit", "'{text}' has an unknown unit", {"text": text, "fix": fix})
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
@@ -455,7 +455,7 @@ def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     return PydanticCustomError(
         "unit",
         "'{text}' has no unit",
-        {"text": text, "fix": f"write for example '{text} {first}'; units: {units_of(dimension)}"},
+        {"text": text, "fix": f"for example, write '{text} {first}'; units: {units_of(dimension)}"},
     )
 
 

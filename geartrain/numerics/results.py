@@ -1,8 +1,8 @@
 """Base classes of results: display at the prompt and in notebooks, plain data for JSON, tables and figures.
 
 `Shown` results have a `repr` of one line, print the text of the command that computes them, and appear as tables in a
-notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become strings with
-every digit, arrays and tuples become lists, and results become objects. None remains None. `Tabular` results have
+notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become strings
+with every digit, arrays and tuples become lists, and results become objects. None remains None. `Tabular` results have
 columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured` results name
 the function that draws them, which is imported when it is called.
 """
@@ -205,8 +205,8 @@ class Tabular(Shown):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of equal length by name. Numbers are floats, exact numbers are strings in separate columns, and missing values
-        are None.
+        """Columns of equal length by name. Numbers are floats, exact numbers are strings in separate columns, and
+        missing values are None.
         """
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}

@@ -128,7 +128,7 @@ def _contacts(configuration: Configuration, circuits: tuple[Circuit, ...]) -> Pi
             if abs(step - round(step)) > _OFF * parts:
                 what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
                 why = f"it is declared with `regular` {parts}"
-                raise QuestionError(Problem(what, why, "declare it with `regular` 0"))
+                raise QuestionError(Problem(what, why, "set `regular` to 0 for this gear"))
             found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
             key.append(gear if parts else (len(keys), gear))
         part.append((found[0], found[1]))

@@ -125,8 +125,8 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
 
 @dataclass(frozen=True)
 class AxisAdjustment:
-    """Adjusted axes, the pitch [radii of the sphere], and the residual at the end and after each step [rad for `fit_pitch`,
-    pitch for `fit_phases`].
+    """Adjusted axes, the pitch [radii of the sphere], and the residual at the end and after each step [rad for
+    `fit_pitch`, pitch for `fit_phases`].
     """
 
     axes: Floats
@@ -165,7 +165,8 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
 
 
 def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
-    """Return True if the tangencies of cones about these axes are linearly dependent; False, without a test, above 600 meshes.
+    """Return True if the tangencies of cones about these axes are linearly dependent; False, without a test, above 600
+    meshes.
 
     The test computes the rank of the derivative of the angles with respect to the axes and one more unknown, the pitch,
     which changes all cones.

@@ -211,8 +211,8 @@ _LONGEST = 2.0
 
 
 def boost(v: Floats) -> Floats:
-    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points of the sphere away from
-    v.
+    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points of the sphere away
+    from v.
     """
     rapidity = float(np.linalg.norm(v))
     if rapidity == 0:

@@ -171,8 +171,8 @@ def _placed(
             raise QuestionError(
                 Problem(
                     f"no tooth number is given for {', '.join(missing)}",
-                    "exact=True requires all of them",
-                    "give `teeth`",
+                    "exact=True requires the tooth number of every kind that meshes",
+                    "give `teeth` for these kinds",
                 )
             )
         return equal_pitch(plan.movement, plan.axes, meshes, teeth, range(len(kinds))) if meshes else plan.axes
@@ -213,7 +213,7 @@ def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
         raise QuestionError(
             Problem(
                 f"unknown arrangement '{gears}'",
-                "gears are placed on parts of a solid",
+                "an arrangement names the parts of a solid that carry gears",
                 suggest(gears, get_args(Gears)),
             )
         )
@@ -396,7 +396,11 @@ def without_gears(
         rest = [(i, j) for i, j in left if not ((i in a and j in b) or (j in a and i in b))]
         if len(rest) == len(left):
             raise QuestionError(
-                Problem(f"no mesh '{word}' to drop", f"{first} and {second} do not mesh", "name two gears that mesh")
+                Problem(
+                    f"there is no mesh '{word}' to drop",
+                    f"{first} and {second} do not mesh",
+                    "name two gears that mesh",
+                )
             )
         left = rest
     kept = set(range(len(names))) - gone

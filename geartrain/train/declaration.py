@@ -45,12 +45,12 @@ if TYPE_CHECKING:
 
 
 class Epoch(Declared):
-    """Date at which the position of the train is known, as turns of the input since all pointers were at the start of their
-    scales.
+    """Date at which the position of the train is known, as turns of the input since all pointers were at the start of
+    their scales.
 
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
-    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping is
-    the date.
+    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping
+    is the date.
 
     See Also
     --------
@@ -257,7 +257,8 @@ class Train(Declared):
         return summary_line("Train", f"{self.name}: {counts}{more}")
 
     def place(self, *loc: str | int) -> str:
-        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it was not read from a file.
+        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it was not read
+        from a file.
 
         Parameters
         ----------
@@ -293,8 +294,8 @@ class Train(Declared):
         return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the train;
-        None if none is declared.
+        """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of
+        the train; None if none is declared.
 
         Parameters
         ----------
@@ -305,8 +306,8 @@ class Train(Declared):
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the train;
-        None if none is declared.
+        """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the
+        train; None if none is declared.
 
         Parameters
         ----------
@@ -317,8 +318,8 @@ class Train(Declared):
         return gear.damping or (form.damping if form is not None else None) or self.damping
 
     def restitution_of(self, part: GearPair | Coupling) -> float | None:
-        """Return the coefficient of restitution of a pair or coupling, by default the coefficient of the train; None if neither is
-        declared.
+        """Return the coefficient of restitution of a pair or coupling, by default the coefficient of the train; None if
+        neither is declared.
 
         Parameters
         ----------
@@ -394,8 +395,8 @@ class Train(Declared):
             )
 
     def single_state(self, state: str | None) -> str | None:
-        """Return the given state, by default the only state; None for a train without states. Raises `QuestionError` if there are
-        several states and none is given.
+        """Return the given state, by default the only state; None for a train without states. Raises `QuestionError` if
+        there are several states and none is given.
 
         Parameters
         ----------
@@ -405,7 +406,11 @@ class Train(Declared):
         if state is None and len(self.states) > 1:
             names = ", ".join(self.states)
             raise QuestionError(
-                Problem(f"'{self.name}' has several states", "the result depends on the state", f"name one of: {names}")
+                Problem(
+                    f"'{self.name}' has several states",
+                    "the result depends on the state",
+                    f"give one of these states: {names}",
+                )
             )
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state

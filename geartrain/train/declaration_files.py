@@ -169,7 +169,7 @@ def check_is_train(train: Train) -> None:
     """Raise `DeclarationError` if the declaration is evidence for a reconstruction."""
     if train.reconstruct is not None:
         what = f"'{train.name}' is evidence, not a train"
-        why = "its key `reconstruct` leaves gear pairs to be found"
+        why = "its key `reconstruct` leaves gear pairs undetermined"
         fix = "run `geartrain reconstruct`, which finds the trains that explain it"
         raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
 
@@ -298,7 +298,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         raise DeclarationError(
             Problem(
                 "`extends` is empty",
-                "it names the file, shipped train or shipped evidence to change",
+                "it names the file, shipped train or shipped evidence that this declaration changes",
                 "give a name, such as `extends: parent.yaml`, or remove the key",
                 place,
             )
@@ -314,7 +314,12 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         Problem(
             f"`extends` names the unknown parent '{name}'",
             f"{where} contains no such file, and no shipped train or evidence has that name",
-            suggest(name, siblings, otherwise="`geartrain list [--evidence]` shows what is shipped", wide=True),
+            suggest(
+                name,
+                siblings,
+                otherwise="`geartrain list` and `geartrain list --evidence` show the shipped names",
+                wide=True,
+            ),
             place,
         )
     )
@@ -343,7 +348,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
         Problem(
             "the file does not exist",
             f"'{path.stem}' is not the name of a shipped {kind} either",
-            f"this folder has {path.name}.yaml: write that name"
+            f"give the name with its suffix: {path.name}.yaml"
             if path.name and _exists(path.with_name(f"{path.name}.yaml"))
             else _suggestion(path.stem, evidence),
             str(source),
@@ -406,6 +411,6 @@ def _read(path: Path) -> str:
         ) from None
     if "\0" in text:
         raise DeclarationError(
-            Problem("this is not a text file", "it contains NUL bytes", "name a YAML declaration", place)
+            Problem("this is not a text file", "it contains NUL bytes", "give a YAML declaration", place)
         )
     return text

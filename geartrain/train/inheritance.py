@@ -232,7 +232,7 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
                 fix = suggest(name, known[key], otherwise="delete this entry")
                 problems.append(
                     Problem(
-                        f"`remove` names the unknown '{name}'",
+                        f"`remove` names the unknown part '{name}'",
                         f"the parent has no such entry in {key}",
                         fix,
                         remove.place_of((key, at)),

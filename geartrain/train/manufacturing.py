@@ -42,7 +42,7 @@ _SPREAD = checked(
     "a spread of {text} is out of range",
     "give a fraction from 0 to less than 1, such as 0.3 for 30 % to either side",
 )
-_STRENGTH = "give for example 200 MPa"
+_STRENGTH = "give a pressure such as 200 MPa"
 
 
 class Material(Declared):
@@ -59,17 +59,19 @@ class Material(Declared):
     ('206 GPa', 1863)
     """
 
-    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
+    youngs_modulus: Annotated[Pressure, above_zero("give a pressure such as 100 GPa")] = Field(
+        description="Young's modulus"
+    )
     poisson: Annotated[Figure, _POISSON] = Field(Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5")
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
         description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
         "yield; without safety factor",
     )
-    hardness: Annotated[Figure, above_zero("give for example 120, in HV")] | None = Field(
+    hardness: Annotated[Figure, above_zero("give a Vickers hardness (HV) such as 120")] | None = Field(
         None, description="Vickers hardness (HV), for wear calculations"
     )
-    density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
+    density: Annotated[Density, above_zero("give a density such as 8.5 g/cm3")] | None = Field(
         None, description="Density; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, _SPREAD] = Field(
@@ -126,8 +128,8 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
 class _DeclaredError(Declared):
-    """Manufacturing error, fixed or drawn at random for each tooth, wheel or pair. A single value instead of a mapping is a
-    fixed error.
+    """Manufacturing error, fixed or drawn at random for each tooth, wheel or pair. A single value instead of a mapping
+    is a fixed error.
     """
 
     @model_validator(mode="after")
@@ -144,8 +146,8 @@ class _DeclaredError(Declared):
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction of the
-    nominal value.
+    """Error of an angle, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction
+    of the nominal value.
     """
 
     SHORT: ClassVar = {"type": ["number", "string"], "format": "angle or fraction"}
@@ -156,8 +158,8 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction of the
-    tooth depth.
+    """Error of a length, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction
+    of the tooth depth.
     """
 
     SHORT: ClassVar = {"type": ["number", "string"], "format": "length or fraction"}

@@ -138,7 +138,7 @@ def _at_most_one(efficiency: Quantity) -> Quantity:
             "an efficiency of {text} is above 1",
             {
                 "text": efficiency.text,
-                "fix": f"write for example 0.98 or {meant}; no pair transmits more power than it receives",
+                "fix": f"for example, write 0.98 or {meant}; no pair transmits more power than it receives",
             },
         )
     return efficiency
@@ -237,15 +237,15 @@ class Teeth(Declared):
         if self.weights is not None and len(self.weights) != len(counts):
             raise PydanticCustomError(
                 "teeth",
-                "{given} weights for {count} counts",
+                "{given} weights are given for {count} counts",
                 {"given": len(self.weights), "count": len(counts), "fix": "give one weight for each count"},
             )
         return self
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain, or if `range` contains more
-        than 10^6 counts.
+        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain, or if `range`
+        contains more than 10^6 counts.
         """
         if self.choices is not None:
             return self.choices
@@ -321,7 +321,7 @@ HelixAngle = Annotated[
     Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("measure it from the axis")
 ]
 Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
-MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3 (bronze)")]
+MaterialDensity = Annotated[Density, above_zero("give a density such as 8.7 g/cm3 (bronze)")]
 
 
 class Wheel(Declared):

@@ -41,8 +41,8 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """Label of one or more consecutive divisions of a dial. In a declaration, a single string instead of a mapping is the
-    label.
+    """Label of one or more consecutive divisions of a dial. In a declaration, a single string instead of a mapping is
+    the label.
 
     See Also
     --------
@@ -112,7 +112,7 @@ class Graduation(Declared):
                 fix = suggest(
                     names, NAMED_SCALES, otherwise=f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
                 )
-                raise PydanticCustomError("dial", "unknown scale '{names}'", {"names": names, "fix": fix})
+                raise PydanticCustomError("dial", "the scale '{names}' is unknown", {"names": names, "fix": fix})
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
             # a division is a degree or a day only if the scale keeps its number of divisions
@@ -134,7 +134,7 @@ class Graduation(Declared):
         given = [span for span in spans if span is not None]
         if given and len(given) < len(spans):
             missing = next(each.name for each in self.names if each.span is None)
-            fix = {"name": missing, "fix": "give every name a span, or none"}
+            fix = {"name": missing, "fix": "give a span to every name, or to none"}
             raise PydanticCustomError("dial", "'{name}' has no span, but other names have one", fix)
         if given and sum(given) != self.divisions:
             off = sum(given) - self.divisions
@@ -175,7 +175,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give {total}, or omit `divisions`"}
+        context = {"name": name, "divisions": count, "fix": f"give `divisions: {total}`, or omit `divisions`"}
         raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
@@ -240,8 +240,8 @@ _TOLERANCE = checked(
 
 
 class Target(Declared):
-    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single string instead of a
-    mapping is its name.
+    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single string
+    instead of a mapping is its name.
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.

@@ -63,7 +63,7 @@ class AddedParts(Declared):
             raise PydanticCustomError(
                 "add",
                 "no range of tooth counts is given for added wheels",
-                {"fix": "add for example `teeth: [12, 225]`"},
+                {"fix": "for example, add `teeth: [12, 225]`"},
             )
         return self
 

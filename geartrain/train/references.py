@@ -26,8 +26,8 @@ def _cases(train: Train) -> Iterator[tuple[Loc, Train | State]]:
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of inputs with and without units in one train, and of inputs per time if the train's unit is not a time.
-    Inputs of 0 are compatible with both.
+    """Yield problems of inputs with and without units in one train, and of inputs per time if the train's unit is not a
+    time. Inputs of 0 are compatible with both.
     """
     inputs = [
         ((*loc, "inputs", link), speed) for loc, part in _cases(train) for link, speed in (part.inputs or {}).items()
@@ -38,7 +38,9 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
         return
     if plain is not None:
         why = f"'{plain[1]}' is a number without a unit and '{named[1]}' has a unit"
-        yield Problem("inputs mix units", why, "give all inputs a unit, or none", train.place(*plain[0]))
+        yield Problem(
+            "inputs with and without units are mixed", why, "give all inputs a unit, or none", train.place(*plain[0])
+        )
     if train.unit is not None and train.unit_days is None:
         what = f"the input '{named[1]}' does not match the unit of the train"
         why = f"the input is a speed per time, but `unit` is one turn per {train.unit.per}, which is not a time"
@@ -58,7 +60,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
         if named is not None and torque.unit is None and torque.value:
             why = f"'{named}' has a unit, this value has none"
             fix = "give all loads, bearings and drives a unit, or none"
-            yield Problem(f"torques mix units: '{torque}'", why, fix, train.place(*loc))
+            yield Problem(f"torques with and without units are mixed: '{torque}'", why, fix, train.place(*loc))
             return
 
 
@@ -80,7 +82,8 @@ _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem if a target is not in the table or is a count, or if its dimension differs from the train's unit.
+    """Yield a problem if a target is not in the table or is a count, or if its dimension differs from the train's
+    unit.
     """
     place = train.place(*loc)
     if target.name is not None:
@@ -89,7 +92,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             what = f"unknown astronomical period '{target.name}'"
             # a name that begins with a digit was probably meant as a speed or a period
             fix = _TARGET_KEYS if re.match(r"[\d+-]", target.name) else suggested_period(target.name)
-            yield Problem(what, "a target that is a text is a name in the table of periods", fix, place)
+            yield Problem(what, "a target given as a string is a name in the table of periods", fix, place)
             return
         if row.kind == "count":
             yield Problem(
@@ -113,14 +116,14 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             yield Problem(
                 f"the target '{target.period}' is a length",
                 "the train's unit is not a length",
-                "add for example `unit: {per: 18 ft}`",
+                "for example, add `unit: {per: 18 ft}`",
                 place,
             )
     elif target.speed is None and train.unit_days is None:
         yield Problem(
             "a period cannot be a target of this train",
             "the train's unit is not a time" if train.unit else "the train has no unit of time",
-            "add for example `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
+            "for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
             place,
         )
 
@@ -131,7 +134,7 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
         yield Problem(
             "the epoch needs a unit of time",
             f"`unit` converts turns to days; {f'{train.unit.per} is not a time' if train.unit else 'none is declared'}",
-            "add for example `unit: {per: year_tropical_J2000}`",
+            "for example, add `unit: {per: year_tropical_J2000}`",
             train.place("epoch"),
         )
 
@@ -141,8 +144,8 @@ def _suggested_unit(train: Train, per: str) -> str:
     number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
     if name in ("rpm", "turn/s", "deg/s", "rad/s"):
         link = next(iter(train.inputs), "sun")
-        return f"leave `unit` out, and write inputs with their unit: `inputs: {{{link}: 30 {name}}}`"
-    otherwise = f"write for example `unit: {{per: {number.strip() or 1} h}}`; units: {units_of('time or length')}"
+        return f"omit `unit`, and write inputs with their unit: `inputs: {{{link}: 30 {name}}}`"
+    otherwise = f"for example, write `unit: {{per: {number.strip() or 1} h}}`; units: {units_of('time or length')}"
     return otherwise if number.strip() else suggest(name, period_table(), otherwise=otherwise, wide=True)
 
 
@@ -184,7 +187,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
                 (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:
         yield Problem(
-            "lengths mix numbers without a unit and units",
+            "lengths with and without units are mixed",
             f"`{dotted(named[0])}` has a unit, this value has none",
             "give all lengths a unit, or none",
             train.place(*plain[0]),
@@ -230,10 +233,10 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
     if kind == "link" and name in train.wheels:
         owner = next(link for link, each in train.links.items() if name in each.wheels)
         why = f"'{name}' is a wheel of the link '{owner}'"
-        return Problem(f"no link '{name}'", why, f"write '{owner}'", train.place(*loc))
+        return Problem(f"there is no link '{name}'", why, f"write '{owner}'", train.place(*loc))
     line = f"`{_HOMES[kind].format(name, link=link)}`" if kind in _HOMES else f"the {kind}"
     fix = suggest(name, names, otherwise=f"{few}declare {line}")
-    return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
+    return Problem(f"there is no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
 
 
 def _unknown_wheel(train: Train, name: str, at: int) -> Problem:
@@ -255,7 +258,7 @@ def _links(train: Train) -> Iterator[Problem]:
         links = {train.frame, *links}
     if train.frame not in links and "frame" not in train.model_fields_set:
         yield Problem(
-            "no link 'frame'",
+            "there is no link 'frame'",
             "it is the fixed link, unless the key `frame` names another one",
             f"add `frame: {{}}` to `links`, or name the fixed link: `frame: {next(iter(links), 'case')}`",
             train.place("links"),
@@ -293,7 +296,7 @@ def _materials(train: Train) -> Iterator[Problem]:
         if name not in train.materials and name not in material_table():
             known = [*train.materials, *material_table()]
             otherwise = f"declare it in `materials`, or take one of: {', '.join(known)}"
-            what, why = f"no material '{name}'", f"`{dotted(loc)}` refers to it"
+            what, why = f"there is no material '{name}'", f"`{dotted(loc)}` refers to it"
             yield Problem(what, why, suggest(name, known, otherwise=otherwise), train.place(*loc))
 
 

@@ -49,7 +49,7 @@ class SpringDrive(Declared):
     Drive : its field `spring`
     """
 
-    stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
+    stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding"
     )
     turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
@@ -77,7 +77,7 @@ class HandDrive(Declared):
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
     rate: Speed | None = Field(None, description="Speed that the hand keeps")
-    stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
+    stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 5 N m/rad")] | None = Field(
         None, description="Torque per radian by which the crank lags behind the hand; default rigid"
     )
     inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(

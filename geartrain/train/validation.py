@@ -160,7 +160,7 @@ _SHAPES: dict[str, tuple[str, type]] = {
     "model_type": ("a mapping of keys to values", dict),
     "tuple_type": ("a list in brackets", list),
     "list_type": ("a list in brackets", list),
-    "string_type": ("a text or a number", str),
+    "string_type": ("a string or a number", str),
     "too_long": ("a shorter list", list),
     "too_short": ("a longer list", list),
 }
@@ -172,7 +172,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     key = str(loc[-1]) if loc else ""
     if kind in ("extra_forbidden", "missing") and (joined := _without_space(loc, error["input"])):
         fix = f"write `{joined.replace(':', ': ', 1)}`"
-        what, why = f"no space after the colon in `{joined}`", "without it the colon is part of the key"
+        what, why = f"no space after the colon in `{joined}`", "without a space the colon is part of the key"
         return Problem(what, why, fix, place(loc))
     if kind == "extra_forbidden":
         allowed = tuple(_keys_at(loc[:-1]))
@@ -207,7 +207,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
 
         shape, of = _SHAPES[kind]
         line = _wheel_pair(error["input"]) if _is_wheel_pair(loc) else example_line(loc, of)
-        fix = f"write for example `{line}`" if line else f"write {shape}"
+        fix = f"for example, write `{line}`" if line else f"write {shape}"
         return Problem(f"{_where(loc)} is not {shape}", got, fix, place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
@@ -344,13 +344,15 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
         names = [*texts(listed[0]), "a", "b"][:2]
         several = len(listed) > 1
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
-        fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
+        fix = f"write `{form.format(*names)}`" + (", and the other entries likewise" if several else "")
         yield Problem(what, f"each entry has the form `{form.format('a', 'b')}`", fix, listed[0].place)
 
 
 def _single_link(axis: str, place: str) -> Problem:
-    why = "its list begins with the link that carries the others"
-    return Problem(f"axis '{axis}' has fewer than two links", why, f"write for example `{axis}: [frame, arbor]`", place)
+    why = "its list begins with the link that carries the other links"
+    return Problem(
+        f"axis '{axis}' has fewer than two links", why, f"for example, write `{axis}: [frame, arbor]`", place
+    )
 
 
 def _joints(joints: YamlNode) -> Iterator[YamlNode]:
@@ -369,7 +371,7 @@ def _wheels(text: str) -> list[str]:
 def _invalid_pair(gear: YamlNode) -> Problem:
     # separators that are written by mistake instead of a tilde
     names = re.split(r"\s*[-,/]\s*|\s+", gear.value.strip())
-    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "write for example `sun ~ planet`"
+    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "for example, write `sun ~ planet`"
     why = "a pair is two wheels with a tilde between them"
     return Problem(f"'{gear.value}' is not a gear pair", why, fix, gear.place)
 

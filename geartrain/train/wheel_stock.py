@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the thickness of a wheel along its axis: its thickness, else its face width, else these values of the train; None
-    if none is declared.
+    """Return the thickness of a wheel along its axis: its thickness, else its face width, else these values of the
+    train; None if none is declared.
     """
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the face width of a wheel: its face width, else its thickness, else these values of the train; None if none is
-    declared.
+    """Return the face width of a wheel: its face width, else its thickness, else these values of the train; None if
+    none is declared.
     """
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 

@@ -74,7 +74,8 @@ class YamlNode:
 
 
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError` for invalid YAML.
+    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError` for invalid
+    YAML.
     """
     builder = _Builder(name)
     try:
@@ -223,7 +224,7 @@ class _Builder:
                     Problem(
                         f"key '{key}' is given twice",
                         f"it is also at {parent.keys[key]}, and one would be lost",
-                        "rename or remove one",
+                        "rename or remove one of the two keys",
                         key_place,
                     )
                 )

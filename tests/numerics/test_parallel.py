@@ -670,7 +670,7 @@ def test_a_cluster_of_another_version_is_refused(cluster: Any, monkeypatch: pyte
     monkeypatch.setattr("geartrain.numerics.work.cluster.version", lambda _: "9.9" if os.getpid() == here else "9.8")
     with pytest.raises(GearTrainError, match=r"runs another version of geartrain than 9\.9") as caught:
         dask_pool(cluster.scheduler_address)
-    assert caught.value.problems[0].why == "it runs 9.8"
+    assert caught.value.problems[0].why == "its workers run 9.8"
     assert "9.9" in caught.value.problems[0].fix
 
 

@@ -551,7 +551,11 @@ class _EqualPlanets:
         if not fits:
             why += "; with uneven spacing, planets would collide"
         others = f"use {_enumerated(even)} planets, which can be evenly spaced" if even else "change a tooth count"
-        spread = f"space them by {whole} and {whole + 1} of these steps ({rest} times {whole + 1}), or " if fits else ""
+        spread = (
+            f"space neighbours by {whole} or {whole + 1} of these steps ({rest} of the gaps with {whole + 1}), or "
+            if fits
+            else ""
+        )
         return BuildFinding(
             rule,
             "note" if fits or rule == "A2" else "error",
@@ -637,8 +641,8 @@ class _EqualPlanets:
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return True if a wheel is on an eccentric: the distance of its axis from the carrier's axis is less than `ON_ECCENTRIC`
-        pitch radii, but not 0.
+        """Return True if a wheel is on an eccentric: the distance of its axis from the carrier's axis is less than
+        `ON_ECCENTRIC` pitch radii, but not 0.
         """
         wheel = planet.own(mesh)
         reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
@@ -669,8 +673,8 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the minimum tip clearance between a planet and the mates of its neighbours [modules]; None if it is unknown, for
-        a pair with a ring, and for planets with declared positions.
+        """Return the minimum tip clearance between a planet and the mates of its neighbours [modules]; None if it is
+        unknown, for a pair with a ring, and for planets with declared positions.
         """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
@@ -699,8 +703,8 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if their distances
-        are unknown.
+        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if their
+        distances are unknown.
         """
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch

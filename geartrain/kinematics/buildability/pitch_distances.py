@@ -40,14 +40,15 @@ def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float
     h1, h2     addenda [modules]
 
     Teeth have no backlash. The angle is negative if the corners collide: trochoid interference (Elements of Metric Gear
-    Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at theta1 about its
-    own axis and theta2 about the ring's (both from the line of centres), the planet has turned from the position in which
-    its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth is thinner at its tip, and
-    the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 + inv(alpha) - inv(alpha_a2).
+    Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at theta1 about
+    its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from the position in
+    which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth is thinner at
+    its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 + inv(alpha) -
+    inv(alpha_a2).
 
-    The result is inf if the planet's tips never reach the ring's tip circle, and -inf if the ring's tip circle lies within
-    its base circle or within the planet's tip circle, or z2 <= z1. At 20 degrees and full depth a ring of 34 to 77 teeth
-    needs 9 teeth more than the planet, a larger ring 8; the source gives "larger than 9".
+    The result is inf if the planet's tips never reach the ring's tip circle, and -inf if the ring's tip circle lies
+    within its base circle or within the planet's tip circle, or z2 <= z1. At 20 degrees and full depth a ring of 34 to
+    77 teeth needs 9 teeth more than the planet, a larger ring 8; the source gives "larger than 9".
     """
     r1, r2, a = z1 / 2 + h1, z2 / 2 - h2, (z2 - z1) / 2
     if a <= 0:
@@ -70,8 +71,8 @@ def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> fl
     """Return the angle about the planet's axis by which its teeth clear the ring's teeth during radial assembly [rad].
 
     Parameters are those of `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
-    SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80 or
-    100 teeth 16.
+    SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80
+    or 100 teeth 16.
     """
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
     lean = cos(tip2) / cos(tip1)
@@ -86,8 +87,8 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count of the smallest ring without trochoid interference with a planet, both with standard teeth; at
-    least 34.
+    """Return the tooth count of the smallest ring without trochoid interference with a planet, both with standard
+    teeth; at least 34.
     """
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
@@ -200,8 +201,8 @@ class PitchPair:
 
     @property
     def has_distance(self) -> bool:
-        """True if the centre distance follows from module and tooth counts: spur wheels on parallel axes, any ring being larger
-        than its mate.
+        """True if the centre distance follows from module and tooth counts: spur wheels on parallel axes, any ring
+        being larger than its mate.
         """
         return self.parallel and self.kinds == ("spur", "spur") and self.touching > 0
 
@@ -515,8 +516,8 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return the profile shifts that give involutes no backlash at a distance [modules], as the text of a fix; "" if the sum
-    of the shifts would exceed `_SHIFTS`, or no involute pair fits.
+    """Return the profile shifts that give involutes no backlash at a distance [modules], as the text of a fix; "" if
+    the sum of the shifts would exceed `_SHIFTS`, or no involute pair fits.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
     cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.

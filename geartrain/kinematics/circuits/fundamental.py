@@ -234,7 +234,9 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     if passing_distance(axes, labels):
         raise RangeError(
             Problem(
-                "its axes do not intersect", "axes of bevel wheels must intersect", "correct the positions of its axes"
+                "the axes of the pair do not intersect",
+                "axes of bevel and contrate wheels must intersect",
+                "correct the positions of the axes",
             )
         )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing

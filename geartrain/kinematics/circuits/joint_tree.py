@@ -128,7 +128,7 @@ def _no_joints(train: Train) -> Problem:
     return Problem(
         "no turning pair is declared",
         f"every link but '{train.frame}' turns on an axis that another link carries",
-        f"add for example `revolutes: {{A: [{train.frame}, {link}]}}`, with an entry for each axis",
+        f"for example, add `revolutes: {{A: [{train.frame}, {link}]}}`, with an entry for each axis",
         train.place("revolutes") if "revolutes" in train.model_fields_set else train.place("links"),
     )
 
@@ -137,7 +137,7 @@ def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
         f"link '{link}' is not joined to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
-        f"add it to an axis of `revolutes`, or an axis of its own: `{link}: [{train.frame}, {link}]`",
+        f"add it to an axis of `revolutes`, or declare an axis of its own: `{link}: [{train.frame}, {link}]`",
         train.place("links", link),
     )
 
@@ -158,18 +158,20 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
     if abs(angles[0] - angles[1]) > _SAME:
         angles_text = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
         what = f"helix angles of {angles_text} deg on parallel axes do not match"
-        fix = "give both wheels the same `helix_angle`, or `axes` that cross"
+        fix = "give both wheels the same `helix_angle`, or declare `axes` that are not parallel"
         raise GearTrainError(Problem(what, "the teeth would touch only at their corners", fix))
     ring = first.internal or second.internal
     if first.hand and second.hand and (first.hand == second.hand) != ring:
         what = f"a {first.hand}-hand wheel meshes with a {second.hand}-hand wheel"
         why = "a ring and its mate have the same hand" if ring else "wheels on parallel axes have opposite hands"
-        raise GearTrainError(Problem(what, why, f"make one of them {'right' if first.hand == 'left' else 'left'}"))
+        raise GearTrainError(
+            Problem(what, why, f"declare `hand: {'right' if first.hand == 'left' else 'left'}` for one of them")
+        )
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note, which is
-    empty unless the sense is only a convention.
+    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note,
+    which is empty unless the sense is only a convention.
 
     With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
     the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
@@ -282,8 +284,8 @@ class Axes:
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """Return -1 if an axis is opposite to the reference direction of the axes parallel to it, else 1. The reference is z, or
-        for other directions the first declared axis.
+        """Return -1 if an axis is opposite to the reference direction of the axes parallel to it, else 1. The reference
+        is z, or for other directions the first declared axis.
         """
         return self._senses.get(label or "", 1)
 

@@ -193,7 +193,8 @@ class ClosedForm(Result):
         return self._format(_LATEX)
 
     def sympy(self) -> Expr:
-        """Return a SymPy expression: factored numerator divided by factored denominator; symbols are named `z_` plus the wheel.
+        """Return a SymPy expression: factored numerator divided by factored denominator; symbols are named `z_` plus
+        the wheel.
 
         Raises
         ------

@@ -18,8 +18,8 @@ from geartrain.kinematics.formulas import laurent
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step, a computation of some seconds; longer polynomials are of no practical
-use.
+"""Maximum number of products of terms in one step, a computation of some seconds; longer polynomials are of no
+practical use.
 """
 
 

@@ -519,7 +519,7 @@ def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
             raise QuestionError(
                 Problem(
                     f"wheel '{name}' has no allowed tooth count",
-                    "its list of counts is empty",
+                    "a free wheel needs a list of at least one count",
                     "allow at least one count",
                     place,
                 )
@@ -539,7 +539,9 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
     for name, count in counts.items():
         if not 0 < count <= MOST_TEETH or count != int(count):
             fix = "give a whole number from 1 to 10^12"
-            raise QuestionError(Problem(f"{count} is not a tooth count", f"it is given for wheel '{name}'", fix))
+            raise QuestionError(
+                Problem(f"{count} is not a tooth count of wheel '{name}'", "wheels have a whole number of teeth", fix)
+            )
 
 
 def _too_coupled(train: Train) -> Problem:

@@ -140,8 +140,8 @@ def _times(ratio: str, speed: str, style: str) -> str:
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
     """Yield the formulas of all outputs of a state, or of the named `outputs`, in the order of the declaration.
 
-    Undetermined outputs are omitted. All wheels with a tooth count are variables. `find_formulas` describes the treatment
-    of other wheels and of couplings, and raises the errors.
+    Undetermined outputs are omitted. All wheels with a tooth count are variables. `find_formulas` describes the
+    treatment of other wheels and of couplings, and raises the errors.
     """
     case = train.case(state)
     for name in outputs:

@@ -97,7 +97,8 @@ def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
 def inconsistent_loops(network: GainGraph, without: Collection[int] = ()) -> list[GainLoop]:
     """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
 
-    A shortest inconsistent loop of the whole network is among them, because every such loop contains one of these meshes.
+    A shortest inconsistent loop of the whole network is among them, because every such loop contains one of these
+    meshes.
     """
     breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
     starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)

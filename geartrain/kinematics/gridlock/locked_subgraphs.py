@@ -135,8 +135,8 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
     """Return the links that meshes lock for any tooth counts, after removal of the meshes `gone`.
 
-    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links that
-    are also at rest for other ratios are returned.
+    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links
+    that are also at rest for other ratios are returned.
     """
     less = _without(part, gone)
     still = _stationary_links(less)

@@ -529,8 +529,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a backlash is too
-        small. None if a loop is unclear, or the backlash of a pair with a phase error is unknown.
+        """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a
+        backlash is too small. None if a loop is unclear, or the backlash of a pair with a phase error is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True

@@ -136,8 +136,8 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then brakes, locks and inputs;
-    and the statements of the last three.
+    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then brakes, locks and
+    inputs; and the statements of the last three.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -231,8 +231,8 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """Return the verdict with all undetermined links, and a smallest set of links (at most 12) whose speeds would determine
-    the other links.
+    """Return the verdict with all undetermined links, and a smallest set of links (at most 12) whose speeds would
+    determine the other links.
     """
     index = reduced.components.index
     rows: list[LinearForm] = []

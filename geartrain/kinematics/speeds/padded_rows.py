@@ -77,8 +77,8 @@ class PaddedRows:
     def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
         """Return the condition numbers cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|.
 
-        Each y is the solution of one transposed system. The number is infinite for a link at rest, whose relative error is not
-        defined.
+        Each y is the solution of one transposed system. The number is infinite for a link at rest, whose relative error
+        is not defined.
         """
         size = self.size(x[:, None])[:, 0]
         found = dict.fromkeys(links, float("inf"))

@@ -147,7 +147,10 @@ def _folder(path: Path, real: Path) -> Problem | None:
         )
     if not os.access(folder, os.W_OK | os.X_OK):
         return Problem(
-            "the folder cannot be written to", "its permissions forbid it", "give another folder", str(folder)
+            "the folder cannot be written to",
+            "its permissions do not allow writing",
+            "give another folder",
+            str(folder),
         )
     return None
 
@@ -219,11 +222,20 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
-        raise GearTrainError(Problem("this is not a folder", "several files are to be written", "give a folder", place))
+        raise GearTrainError(
+            Problem(
+                "this is not a folder",
+                "several files are written, which need a folder",
+                "give the path of a folder",
+                place,
+            )
+        )
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise GearTrainError(
-            Problem("the folder cannot be written to", "its permissions forbid it", "give another folder", place)
+            Problem(
+                "the folder cannot be written to", "its permissions do not allow writing", "give another folder", place
+            )
         )
     there = [name for name in names if os.path.lexists(folder / name)]
     for name in there:

@@ -41,7 +41,10 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
         )
     if found.exists() and not (force or resume):
         destination(found, force=True)  # raises the error for a file that is not regular
-        why, fix = "an interrupted run left it", "give --resume to continue it, or --force to begin again"
+        why, fix = (
+            "it contains the rows of an interrupted run",
+            "give --resume to continue it, or --force to begin again",
+        )
         raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
     return destination(found, force=True)
 

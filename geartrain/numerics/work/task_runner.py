@@ -268,7 +268,7 @@ class _Run:
             raise GearTrainError(
                 Problem(
                     "the executor is broken",
-                    "one of its workers died, and it does not start new ones",
+                    "one of its workers died, and it does not start new workers",
                     "use the executor of open_executor, which survives the death of workers",
                 )
             ) from None
@@ -296,7 +296,7 @@ class _Run:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
             raise GearTrainError(
                 Problem(
-                    "the work was interrupted", why, "run it again; finished work is in the journal, if there is one"
+                    "the work was interrupted", why, "run it again; finished tasks are in the journal, if there is one"
                 )
             ) from None
         else:

@@ -394,7 +394,7 @@ class Quantity:
                 raise _no_unit(text, dimension)
             return _in_range(cls(figure.value, None, text), dimension)
         unit = " ".join(match[2].split())
-        # an exponent with more than three digits is no part of the number, but not a unit either
+        # an exponent of more than three digits, which `_NUMBER` does not match, is not a unit
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
         unit = SPELT.get(unit, unit)

@@ -112,7 +112,8 @@ def one_pitch(configuration: Configuration) -> float:
     raise RangeError(
         Problem(
             f"the meshes do not have one pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and "
-            f"{sizing.label(minimum)} requires {sizing.pitches[minimum]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
+            f"{sizing.label(minimum)} requires {sizing.pitches[minimum]:.12g}, "
+            f"a mismatch of {100 * sizing.mismatch:.4g} %",
             impossibility_theorem(configuration) or "each kind of mesh determines its pitch by its own axes and teeth",
             "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
             "suggest_tooth_counts() finds better teeth; from_graph() or idlers on the edges give an exact pitch with "

@@ -397,7 +397,7 @@ def without_gears(
         if len(rest) == len(left):
             raise QuestionError(
                 Problem(
-                    f"there is no mesh '{word}' to drop",
+                    f"no mesh '{word}' to drop",
                     f"{first} and {second} do not mesh",
                     "name two gears that mesh",
                 )

@@ -233,10 +233,10 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
     if kind == "link" and name in train.wheels:
         owner = next(link for link, each in train.links.items() if name in each.wheels)
         why = f"'{name}' is a wheel of the link '{owner}'"
-        return Problem(f"there is no link '{name}'", why, f"write '{owner}'", train.place(*loc))
+        return Problem(f"no link '{name}'", why, f"write '{owner}'", train.place(*loc))
     line = f"`{_HOMES[kind].format(name, link=link)}`" if kind in _HOMES else f"the {kind}"
     fix = suggest(name, names, otherwise=f"{few}declare {line}")
-    return Problem(f"there is no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
+    return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
 
 
 def _unknown_wheel(train: Train, name: str, at: int) -> Problem:
@@ -258,7 +258,7 @@ def _links(train: Train) -> Iterator[Problem]:
         links = {train.frame, *links}
     if train.frame not in links and "frame" not in train.model_fields_set:
         yield Problem(
-            "there is no link 'frame'",
+            "no link 'frame'",
             "it is the fixed link, unless the key `frame` names another one",
             f"add `frame: {{}}` to `links`, or name the fixed link: `frame: {next(iter(links), 'case')}`",
             train.place("links"),
@@ -296,7 +296,7 @@ def _materials(train: Train) -> Iterator[Problem]:
         if name not in train.materials and name not in material_table():
             known = [*train.materials, *material_table()]
             otherwise = f"declare it in `materials`, or take one of: {', '.join(known)}"
-            what, why = f"there is no material '{name}'", f"`{dotted(loc)}` refers to it"
+            what, why = f"no material '{name}'", f"`{dotted(loc)}` refers to it"
             yield Problem(what, why, suggest(name, known, otherwise=otherwise), train.place(*loc))
 
 

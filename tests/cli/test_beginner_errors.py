@@ -58,12 +58,12 @@ error: my.yaml:1: no turning pair is declared
   fix: for example, add `revolutes: {A: [frame, a]}`, with an entry for each axis
 
 # no fixed link: |  frame: {}\n||
-error: my.yaml:1: there is no link 'frame'
+error: my.yaml:1: no link 'frame'
   why: it is the fixed link, unless the key `frame` names another one
   fix: add `frame: {}` to `links`, or name the fixed link: `frame: a`
 
 # an unknown clutch: |inputs: {a: 1}|clutches: {C1: {fixes: a}}\nstates: {low: {engaged: [C2]}}|
-error: my.yaml:8: there is no clutch 'C2'
+error: my.yaml:8: no clutch 'C2'
   why: `states.low.engaged[0]` refers to it
   fix: use one of: C1; or declare `clutches: {C2: {fixes: a}}`
 
@@ -88,7 +88,7 @@ error: my.yaml:6: `gears` is not a list in brackets
   fix: for example, write `gears: [m ~ h]`
 
 # links instead of wheels: |[p ~ w]|[a ~ w]|
-error: my.yaml:6: there is no wheel 'a'
+error: my.yaml:6: no wheel 'a'
   why: 'a' is a link, and a pair names two wheels
   fix: write one of its wheels: p
 
@@ -125,7 +125,7 @@ my: contradictory: a = 1, b = 2 contradict each other: 1 a + 3 b must be 0 and i
   b          undetermined  -  FAILS
 
 # an output of an unknown link: |outputs: {b:|outputs: {hour:|
-error: my.yaml:8: there is no link 'hour'
+error: my.yaml:8: no link 'hour'
   why: `outputs.hour` refers to it
   fix: use one of: frame, a, b; or declare `links: {hour: {}}`
 
@@ -170,7 +170,7 @@ error: my.yaml:6: key 'pair' is missing
   fix: add `pair: [p, w]`
 
 # an input that is a wheel: |inputs: {a: 1}|inputs: {p: 1}|
-error: my.yaml:7: there is no link 'p'
+error: my.yaml:7: no link 'p'
   why: 'p' is a wheel of the link 'a'
   fix: write 'a'
 

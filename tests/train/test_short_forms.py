@@ -107,7 +107,7 @@ def test_a_pair_with_more_to_say_or_a_name_in_quotes_stays_long() -> None:
 def test_problems_are_told_at_the_line_of_the_short_form(tmp_path: Path) -> None:
     file = tmp_path / "set.yaml"
     for wrong, words in {
-        SHORT.replace("P: [carrier, planet]", "P: [carrier, plant]"): ":10: there is no link 'plant'",
+        SHORT.replace("P: [carrier, planet]", "P: [carrier, plant]"): ":10: no link 'plant'",
         SHORT.replace("P: [carrier, planet]", "P: [carrier]"): ":10: axis 'P' has fewer than two links",
         SHORT.replace("- s ~ p", "- s ~"): ":12: 's ~' is not a gear pair",
         SHORT.replace("- s ~ p", "- sun ~ p"): "'sun' is a link, and a pair names two wheels",

@@ -17,7 +17,7 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join names with `mark`; replace all after the first 12 by their number.
+    """Join names with `mark`; if there are more than 13 names, replace those after the 12th by their number.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -44,7 +44,7 @@ class Loop(Result):
     links: tuple[str, ...]
     """Links in the order of the loop."""
     pairs: tuple[str, ...]
-    """Ids of the pairs in the order of the loop; the last one closes it."""
+    """Ids of the pairs in the order of the loop; the last pair closes the loop."""
     product: Fraction
     """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one of its pairs is
     redundant. Otherwise the links of the loop are locked to the carrier.
@@ -218,7 +218,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return a speed as text; as a ratio to the input if exactly one input turns."""
+        """Return a speed as text; as a ratio to the input if exactly one input turns and both speeds are exact."""
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
         if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:

@@ -120,7 +120,7 @@ def find_components(
     """Find the ordinary trains of every carrier by breadth-first search: (18), (19) of docs/theory.md.
 
     first   links from which the search starts if possible (the inputs); the unknown of their component is then their
-            own speed, and fractions with many digits are not multiplied with each other
+            own speed, so that fractions with many digits are not multiplied with each other
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)

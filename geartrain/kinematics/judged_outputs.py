@@ -116,7 +116,7 @@ class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """Exact speed as a fraction in text; None if it was solved in floats, or is not determined."""
+    """Exact speed as a string such as "2/7"; None if it was solved in floats, or is not determined."""
     value: Required[float | None]
     """Nearest float64; None beyond its range, or if the speed is not determined."""
     decimal: str
@@ -153,8 +153,8 @@ class JudgedFigure(Result):
     found: SpeedValue | None
     """Same quantity, calculated for this train; None if it is not determined."""
     holds: bool | None
-    """True if both agree in all printed digits, or within a declared tolerance; False if they differ, or if the
-    quantity is not determined.
+    """True if the published and the calculated value agree in all printed digits, or within a declared tolerance; False
+    if they differ, or if the quantity is not determined.
     """
 
 

@@ -81,7 +81,7 @@ class WillisSystem(Shown):
     equations: tuple[WillisEquation, ...]
     """Equations of the rows, with their labels."""
     exact: bool = True
-    """False if inputs in radians and in turns are mixed; numbers are then shown as decimals."""
+    """False if radians were converted to turns or turns to radians; numbers are then shown as decimals."""
     redundant: tuple[str, ...] = ()
     """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
 

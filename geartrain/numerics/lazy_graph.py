@@ -1,4 +1,4 @@
-"""A networkx multigraph with attributes that are computed when they are first read.
+"""Multigraph of networkx with attributes that are computed when they are first read.
 
 An attribute of an edge may take longer to compute than the graph. It is stored as `Lazy(make)`, and networkx returns
 the result of `make` whenever the attribute is read.

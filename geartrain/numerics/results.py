@@ -383,7 +383,7 @@ class Result(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TrainResult(Result):
-    """Result for a train that contains the declaration of the train, which its text and its tables need."""
+    """Result for one train, stored together with the declaration of the train, which its text and its tables need."""
 
     _declaration: Any = field(default=None, kw_only=True, repr=False, compare=False)
 

@@ -141,7 +141,7 @@ class AxisAdjustment:
 
 
 def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int = 0) -> AxisAdjustment:
-    """Return axes near the given ones at which all meshes have one pitch, by Levenberg's method with minimum-norm
+    """Return axes near the given axes at which all meshes have one pitch, by Levenberg's method with minimum-norm
     steps.
 
     Solutions are not unique; the fit returns a nearby one. If the tangencies depend on each other (symmetric solids)
@@ -214,7 +214,7 @@ def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorn
 
 
 def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> AxisAdjustment:
-    """Return axes near the given ones at which all loops close, and the variance of the logarithm of the pitch is
+    """Return axes near the given axes at which all loops close, and the variance of the logarithm of the pitch is
     minimised.
 
     Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The sum of

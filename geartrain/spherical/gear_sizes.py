@@ -177,7 +177,7 @@ class TipCollision:
     gears: tuple[str, str]
     """Names of the two gears."""
     room: float
-    """Distance between their pitch circles [modules]; negative if the pitch circles overlap."""
+    """Distance between the pitch circles of the two gears [modules]; negative if the pitch circles overlap."""
     short: float
     """Required distance minus `room` [modules]."""
 

@@ -223,7 +223,7 @@ def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[
     pitch.
 
     The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`). The
-    variance is that of ln(z / sin rho).
+    variance refers to ln(z / sin rho).
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)

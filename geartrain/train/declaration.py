@@ -103,7 +103,7 @@ class Epoch(Declared):
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
-"""An epoch, or its date as a single string."""
+"""Epoch, or its date as a single string."""
 
 
 # ---------------------------------------------------------------------------------------------------- friction in force

@@ -49,7 +49,7 @@ class JsonMarks:
 
 
 def parse_json(text: str) -> dict[str, Any] | None:
-    """Parse `text` as a JSON mapping with scalars kept as text; None if YAML might read it differently.
+    """Parse `text` as a JSON mapping in which all scalars remain strings; None if YAML might read it differently.
 
     Duplicate keys, nan, infinity, deep nesting and too many values also return None, so that the YAML parser
     reports them with line numbers.

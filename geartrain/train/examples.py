@@ -17,7 +17,9 @@ from geartrain.train.yaml_nodes import on_one_line, parse_yaml
 
 @cache
 def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML text, by part or by key with several kinds of parts; the first one is printed."""
+    """Return the examples as YAML texts by part, or by key if a key has several kinds of parts; the first text is
+    printed.
+    """
     text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
     return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
 
@@ -30,7 +32,7 @@ def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _plain(data: Any) -> Any:
-    """Return the data of a declaration, in which all scalars are text, with numbers and booleans."""
+    """Return the data of a declaration with numbers and booleans instead of the strings of its scalars."""
     if isinstance(data, dict):
         return {key: _plain(value) for key, value in data.items()}
     if isinstance(data, list):

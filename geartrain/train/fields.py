@@ -175,7 +175,7 @@ class AlsoShort:
 
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
-"""A name as written. Numbers are accepted as names."""
+"""Name as written. Numbers are accepted as names."""
 Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
 """Immutable mapping of names to parts."""
@@ -212,7 +212,9 @@ def read_friction(raw: object) -> Any:
 
 
 def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
-    """Return True for the key `law`, and if it is missing or misspelt but most keys belong to friction laws."""
+    """Return True if the key `law` is given, possibly misspelt, or if most keys belong to friction laws; False if all
+    keys belong to Coulomb friction.
+    """
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
     if all(key in CoulombFriction.model_fields for key in keys):

@@ -167,7 +167,7 @@ def _split_julian(days: int) -> tuple[int, int]:
 
 
 def _split_gregorian(days: int) -> tuple[int, int]:
-    """Return the number of years that begin in March, and the remaining days.
+    """Split a number of days since 1 March of the year 0 into whole Gregorian years and remaining days.
 
     146097 days are 400 years, and the last of their four centuries is one day longer.
     """

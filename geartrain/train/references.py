@@ -27,7 +27,7 @@ def _cases(train: Train) -> Iterator[tuple[Loc, Train | State]]:
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
     """Yield problems of inputs with and without units in one train, and of inputs per time if the train's unit is not a
-    time. Inputs of 0 are compatible with both.
+    time. Inputs of 0 may have a unit or not.
     """
     inputs = [
         ((*loc, "inputs", link), speed) for loc, part in _cases(train) for link, speed in (part.inputs or {}).items()
@@ -49,7 +49,7 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
 
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
-    """Yield a problem if torques with and without units are mixed; torques of 0 are compatible with both."""
+    """Yield a problem if torques with and without units are mixed; torques of 0 may have a unit or not."""
     found = [
         ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
     ]
@@ -223,7 +223,7 @@ _HOMES = {
     "dial": "dials: {{{}: {{}}}}",
     "source": "sources: {{{}: author and year}}",
 }
-"""Declarations of the parts to which others refer by name."""
+"""Templates of the declarations of parts to which other parts refer by name."""
 
 
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
@@ -409,7 +409,9 @@ def _unresolved(train: Train) -> Iterator[Problem]:
 
 
 def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
-    """Yield the kind, name (None if none is given) and path of references, except those of turning and gear pairs."""
+    """Yield the kind, name (None if none is given) and path of all references except the references of turning and gear
+    pairs.
+    """
     loc: Loc
     for at, coupling in enumerate(train.couplings):
         yield "link", coupling.pin, ("couplings", at, "pin")

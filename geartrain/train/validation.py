@@ -1,7 +1,7 @@
 """Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and
 fix.
 
-`revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the others.
+`revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the other links.
 `gears: [s ~ p]`: a pair of two wheels.
 """
 

@@ -1,4 +1,4 @@
-"""Blank of a wheel: thickness, face width and material, by default those of the train."""
+"""Blank of a wheel: thickness, face width and material, by default the values of the train."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """YAML 1.2 (core schema) as nodes with line numbers.
 
-Every scalar is kept as text, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
+Every scalar is kept as a string, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
 becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
 rejected. Plain Python data can be converted to nodes as well, and a declaration can be written as YAML text.
 """
@@ -27,10 +27,10 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(slots=True)
 class YamlNode:
-    """A mapping, a list, a scalar or null, with the place where it was written."""
+    """Mapping, list, scalar or null of a YAML document, with the place where it was written."""
 
     value: Any
-    """Value. Scalars of a file are kept as text; scalars of plain data are the given objects."""
+    """Value. Scalars of a file are strings; scalars of plain data are the given objects."""
     place: str
     keys: dict[str, str] = field(default_factory=dict)
     """Place of each key of a mapping."""

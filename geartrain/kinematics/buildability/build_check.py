@@ -249,7 +249,7 @@ _SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have
 def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rule P2 for non-conjugate teeth, such as triangular ones: a wheel needs the same size in both
+    """Yield findings of rule P2 for non-conjugate teeth, such as triangular teeth: a wheel needs the same size in both
     of its pairs.
     """
     free = [

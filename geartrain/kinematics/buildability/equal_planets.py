@@ -56,7 +56,7 @@ class AssemblyMesh:
     measure: Measure
     """Unit of the common module; empty if no module is declared."""
     module: Fraction | None
-    """Common module in the unit `measure`; 1 if none is declared, None if different ones are declared."""
+    """Common module in the unit `measure`; 1 if none is declared, None if different modules are declared."""
 
     @property
     def is_free(self) -> bool:
@@ -190,10 +190,10 @@ class TrainAssembly:
         )
 
     def module(self, *wheels: str) -> tuple[Measure, Fraction | None]:
-        """Return the unit and value of the common module of wheels, declared for them or for wheels that must share
-        it.
+        """Return the unit and value of the common module of some wheels, declared for these wheels or for wheels that
+        must have the same module.
 
-        Without a declared module the value is 1. If different ones are declared it is None.
+        Without a declared module the value is 1. If different modules are declared it is None.
         """
         found = {one for wheel in wheels for one in self._modules.get(self.kin[wheel], ())}
         if len(found) > 1:

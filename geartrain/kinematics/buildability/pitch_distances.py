@@ -70,7 +70,7 @@ def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float
 def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     """Return the angle about the planet's axis by which its teeth clear the ring's teeth during radial assembly [rad].
 
-    Parameters are those of `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
+    The parameters are as in `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
     SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80
     or 100 teeth 16.
     """
@@ -185,7 +185,7 @@ class PitchPair:
 
     @property
     def is_crossed(self) -> bool:
-        """True for crossed helical wheels: spur wheels on non-parallel axes, at least one of them helical."""
+        """True for crossed helical wheels: spur wheels on non-parallel axes, of which at least one is helical."""
         return not self.parallel and any(wheel.is_helical for wheel in self.declared)
 
     @property
@@ -392,7 +392,7 @@ class PitchDistances:
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Record the distance between two parallel axes if positions of both are declared."""
+        """Record the distance between two parallel axes if the positions of both axes are declared."""
         declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
         if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
@@ -465,7 +465,7 @@ class PitchDistances:
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
         """Yield the finding on a pair whose required centre distance differs from another pair's on the same two axes.
 
-        The other pair is the one whose required distance differs most.
+        The pair between these axes whose required distance differs most is chosen.
         """
         wheel = ("wheel", pair.wheels[0])
         best: tuple[Fraction, PitchPair, Fraction] | None = None

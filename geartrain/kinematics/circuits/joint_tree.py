@@ -151,8 +151,8 @@ _SAME = 1e-6  # rad: tolerance of angles, because written angles are rounded
 def check_parallel(first: Wheel, second: Wheel) -> None:
     """Raise `GearTrainError` for wheels on parallel axes whose helix angles or hands do not match.
 
-    Teeth in contact have the same direction, so the hands of an external pair are opposite and those of a ring and its
-    mate are equal. An undeclared hand is assumed to match.
+    Teeth in contact have the same direction, so the hands of an external pair are opposite, and the hands of a ring and
+    its mate are equal. An undeclared hand is assumed to match.
     """
     angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
     if abs(angles[0] - angles[1]) > _SAME:
@@ -214,8 +214,8 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
 def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
     """Return the helix angles of two wheels on skew axes [rad], positive for right hands; None if none is declared.
 
-    The helix angle of a worm and the shaft angle determine that of its wheel by (12a); it may also be declared. A worm
-    without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
+    The helix angle of a worm and the shaft angle determine the helix angle of its wheel by (12a); it may also be
+    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Outputs of a declared train as exact rational functions of the free tooth counts.
 
 Relative to one carrier, the speeds of links that mesh are monomial multiples of one unknown. The equations that couple
-these components, and those of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
+these components, and the equations of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
 Markowitz pivoting on monomials, and the remaining core is solved by Cramer's rule.
 """
 

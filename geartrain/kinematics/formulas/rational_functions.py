@@ -33,7 +33,7 @@ class MonomialGroup(Result):
     wheels: tuple[str, ...]
     """Names of the wheels in the order of the declaration."""
     exponents: Exponents
-    """Non-zero exponent of each wheel's count; usually 1 or -1. The first one is positive."""
+    """Non-zero exponent of each wheel's count; usually 1 or -1. The first exponent is positive."""
     degree: int
     """Highest power of x in the numerator or the denominator; for 1 the function is a Moebius transformation of x."""
 

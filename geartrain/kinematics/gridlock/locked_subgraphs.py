@@ -180,10 +180,10 @@ def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return meshes of several carriers whose removal frees the train.
+    """Return meshes of several carriers whose removal frees the train; None if no set exists, or if there are too many
+    meshes to try.
 
-    The set is the smallest one if there are few meshes, else a minimal one. None if no set exists, or if there are too
-    many meshes to try.
+    The set is a smallest set if there are few meshes, else a minimal set.
     """
     toothed = _without(part, ())
     bound = {
@@ -212,7 +212,7 @@ def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
     """Return a minimal set of meshes whose removal frees the train; meshes early in the sequence are preferred.
 
     Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
-    Its last mesh is necessary, and the search continues among those before it.
+    Its last mesh is necessary, and the search continues among the meshes before it.
     """
     needed: list[str] = []
     left = list(gears)

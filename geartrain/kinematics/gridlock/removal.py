@@ -185,7 +185,7 @@ class Gridlock(Result):
         Parameters
         ----------
         most : int
-            Maximum number of components that are described; for the others only their number is given.
+            Maximum number of components that are described; only the number of further components is given.
         """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"

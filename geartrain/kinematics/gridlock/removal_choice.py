@@ -3,7 +3,7 @@
 A set of meshes frees a network if it contains a mesh of every inconsistent loop. The smallest such hitting set is an
 integer program. Its loops are generated as they are needed: a smallest set for the loops known so far is proved to be
 the answer if no inconsistent loop is left, otherwise the remaining short loops are added. The dual program finds loops
-that prove the result to a reader: each mesh is in at most one, or in at most two of them.
+that prove the result to a reader: each mesh is in at most one, or in at most two of these loops.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class RemovalChoice(NamedTuple):
     meshes: list[int]
     method: RemovalMethod
     at_least: int
-    """Proved lower bound on the number of meshes; a set of this size is a smallest one."""
+    """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
     """Alternatives to `meshes`, if a single mesh is enough."""
     example: GainLoop

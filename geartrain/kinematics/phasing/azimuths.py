@@ -136,7 +136,7 @@ class _Axis:
     place: IntegerVector | None
     """Point on the axis, in a unit of length common to all axes; None if not declared."""
     error: Fraction
-    """Maximum error of the point, in the same unit."""
+    """Maximum error of the point, in the unit of `place`."""
 
 
 @collector_paused()

@@ -261,7 +261,8 @@ class LoopPhase(Result):
     wheels.
     """
     retime: Mapping[str, float]
-    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of these rotations is enough.
+    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations is
+    enough.
     """
     together: bool = False
     """True for a condition on several loops that does not follow from the conditions of the single loops."""
@@ -416,7 +417,7 @@ class MeshPhasing(Result):
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
     """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have the same name."""
     unjudged: int = 0
-    """Number of loops that cannot be checked, because a pair or pin in them has no known position."""
+    """Number of loops that cannot be checked, because the position of one of their pairs or pins is unknown."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):

@@ -39,8 +39,8 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """Input, brake or lock of a case: its kind (input, fixed, lock), its text, the text of its declaration, and its
-    speed.
+    """Input, brake or lock of a case: its kind (input, fixed or lock), a sentence that describes it, a sentence on the
+    declaration that causes it, and its speed.
     """
 
     kind: str
@@ -79,7 +79,7 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return equation number -> factor from a row of symbols, whose columns are -1 - number."""
+    """Return a mapping from equation number to factor, from a row of symbols with the columns -1 - number."""
     return {-1 - column: value for column, value in row.items()}
 
 
@@ -197,7 +197,7 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the gear pairs in a contradiction: those on the paths between the shared links of its
+    """Return the names of the gear pairs in a contradiction: the pairs on the paths between the shared links of its
     equations.
     """
     parts = reduced.components

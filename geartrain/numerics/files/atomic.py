@@ -182,7 +182,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _copy_permissions(old: Path, new: Path) -> None:
-    """Copy the permissions, and the owner if that is allowed, from the old file to the new one."""
+    """Copy the permissions of the old file to the new file, and the owner if that is allowed."""
     found = old.stat()
     if hasattr(os, "chown"):
         with suppress(OSError):

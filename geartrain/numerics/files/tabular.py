@@ -1,4 +1,4 @@
-"""Tables on disk: long ones as CSV or Parquet, and small text files of points and edges.
+"""Tables on disk: long tables as CSV or Parquet, and small text files of points and edges.
 
 Long tables are written in chunks to a file whose name contains `partial` until they are complete. An interrupted CSV
 file can be resumed. All rows of CSV files are formatted here.
@@ -52,7 +52,7 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
 class LongTable:
     """CSV file that is written row by row as `name.partial.csv` and renamed to `name.csv` when it is complete.
 
-    rows     number of rows, including those of an interrupted run that is resumed
+    rows     number of rows, including the rows of an interrupted run that is resumed
     resume   True to continue the partial file
     force    True to overwrite an existing table
     replay   True to overwrite the partial file of an interrupted run, whose rows are stored elsewhere

@@ -276,7 +276,7 @@ def _another(difference: str, path: Path) -> Problem:
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
-    """Return a text on the first difference between two plain data structures; empty if they are equal.
+    """Describe the first difference between two plain data structures; return an empty string if they are equal.
 
     >>> first_difference({"wheels": [30, 36]}, {"wheels": [30, 48]})
     'wheels[1] is 36 there and 48 here'

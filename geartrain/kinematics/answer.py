@@ -249,6 +249,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target.
         Undetermined outputs are included only if the verdict is `determined`.
         """
+        # if the verdict has failed, undetermined outputs are its consequence and no further failures
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 

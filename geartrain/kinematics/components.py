@@ -210,6 +210,7 @@ def _nodes(
 def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
     for link in first:
         yield from nodes_of.get(link, ())
+    # components that contain no input; nodes that were already reached are skipped by the caller
     yield from range(count)
 
 
@@ -274,6 +275,7 @@ def reduce_components(parts: Components) -> ReducedSystem:
     equations: list[LinearForm] = []
     origin: list[tuple[str, int, int]] = []
     for link, nodes in parts.nodes_of.items():
+        # without an own unknown, the first node of a link defines its speed and needs no equation
         loose = nodes if link in own or link == parts.frame else nodes[1:]
         for node in loose:
             row = shell.form(link)

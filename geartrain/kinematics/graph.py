@@ -29,6 +29,7 @@ def build_graph(train: Train) -> Graph:
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
+    # a multigraph, because a turning pair and several gear pairs may join the same two links
     graph: Graph = LazyGraph(name=train.name)
     for name, link in train.links.items():
         graph.add_node(name, declared=link, frame=name == train.frame)
@@ -214,6 +215,7 @@ def to_json(graph: Graph) -> str:
 
     data = nx.node_link_data(_plain(graph), edges="edges")
     text = json.dumps(data, indent=1, ensure_ascii=False)
+    # ASCII escapes if names contain control characters, which a terminal would interpret
     return text if printable(text) == text else json.dumps(data, indent=1)
 
 

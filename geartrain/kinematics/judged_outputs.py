@@ -230,6 +230,7 @@ class OutputResult(Result):
         otherwise True.
         """
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
+        # None means that nothing was declared or compared, which is not a failure
         return False not in judged
 
     @property

@@ -267,6 +267,7 @@ class _Expansion:
     def _gear(self, gear: GearPair, at: int, number: int) -> GearPair:
         own = {wheel: self._wheel(wheel, at) for wheel in gear.pair}
         driver = None if gear.driver is None else own[gear.driver]
+        # without `phase`, because the phase of a copy follows from its position
         changed = gear.changed(
             pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at)
         )
@@ -319,6 +320,7 @@ class _Expansion:
         found = {}
         for link, (_, axis) in self.tree.parent.items():
             number, carrier = self.declared.links[link].copies, self.tree.top[link]
+            # a link on a copied planet is spaced about the carrier of the planet
             while self.declared.links[carrier].copies > 1:
                 carrier = self.tree.top[carrier]
             if number > 1:

@@ -159,6 +159,7 @@ class TrainKinematics(Shown):
         of, base : str
             Two links; the order does not matter.
         """
+        # without sums all axes between links and the frame are parallel, so that no path is examined
         return not self.joint_sums or self._axes.is_rotation(of, base)
 
     # -------------------------------------------------------------------------------------------------------- states
@@ -479,9 +480,11 @@ class TrainKinematics(Shown):
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
+            # two bevel wheels on one side of a third are a likely cause of a lock or contradiction
             verdict = replace(verdict, text=verdict.text + "".join(map(_facing_advice, self._bevels_on_one_side)))
         if wanted is not None:
             verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
+            # a requested link is measured relative to the frame, which need not be shown
             shown = wanted if case.outputs else wanted[:1]
             # other links were solved only as far as the output needs them
             speeds = {link: speeds[link] for link in shown if link in speeds}

@@ -147,6 +147,7 @@ def assemble_willis_system(
         for c in circuits
     ]
     if case is not None:
+        # a brake on the frame would repeat the row of the frame
         rows += [WillisEquation(f"fixed {link}", "fixed", ((link, 1),)) for link in case.fixed if link != frame]
         rows += [
             WillisEquation(f"lock {a} {b}", "lock", ((a, signs.get(a, 1)), (b, -signs.get(b, 1))))

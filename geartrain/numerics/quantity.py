@@ -393,6 +393,7 @@ class Quantity:
             if not plain and figure.value:
                 raise _no_unit(text, dimension)
             return _in_range(cls(figure.value, None, text), dimension)
+        # several blanks within a unit count as one
         unit = " ".join(match[2].split())
         # an exponent of more than three digits, which `_NUMBER` does not match, is not a unit
         if re.fullmatch(r"[eE][+-]?\d+", unit):

@@ -130,6 +130,7 @@ def _contacts(configuration: Configuration, circuits: tuple[Circuit, ...]) -> Pi
                 why = f"it is declared with `regular` {parts}"
                 raise QuestionError(Problem(what, why, "set `regular` to 0 for this gear"))
             found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
+            # each contact of an irregular gear is a family of its own, because its angle is only a float
             key.append(gear if parts else (len(keys), gear))
         part.append((found[0], found[1]))
         keys.append((key[0], key[1]))

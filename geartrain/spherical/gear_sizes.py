@@ -308,6 +308,7 @@ class SphereSizing(Result):
         """Mapping from kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
         undercut.
         """
+        # pressure angle at the mean pitch: cos alpha = c / lambda
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
         return {kind: float(count) for kind, count in pairs if count < limit}

@@ -366,6 +366,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
                 )
             )
     wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}
+    # a full name such as 4a takes precedence over a number of sides
     return wide | {kind: int(given[kind]) for kind in known if kind in given}
 
 

@@ -358,6 +358,7 @@ class Train(Declared):
         outputs = dict(self.outputs)
         for name, output in own.outputs.items():
             inherited = outputs.get(name)
+            # a state changes only the keys that it declares
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)

@@ -218,6 +218,7 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
         }  # short forms group the turning pairs by axis, so their order changes
 
     text = _read(path)
+    # an invalid file is refused before anything is rewritten
     before = declared(text)
     new = with_long_forms(text) if long else with_short_forms(text)
     if declared(new) != before:
@@ -254,6 +255,7 @@ def files_of(path: Path) -> tuple[Path, ...]:
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
     """Merge a declaration with the chain of its parents, the oldest parent first."""
+    # short forms are expanded first, because entries are merged key by key
     line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
     result = line.pop()
     if line:
@@ -339,6 +341,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
         return path
     if str(source) in known:
         return known[str(source)]
+    # also a path as in the source tree, such as trains/planetary.yaml
     within = next((found for found in known.values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
     if within is not None:
         return within

@@ -73,6 +73,7 @@ def with_long_forms(text: str) -> str:
 def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
     lines = text.splitlines()
     root = yaml.compose(text, Loader=_Loader)
+    # in a declaration in braces, sections do not begin on lines of their own
     if not isinstance(root, yaml.MappingNode) or root.flow_style:
         return text
     parts = [(key, value) for key, value in root.value if key.value in writers]

@@ -37,6 +37,7 @@ def _plain(data: Any) -> Any:
         return {key: _plain(value) for key, value in data.items()}
     if isinstance(data, list):
         return [_plain(value) for value in data]
+    # a scalar that is not valid JSON remains a string
     with suppress(ValueError, TypeError):
         return json.loads(data)
     return data

@@ -153,6 +153,7 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
     couplings.
     """
+    # turning pairs have no names, and are removed by their two links
     gone = {key: list(texts(node)) for key, node in remove.mapping.items() if key != "revolutes"}
     joints = (
         [frozenset(texts(node)) for node in remove.mapping["revolutes"].items] if "revolutes" in remove.mapping else []

@@ -134,6 +134,7 @@ class _DeclaredError(Declared):
 
     @model_validator(mode="after")
     def _has_one_key(self) -> _DeclaredError:
+        # a fixed error may be negative, the width of a distribution may not
         for key in ("normal", "uniform"):
             width: Quantity | None = getattr(self, key)
             if width is not None and width.value < 0:

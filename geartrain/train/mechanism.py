@@ -104,6 +104,7 @@ class BearingFriction(Declared):
     def _check_static(self) -> BearingFriction:
         if self.static is None:
             return self
+        # a torque of 0 needs no unit
         if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
             what = "sliding {sliding} and static {static} mix a number without a unit and a torque with a unit"
             fix = "give both with a unit, or both without"
@@ -432,6 +433,7 @@ class Wheel(Declared):
     @property
     def transverse_module(self) -> float | None:
         """Pitch diameter divided by tooth count [m]; None if no module with a unit is declared."""
+        # a module without a unit is only a ratio to other modules
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
 

@@ -359,6 +359,7 @@ class Published(Declared):
 
     @model_validator(mode="after")
     def _check_ratio(self) -> Published:
+        # a printed 0.0 is rounded, and permits a small ratio
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
             raise PydanticCustomError(

@@ -102,6 +102,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
                 place,
             )
             return
+        # speeds of the table are in turns per year
         if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
             yield Problem(
                 f"'{target.name}' is a speed per year",
@@ -228,6 +229,7 @@ _HOMES = {
 
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
     names = list(known)
+    # a long list of names would hide the fix
     few = f"use one of: {', '.join(names)}; or " if 0 < len(names) <= 12 else "correct the name, or " if names else ""
     link = next((link for link in train.links if link != train.frame), train.frame)
     if kind == "link" and name in train.wheels:
@@ -342,6 +344,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
                     yield _unknown_wheel(train, wheel, at)
             continue
         (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
+        # fast path for nearly all pairs: spur wheels on two links, at most one of them a ring
         if link_1 != link_2 and wheel_1.kind == wheel_2.kind == "spur" and not (wheel_1.internal and wheel_2.internal):
             continue
         place = train.place("gears", at, "pair")

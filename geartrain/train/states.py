@@ -198,6 +198,7 @@ class Escapement(Declared):
     def _check_pendulum(self) -> Escapement:
         """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
         if self.pendulum is not None:
+            # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.si / length - 1) > _NEAR:
                 raise PydanticCustomError(
@@ -387,6 +388,7 @@ class StateCase(Shown):
         *links : str
             One link that is fixed, or two that are locked together.
         """
+        # an indirect brake or lock is described by the declaration that causes it
         links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""
         return (

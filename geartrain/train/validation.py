@@ -97,6 +97,7 @@ def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
     """
     if sum(_size(part) for part in data.values()) < _LARGE:
         return None
+    # known keys first: unknown keys must not displace them from the head
     known = {key: data[key] for key in Train.model_fields if key in data}
     return {key: _first(part) for key, part in (known | dict(islice(data.items(), _HEAD))).items()}
 
@@ -170,6 +171,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     loc: Loc = error["loc"]
     kind, context = error["type"], error.get("ctx", {})
     key = str(loc[-1]) if loc else ""
+    # YAML reads `key:value` without a space as a single key
     if kind in ("extra_forbidden", "missing") and (joined := _without_space(loc, error["input"])):
         fix = f"write `{joined.replace(':', ': ', 1)}`"
         what, why = f"no space after the colon in `{joined}`", "without a space the colon is part of the key"

@@ -603,6 +603,7 @@ class _EqualPlanets:
         )
         if self.points is not None:
             why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
+        # evenly spaced planets of the declared number are too close, so fewer are suggested
         most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
@@ -629,6 +630,7 @@ class _EqualPlanets:
         unknown.
         """
         tips = self._tip_diameter(planet, mesh)
+        # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
             module = self._module(planet.own(mesh))
             if module is None:

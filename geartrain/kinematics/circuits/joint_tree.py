@@ -392,6 +392,7 @@ class Axes:
         """Return a, b and the note for a worm drive, whose sense of rotation follows from hand and positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
+        # a worm without a declared hand is right-handed
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
         label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)

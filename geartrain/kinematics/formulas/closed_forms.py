@@ -74,6 +74,7 @@ class FactoredPolynomial:
 
 def _positive_at_point(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
     terms = p.sorted_terms()
+    # a sum that is 0 at the point gets the sign of its first term
     value = whole(terms, point) or terms[0].coefficient
     found = terms if value > 0 else (-p).sorted_terms()
     return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # positive terms first

@@ -238,6 +238,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     shared = [at for at in range(p.width) if _degree(p, at) and _degree(q, at)]
     if not shared:
         return Laurent.constant(1, p.width)
+    # tried first, because one polynomial often divides the other
     for whole, other in ((p, q), (q, p)):
         if len(whole) <= len(other) and divide(other, whole) is not None:
             return whole
@@ -280,6 +281,7 @@ def _content(p: Laurent, at: int) -> Laurent:
     found = Laurent.constant(0, p.width)
     for power in {exponents[at] for exponents in p.terms}:
         found = common_divisor(found, _coefficient(p, at, power))
+        # a common divisor only gets smaller, so further coefficients cannot change it
         if found.is_constant:
             break
     return found

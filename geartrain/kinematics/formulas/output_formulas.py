@@ -500,6 +500,7 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
         unit = Laurent(left.width, {powers: abs(left.terms[powers])})
         formula, _ = make_formula(label, wheels, left, unit)
+        # conditions with equal numerators have equal zeros
         found.setdefault(formula.numerator, formula)
     return tuple(found.values())
 

@@ -190,6 +190,7 @@ def _axes(train: Train) -> dict[str, _Axis]:
     points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
     # a common unit of length makes all coordinates integers
     unit = math.lcm(*{part.denominator for point in points.values() for part in point})
+    # z first, because undeclared axes are parallel to z and positive about it
     senses: list[IntegerVector] = [_Z]
     known: dict[tuple[str, ...], tuple[IntegerVector, float, IntegerVector]] = {}
     found: dict[str, _Axis] = {}

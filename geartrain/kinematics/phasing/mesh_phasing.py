@@ -549,6 +549,7 @@ class MeshPhasing(Result):
         forms, kinds = [], self.alike()
         for loop in self.loops:
             form = _by_kind(loop.inside, kinds)
+            # an odd number of meshes adds half a pitch, which no divisibility condition can express
             if form is None or len(loop.meshes) % 2:
                 return None
             forms.append(form)
@@ -650,6 +651,7 @@ def find_phasing(
     if contacts.omitted:
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
+        # loops that are closed only by pairs with unknown positions
         unjudged = max(len(whole.closing) - len(parts.closing), 0)
     return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _equal_wheels(train), unjudged)
 

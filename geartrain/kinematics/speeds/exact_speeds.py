@@ -474,6 +474,7 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     budget   maximum number of operations beyond linear work; `TooDenseError` if exceeded, None for no limit
     """
     ratios = _Ratios(part, case, signs)
+    # if all inputs are 0, only the rank shows whether a link can move
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
     if walked is not None:
         return Solution(determined_verdict(case), walked, ratios, signs)

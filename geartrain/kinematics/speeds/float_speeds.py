@@ -135,6 +135,7 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))
         x = x + step
+        # prescribed speeds remain exact, although each step is rounded
         matrix.prescribe(x, right)
         moved = np.max(np.divide(np.abs(step), np.abs(x), out=np.zeros_like(x), where=x != 0), initial=0.0)
         # steps shrink by a constant factor, so the remaining error is about moved * moved / last

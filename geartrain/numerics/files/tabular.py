@@ -93,6 +93,7 @@ class LongTable:
                         )
                     )
                 rows, end = rows + 1, end + len(line)
+        # the resumed run writes the incomplete row again
         os.truncate(self.partial, end)
         return max(rows, 0)
 

@@ -468,7 +468,9 @@ class Train(Declared):
         return in_unit(speed, self.input_unit)
 
     def _is_exact(self, speed: Quantity) -> bool:
-        """Return False if the speed is an irrational number of the train's units."""
+        """Return True if a speed is a rational number of the train's units, False if radians are converted to turns or
+        the reverse.
+        """
         return not speed.value or same_kind(speed.unit, None if self.unit is not None else self.input_unit or None)
 
     @cached_property

@@ -351,8 +351,8 @@ class Formulas(Mapping[str, Formula], Result):
     outputs: Mapping[str, Formula]
     """Exact speed of each output [unit of the train]; with `relative_to` a difference of speeds."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that are driven or fixed in
-    several ways.
+    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that are driven or fixed by
+    several causes.
 
     The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
     all conditions are satisfied.

@@ -330,10 +330,9 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
     integer.
 
     The rotation is about the carrier's axis. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a
-    pitch (angles in
-    turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the position of another
-    set, and rotates the central wheels by t too; they must return to their positions, because they are shared. So the
-    planets must have angles phi with
+    pitch (angles in turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the
+    position of another set, and rotates the central wheels by t too; they must return to their positions, because they
+    are shared. So the planets must have angles phi with
 
         z_p phi_p + z_c t integer for every central wheel c (minus for a ring),
         z_p phi_p + z_q phi_q integer for planets that mesh.

@@ -236,8 +236,7 @@ class PitchPair:
         """Minimum and maximum centre distance at which these teeth can run, possibly with more backlash [modules].
 
         Profiles may be shifted if no tooth form is declared. If no size is declared either, the two wheels may have
-        been cut
-        with slightly different pitches. Declared involutes can run at distances with more backlash.
+        been cut with slightly different pitches. Declared involutes can run at distances with more backlash.
         """
         wanted, form = self.distance, self.form
         low = high = SLACK

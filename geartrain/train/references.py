@@ -485,7 +485,12 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from rates(train)
     if train.escapement is not None and train.escapement.link == train.frame in train.links:
         what = f"the escapement is on the frame '{train.frame}', which does not turn"
-        yield Problem(what, "", "name the link of the escape wheel", train.place("escapement", "link"))
+        yield Problem(
+            what,
+            "an escapement acts on a link that turns",
+            "name the link of the escape wheel",
+            train.place("escapement", "link"),
+        )
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:

@@ -397,13 +397,13 @@ def test_a_journal_is_a_text_that_a_reader_can_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("theirs", "ours", "said"),
     [
-        ({"a": 1, "w": [15, 16]}, {"a": 1, "w": [15, 17]}, "w[1] is 16 there and 17 here"),
-        ({"a": {"b": "x"}}, {"a": {"b": "y"}}, 'a.b is "x" there and "y" here'),
-        ({"a": 1}, {"a": 1, "c": 2}, "c is only here"),
-        ({"a": 1, "c": 2}, {"a": 1}, "c is only there"),
-        ({"w": [1, 2]}, {"w": [1, 2, 3]}, "w has 2 entries there and 3 here"),
-        ({"a": 1}, {"a": True}, "a is 1 there and true here"),
-        ({"a": None}, {"a": {}}, "a is null there and {} here"),
+        ({"a": 1, "w": [15, 16]}, {"a": 1, "w": [15, 17]}, "w[1] is 16 in the journal and 17 in this run"),
+        ({"a": {"b": "x"}}, {"a": {"b": "y"}}, 'a.b is "x" in the journal and "y" in this run'),
+        ({"a": 1}, {"a": 1, "c": 2}, "c is only in this run"),
+        ({"a": 1, "c": 2}, {"a": 1}, "c is only in the journal"),
+        ({"w": [1, 2]}, {"w": [1, 2, 3]}, "w has 2 entries in the journal and 3 in this run"),
+        ({"a": 1}, {"a": True}, "a is 1 in the journal and true in this run"),
+        ({"a": None}, {"a": {}}, "a is null in the journal and {} in this run"),
     ],
 )
 def test_another_question_is_refused_with_the_first_difference(

@@ -87,7 +87,7 @@ class LongTable:
                     raise GearTrainError(
                         Problem(
                             "the partial file belongs to another run",
-                            f"its columns are {line.decode('utf-8').rstrip()}",
+                            f"a resumed table must have the same columns as the file: {line.decode('utf-8').rstrip()}",
                             "request the same outputs, or omit --resume to begin again",
                             str(self.partial),
                         )

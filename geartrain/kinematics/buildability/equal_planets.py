@@ -519,8 +519,10 @@ class _EqualPlanets:
         if worst <= _NEGLIGIBLE:
             return
         at = off.index(worst)
-        what = f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are misaligned by "
+        what = (
+            f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are misaligned by "
             f"{worst:.3g} pitch"
+        )
         why = (
             f"relative to '{self.one.carrier}' it is {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
             f"'{self.firsts[0]}', but such planets mesh only at multiples of {self._degrees}"

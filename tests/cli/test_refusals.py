@@ -158,7 +158,7 @@ mesh --form triangular 48 96 -p clearance_factor=1.01 -p half_angle=3mm | is a l
 mesh --form triangular 48 96 -p clearance_factor=1.01 --friction -0.1 | 0 or more
 mesh --form triangular 48 96 -p clearance_factor=1.01 --rate '3 furlong' | unknown unit
 mesh --form triangular 48 96 -p centre_distance=40mm | cannot be related to the size of these wheels
-mesh --form triangular 48 96 -p centre_distance=40 -p radii=10mm,20mm | with and without units are mixed
+mesh --form triangular 48 96 -p centre_distance=40 -p radii=10mm,20mm | mix numbers without a unit
 mesh --form triangular 48 96 -p backlash=9mm --module 0.5mm | no clearance gives a backlash
 mesh --form triangular 8 64 -p window=0.5 | no clearance lets wheels of 8 and 64
 mesh --form triangular 48 96 --vary clearence_factor=1:2:3 | cannot be varied

@@ -67,7 +67,7 @@ class Components:
         return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
 
     def group_of(self, circuit: Circuit) -> int:
-        """Return the component that contains a circuit."""
+        """Return the index of the component that contains a circuit."""
         return self.node_group[self.node(self.index[circuit.i], self.index[circuit.carrier])]
 
     def loop(self, circuit: int) -> Loop:

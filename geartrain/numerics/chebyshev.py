@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ChebyshevSeries:
-    """Chebyshev series on the interval [start, end]."""
+    """Chebyshev series on the interval [start, end], an approximation of a smooth function that can be differentiated
+    and integrated.
+    """
 
     coefficients: Floats
     start: float

@@ -94,7 +94,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
 
 
 class Ring(Protocol[T]):
-    """Protocol of the ring of the coefficients of linear forms."""
+    """Protocol of the ring that contains the coefficients of linear forms, for `eliminate_units`."""
 
     @property
     def modulus(self) -> int:
@@ -111,7 +111,7 @@ class Ring(Protocol[T]):
 
 
 class _Rationals:
-    """Field of the rational numbers, with Fractions as elements."""
+    """Field of the rational numbers, with Fractions as elements, as a ring for `eliminate_units`."""
 
     modulus = 0
 
@@ -127,7 +127,7 @@ RATIONALS = _Rationals()
 
 @dataclass(frozen=True, slots=True)
 class Residues:
-    """Field of the integers modulo a prime."""
+    """Field of the integers modulo a prime, as a ring for `eliminate_units`."""
 
     modulus: int
 

@@ -13,7 +13,7 @@ import networkx as nx
 
 
 class Lazy:
-    """Value that is computed once, when it is first read."""
+    """Value that is computed once, when it is first read; stored as an attribute of a graph."""
 
     __slots__ = ("_make", "_value")
 

@@ -316,7 +316,7 @@ def parse_friction(raw: object) -> Figure:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """Number with its unit as written.
+    """Number with its unit as written in a declaration, convertible to base units and SI units.
 
     Use `base` in comparisons and computations, not `value`, because `base` does not depend on the written unit. The
     units are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded
@@ -467,7 +467,7 @@ def _with_article(noun: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """Pydantic annotation of a field that is a quantity of one dimension."""
+    """Pydantic annotation of a field whose values are quantities of one dimension, such as lengths."""
 
     name: str
     plain: bool = False

@@ -195,7 +195,7 @@ def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All positions for gears on a solid, before any are dropped."""
+    """All positions for gears on a solid, before dropped gears are removed."""
 
     axes: Floats
     """Unit vectors of the axes, shape (gears, 3)."""

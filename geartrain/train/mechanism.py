@@ -300,7 +300,7 @@ MOST_COPIES = 360  # no carrier has space for more planets
 
 
 class Source(Declared):
-    """Bibliographic source of data in a declaration.
+    """Bibliographic source, to which other parts of a declaration refer by its key.
 
     See Also
     --------

@@ -77,7 +77,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions of a scale, and their labels and numerals.
+    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it.
 
     See Also
     --------
@@ -340,7 +340,7 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """Published value of an output, as printed in a source.
+    """Published value of an output, as printed in a source; `geartrain check` compares it with the calculated value.
 
     See Also
     --------

@@ -31,7 +31,7 @@ _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """Day of a calendar, with the elapsed fraction of the day.
+    """Date in the Julian or Gregorian calendar, with the elapsed fraction of the day.
 
     See Also
     --------
@@ -179,7 +179,7 @@ def _split_gregorian(days: int) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Period:
-    """Astronomical period, speed or count, with its source.
+    """Row of the table of periods: an astronomical period, speed or count, with its source.
 
     See Also
     --------

@@ -150,7 +150,7 @@ def _union_tags(kind: Any) -> tuple[Any, ...]:
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Return every friction law by its tag."""
+    """Return a mapping from tag to class of every friction law."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}

@@ -53,7 +53,7 @@ class YamlNode:
         return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
 
     def plain(self) -> Any:
-        """Return the data without their places."""
+        """Return the node as plain Python data, without the places."""
         if isinstance(self.value, dict):
             return {key: node.plain() for key, node in self.value.items()}
         if isinstance(self.value, list):
@@ -129,7 +129,9 @@ class _Builder:
         self.values = self.expanded = 0
 
     def take(self, event: yaml.Event) -> None:
-        """Process one event of the parser."""
+        """Process one event of the parser. Raises `DeclarationError` for content that exceeds a limit or cannot be read
+        further.
+        """
         self.values += 1
         if self.values > MOST_VALUES:
             why = f"a file has at most {MOST_VALUES} values"

@@ -17,7 +17,7 @@ undecided.
 
 @dataclass(frozen=True, slots=True)
 class BuildFinding(Result):
-    """Violation of one buildability rule by a train.
+    """Violation of one buildability rule by a train: the rule, its severity and a description of the problem.
 
     `geartrain check`, reports, drawings and exports print the text of the problem.
 

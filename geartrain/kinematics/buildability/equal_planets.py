@@ -120,7 +120,9 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; usually one planet."""
+    """Planets of one carrier that mesh with each other, usually one planet; the unit in which equal planets are
+    compared.
+    """
 
     carrier: str
     planets: Planet | None

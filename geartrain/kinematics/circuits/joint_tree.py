@@ -29,7 +29,9 @@ from geartrain.train import StateCase, Train, Wheel
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """Turning pairs as a spanning tree rooted at the frame."""
+    """Turning pairs of a train as a spanning tree rooted at the frame; it determines the carriers of pairs and their
+    axes.
+    """
 
     frame: str
     parent: Mapping[str, tuple[str, str]]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """Contribution of one input to the speed of an output."""
+    """Contribution of one input to the speed of an output: ratio times speed of the input."""
 
     KEYS = ("input", "speed", "ratio")
 

@@ -31,7 +31,7 @@ _STARTS = 300  # nodes from which the shortest loop is searched; in larger netwo
 
 
 class RemovalChoice(NamedTuple):
-    """Choice of meshes whose removal frees a network, with its proof."""
+    """Meshes whose removal frees a locked network, with the loops that prove how few meshes are sufficient."""
 
     meshes: list[int]
     method: RemovalMethod

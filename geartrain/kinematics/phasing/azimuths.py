@@ -29,7 +29,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling whose position is unknown, with the reason."""
+    """Gear pair or coupling that the check of phases omits because its position is unknown, with the reason."""
 
     name: str
     """Name of the pair or coupling."""

@@ -39,7 +39,7 @@ Row = dict[str, int]
 
 
 class DivisibilityCondition(NamedTuple):
-    """Condition that `modulus` divides a weighted sum of tooth counts."""
+    """One condition of a `DivisibilityRule`: `modulus` divides a weighted sum of tooth counts."""
 
     modulus: int
     """Divisor of the weighted sum of the tooth counts."""
@@ -49,7 +49,7 @@ class DivisibilityCondition(NamedTuple):
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
-    """Divisibility conditions on the tooth counts of a set of gears.
+    """Divisibility conditions on the tooth counts of a set of gears, under which the teeth mesh around all loops.
 
     See Also
     --------

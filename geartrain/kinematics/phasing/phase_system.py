@@ -177,7 +177,8 @@ Left = Callable[[int, Sequence[Number]], Number]
 
 @dataclass(frozen=True)
 class CarrierCoupling:
-    """Coupling of components through shared links and carriers.
+    """Coupling of components through shared links and carriers, which adds phase conditions and determines angles of
+    links.
 
     rows       weights of meshes of several carriers, with which the left sides of their equations add up to 0
     complete   False if the search for `rows` exceeded its budget

@@ -404,7 +404,7 @@ class FreeForms:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Exact speeds of a train in one case, with the verdict."""
+    """Exact speeds of the determined links of a train in one case, with the verdict and the speed ratios."""
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]

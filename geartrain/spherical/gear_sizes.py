@@ -179,7 +179,7 @@ class TipCollision:
     room: float
     """Distance between the pitch circles of the two gears [modules]; negative if the pitch circles overlap."""
     short: float
-    """Required distance minus `room` [modules]."""
+    """Distance by which the gears are too close: required distance minus `room` [modules]."""
 
     def __str__(self) -> str:
         return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} modules too close"

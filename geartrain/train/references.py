@@ -380,7 +380,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
 def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
     return Problem(
         f"{kind} '{name}' is declared twice",
-        "pairs and couplings share one set of ids",
+        "the ids of all pairs and couplings must be different",
         "give one of them another `id`",
         train.place(*loc),
     )

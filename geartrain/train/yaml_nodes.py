@@ -165,7 +165,12 @@ class _Builder:
                 self._put(self._alias(event.anchor, place), None, place)
             case yaml.DocumentStartEvent() if self.root is not None:
                 raise DeclarationError(
-                    Problem("a second document begins", "a file declares one train", "split the file", place)
+                    Problem(
+                        "a second document begins",
+                        "a file declares one train",
+                        "declare each train in its own file",
+                        place,
+                    )
                 )
 
     def _alias(self, anchor: str | None, place: str) -> YamlNode:
@@ -225,7 +230,7 @@ class _Builder:
                 self.problems.append(
                     Problem(
                         f"key '{key}' is given twice",
-                        f"it is also at {parent.keys[key]}, and one would be lost",
+                        f"it is also at {parent.keys[key]}, and one of the two values would be lost",
                         "rename or remove one of the two keys",
                         key_place,
                     )

@@ -156,7 +156,7 @@ error: my.yaml:3: no space after the colon in `p:20`
 
 # a key twice: |inputs: {a: 1}|inputs: {a: 1}\ninputs: {b: 1}|
 error: my.yaml:8: key 'inputs' is given twice
-  why: it is also at my.yaml:7, and one would be lost
+  why: it is also at my.yaml:7, and one of the two values would be lost
   fix: rename or remove one of the two keys
 
 # a pair with a tilde as the value of `pair`: |gears: [p ~ w]|gears: [{pair: p ~ w, efficiency: 0.98}]|

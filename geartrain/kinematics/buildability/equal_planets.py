@@ -320,7 +320,7 @@ class PhaseArithmetic:
     count: Callable[[CountRef], Any]
     """Function that returns the value of a tooth count: a number or an array."""
     gcd: Callable[[Any, Any], Any]
-    """Function gcd(a, b)."""
+    """Function gcd(a, b) that returns the greatest common divisor."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
     """Extended Euclidean algorithm: returns g, u, v with u a + v b = g = gcd(a, b)."""
     reduced: Callable[[Any], Any]

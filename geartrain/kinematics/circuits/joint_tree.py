@@ -118,7 +118,7 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
 def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
     return Problem(
         f"axis label '{axis}' names two axes",
-        f"one is carried by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
+        f"one axis is carried by '{first}' ({train.place('revolutes', first_at)}), the other by '{second}'; "
         "joints with one label must be coaxial",
         "give the second axis a different label",
         train.place("revolutes", at),

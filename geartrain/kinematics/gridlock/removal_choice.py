@@ -40,7 +40,7 @@ class RemovalChoice(NamedTuple):
     choices: list[int]
     """Alternatives to `meshes`, if a single mesh is enough."""
     example: GainLoop
-    """Short inconsistent loop."""
+    """Short inconsistent loop, which shows a reader the cause of the lock."""
     proof: list[GainLoop]
     """Loops that prove the lower bound; empty if only the method proves it."""
     sharing: int = 1

@@ -295,7 +295,7 @@ class PhaseCondition:
     cycle: PhaseCycle | None
     """Loop of the condition; None for a condition on several loops together."""
     row: Mapping[int, int]
-    """Mesh -> integer weight."""
+    """Mesh -> integer weight of its equation in the sum."""
     residue: Fraction | float
     """Weighted sum of the constants minus the nearest integer [pitch]; a Fraction if it is exact."""
     slack: float

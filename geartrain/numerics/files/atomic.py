@@ -225,7 +225,7 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
         raise GearTrainError(
             Problem(
                 "this is not a folder",
-                "several files are written, which need a folder",
+                "several files are written to one folder",
                 "give the path of a folder",
                 place,
             )

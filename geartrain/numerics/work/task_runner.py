@@ -361,7 +361,7 @@ class RemoteFailure:
     kind: type[GearTrainError] | None = None
     """Class of the exception if it is a `GearTrainError`, else None."""
     problems: tuple[Problem, ...] = ()
-    """Problems of a `GearTrainError`."""
+    """Problems of the exception if it is a `GearTrainError`; empty for other exceptions."""
     pickled: bytes = b""
     """Pickled form of any other exception; empty if it cannot be pickled without loss."""
 

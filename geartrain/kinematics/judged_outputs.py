@@ -87,7 +87,9 @@ class TargetResult(Result):
     target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
-    """Gain of the pointer in angle during one unit of time [deg]; None if the value exceeds the range of float64."""
+    """Gain of the pointer in angle during one unit of the train, such as a year [deg]; None if the value exceeds the
+    range of float64.
+    """
     met: bool | None
     """True if `error` is within the declared tolerance; None if no tolerance is declared."""
 

@@ -144,9 +144,9 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
     """Return axes near the given axes at which all meshes have one pitch, by Levenberg's method with minimum-norm
     steps.
 
-    Solutions are not unique; the fit returns a nearby one. If the tangencies depend on each other (symmetric solids)
-    and the fit fails, it is repeated after random displacements of the axes by a few degrees. If the result is not
-    `exact`, no solution was found nearby.
+    Solutions are not unique; the fit returns a nearby solution. If the tangencies depend on each other (symmetric
+    solids) and the fit fails, it is repeated after random displacements of the axes by a few degrees. If the result is
+    not `exact`, no solution was found nearby.
     """
     z = np.asarray(teeth, dtype=float)
     random = np.random.default_rng(seed)

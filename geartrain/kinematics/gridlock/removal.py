@@ -73,7 +73,7 @@ class MeshRemoval(Result):
 
     @property
     def minimum(self) -> bool:
-        """True if no smaller set frees the train."""
+        """True if it is proved that no smaller set frees the train."""
         return self.at_least == len(self.meshes)
 
     def __str__(self) -> str:

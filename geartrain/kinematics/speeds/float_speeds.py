@@ -240,8 +240,8 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Raise `RangeError` if the factors have no correct digit: if the spectral radius of |A^-1| |A| is at least 1 / (4
-    eps).
+    """Raise `RangeError` if the factors may have no correct digit: if the bound on the spectral radius of |A^-1| |A|
+    exceeds 1 / (4 eps).
 
     The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it
     is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A

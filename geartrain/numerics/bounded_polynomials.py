@@ -22,8 +22,8 @@ from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_error, sum_error
 
 Monomial = tuple[tuple[int, int], ...]
-"""Product of powers of variables: pairs (variable, power) in ascending order of variables; powers have either sign,
-not 0.
+"""Product of powers of variables: pairs (variable, power) in ascending order of variables; powers are positive or
+negative, never 0.
 """
 
 WholeTerm = tuple[int, tuple[int, ...]]

@@ -436,7 +436,7 @@ class Solution:
 
 
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """Exact ratios, link -> input -> ratio, which are solved at the first access."""
+    """Exact ratios as a mapping link -> input -> ratio; the equations are solved at the first access."""
 
     def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
         self._part, self._case, self._signs = part, case, signs

@@ -271,7 +271,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
 
 
 def _step(kind: Any, step: str | int) -> Iterator[Any]:
-    """Yield the models that a step in the path of a key leads to from `kind`; the tag of a union is not a step."""
+    """Yield the models that follow `kind` after one step of a path; the tag of a union is not a step."""
     if isinstance(step, str) and step in kind.model_fields:
         yield from _models_in(kind.model_fields[step].annotation)
     else:

@@ -219,7 +219,9 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by name of the coupling, for which no wheel of the pins' link is wide enough."""
+        """Circles of pins in round holes, by name of the coupling, for which no wheel of the pins' link is wide
+        enough.
+        """
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property

@@ -129,7 +129,7 @@ def coupling_discs(
             lacking = "pins" if coupling.name in holed else "pins and holes"
             what = f"the {lacking} of '{coupling.name}' are not modelled"
             why = "they are modelled only if their sizes are declared and both links have sufficiently large wheels"
-            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; otherwise add them by hand"
+            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links, or add these parts by hand"
             notices.append(Problem(what, why, fix))
         elif coupling.pin_radius is None or coupling.offset is None:
             what = f"the pin and slot of '{coupling.name}' are not modelled"

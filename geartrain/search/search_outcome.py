@@ -28,7 +28,8 @@ class Shortfall(Result):
     """Number of rejected candidates by reason. A candidate is counted under the first constraint that it violates."""
     nearest: str = ""
     """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
-    ratio error; "" if there is a solution.
+    ratio error, or of a constraint that no candidate satisfies; "" if there is a solution or the search was
+    interrupted.
     """
     advice: str = ""
     """Suggestions of constraints to relax, with the effect of each; "" if there is a solution."""
@@ -40,7 +41,7 @@ class Shortfall(Result):
 
 
 class CountSizes(ABC):
-    """Base class of tooth counts with their sum, maximum, and number of distinct counts."""
+    """Base class of results with tooth counts, with their sum, maximum, and number of distinct counts."""
 
     __slots__ = ()
 
@@ -56,7 +57,7 @@ class CountSizes(ABC):
 
     @property
     def largest(self) -> int:
-        """Maximum tooth count; 0 without counts."""
+        """Maximum tooth count; 0 if there are no counts."""
         return max(self.counts, default=0)
 
     @property
@@ -67,7 +68,8 @@ class CountSizes(ABC):
 
 @dataclass(frozen=True, slots=True)
 class GearStages(CountSizes, Result):
-    """Tooth counts for a ratio, as the multisets of the numerator (`top`) and the denominator (`beneath`).
+    """One solution for a ratio by gear pairs in series: the tooth counts of the numerator (`top`) and of the
+    denominator (`beneath`).
 
     See Also
     --------

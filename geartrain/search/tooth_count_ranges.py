@@ -102,7 +102,7 @@ class CountRuns(Sequence[int]):
             raise RangeError(
                 Problem(
                     f"{len(self)} tooth counts are too many to list",
-                    "a search enumerates the counts of a wheel",
+                    f"a search lists every count of a wheel, at most {_MOST_LISTED}",
                     "give a shorter range, such as 15:120; `geartrain teeth approximants` lists fractions of any size",
                 )
             )
@@ -140,7 +140,7 @@ class CountRuns(Sequence[int]):
 
 
 def read_counts(text: str) -> CountRuns:
-    """Parse tooth counts from text.
+    """Parse tooth counts from a string.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def read_counts(text: str) -> CountRuns:
     Raises
     ------
     QuestionError
-        If a part is not a tooth count from 1 to 10^12 or if the first count of a range exceeds its last.
+        If the string is empty, a part is not a count from 1 to 10^12, or the first count of a range exceeds the last.
 
     Examples
     --------
@@ -180,4 +180,4 @@ def _span(part: str) -> tuple[int, int]:
 
 
 def _problem(what: str, why: str, better: str = "'15:120', '30,36,48' or '12:40,48,60'") -> QuestionError:
-    return QuestionError(Problem(what, why, f"write for example {better}"))
+    return QuestionError(Problem(what, why, f"for example, write {better}"))

@@ -96,7 +96,9 @@ def describe_approximants(found: Approximants) -> Document:
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Return a section on rejected candidates, nearest miss and suggestions; an empty list if there are none."""
+    """Return a list with one section on rejected candidates, nearest miss and suggestions; empty if there is
+    nothing to report.
+    """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
     removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
@@ -128,7 +130,9 @@ def describe_assignments(found: TrainFindings) -> Document:
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """Return the sections on one independent part: its requirements, the number of solutions, and the best of them."""
+    """Return the sections on one independent part: its requirements, its number of solutions, and the best
+    solutions or, if there are none, the rejected candidates.
+    """
     requested = "; ".join([*part.demands, *part.rules])
     lines = [f"Required: {requested}." if requested else "No requirements."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"

@@ -83,7 +83,7 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In `fitting` its varied wheels have placeholder counts."""
+    """Builder of the constraints of one train. In `fitting`, the varied wheels have placeholder counts."""
 
     declared: Train
     fitting: TrainAssembly
@@ -128,7 +128,9 @@ class _ConstraintBuilder:
             raise QuestionError(
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
-                    f"its module is {declared}" if module else "several modules are declared for it",
+                    f"the module of the wheel is {declared}"
+                    if module
+                    else "several modules are declared for the wheel",
                     "give the radius and all modules with units, or, without modules, the radius as a number of "
                     "modules",
                 )
@@ -171,9 +173,10 @@ class _ConstraintBuilder:
         yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared counts violate a constraint that was not requested explicitly.
+        """Return True if the declared counts violate equal centre distances that were not requested explicitly, else
+        False.
 
-        In that case the modules differ or the profiles are shifted, so the constraint is not applied.
+        Modules then differ or profiles are shifted, so the constraint is not applied.
         """
         counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
@@ -182,7 +185,7 @@ class _ConstraintBuilder:
         )
 
     def _declared_count(self, wheel: str) -> int | None:
-        """Return the declared tooth count; None if it is to be searched for, because its value is then only a
+        """Return the declared tooth count; None for a count to be searched for, whose declared value is only a
         placeholder.
         """
         teeth = self.declared.wheels[wheel][1].teeth
@@ -211,7 +214,9 @@ class _ConstraintBuilder:
         return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield the conditions between each varied wheel and all fixed counts, then between each two varied wheels."""
+        """Yield the conditions between each varied wheel and all fixed counts, then between each pair of varied
+        wheels.
+        """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
@@ -235,7 +240,9 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets with its number of equal planets, as requested or as declared by `copies`."""
+        """Yield each set of planets with its number of equal planets, as requested or as declared by `copies`. Sets
+        without such a number are omitted.
+        """
         requested = self.requested.planets
         if requested is None:
             for one in self.fitting.sets:
@@ -279,8 +286,8 @@ class _ConstraintBuilder:
             raise QuestionError(
                 Problem(
                     "the clearance between planets cannot be computed",
-                    "it depends on the number of planets on a carrier",
-                    "give the number of equal planets: planets=3",
+                    "the clearance depends on the number of planets on a carrier",
+                    "give the number of equal planets, such as planets=3",
                 )
             )
         for one, number in numbered:
@@ -305,7 +312,7 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     return Problem(
         what,
         "the axes of planets must be on a link other than the frame",
-        f"name one of: {', '.join(known)}" if known else "omit the number of planets",
+        f"give a number for one of these carriers: {', '.join(known)}" if known else "omit the number of planets",
     )
 
 
@@ -328,7 +335,7 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 
 
 def is_in_proportion(teeth: WholeSum, other: WholeSum, ratio: float, most: float, columns: CandidateColumns) -> Bools:
-    """Return whether two centre distances have the ratio of the distances between the declared positions.
+    """Return whether two centre distances are in the ratio of the distances between the declared axis positions.
 
     The difference `teeth` - `ratio` x `other` must be within +-`most` [half modules].
     """
@@ -456,7 +463,7 @@ class DeclaredPositions:
         return total
 
     def _in_loops(self) -> Sequence[str]:
-        """Return the wheels of all pairs that are in loops, whether these move or are rigid."""
+        """Return the wheels of all pairs that are in loops, movable or rigid."""
         problem = self.closure.problem
         meshes = {mesh for condition in problem.conditions for mesh in condition.row}
         pairs = {problem.circuits[mesh].id for mesh in meshes}
@@ -526,7 +533,9 @@ def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floa
 def is_on_involute(
     first: CountRef, second: CountRef, pressure: Fraction, addendum: Fraction, columns: CandidateColumns
 ) -> Bools:
-    """Return whether the tips of an external pair do not interfere: each meets the involute of its mate. Exact."""
+    """Return whether each tip of an external pair meets its mate only on the involute, so that no tip interferes.
+    Exact.
+    """
     z1, z2 = counts_of(columns, first), counts_of(columns, second)
     constants = _square(pressure), decimal(addendum)
     one = is_positive(external_terms, [z1, z2], constants, False)

@@ -30,7 +30,9 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Function from the values of a graded constraint to misfits, by its index in `JoinProblem.requested`."""
+"""Function from the values of a graded constraint to misfits, by the index of the constraint in
+`JoinProblem.requested`.
+"""
 CountWeights = Mapping[str, Tallies]
 """Weights of the tooth counts of each wheel, arrays of one dtype."""
 
@@ -241,6 +243,7 @@ class BestFirst:
         self._below[at] = tuple(self._add(child) for child, _ in node.children)
         minimum = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
         for number, (_, to) in zip(self._below[at], node.children, strict=True):
+            # children are independent given the row, so the sum of their minima is exact
             minimum += self._ahead[number][to]
         np.minimum.at(self._ahead[at], node.parents, minimum)
         return at

@@ -101,6 +101,7 @@ class SignPolynomial:
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
         """Return for each row the value divided by `scale`, and the sum of the magnitudes of its terms."""
+        # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale
         return sum_and_size(
             (_term(float(Fraction(coefficient, over)), monomial, rows) for coefficient, monomial in self.terms),
@@ -211,11 +212,14 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
 
 
 def _guess(polynomial: SignPolynomial, rows: PartialAssignments, item: int) -> Ints:
-    """Return for each row the index of the first value behind -B/A, up to rounding."""
+    """Return for each row the index of the first value behind -B/A, up to rounding; 0 if only one power of the
+    variable occurs.
+    """
     parts = polynomial.split(item)
     if len(parts) < 2:
         return np.zeros(rows.size, dtype=np.int64)
     (low, B), (high, A) = parts.items()
+    # A may be 0: infinite ends, and nan, are sorted behind or before all values
     with np.errstate(divide="ignore", invalid="ignore"):
         end = -B.values(rows, polynomial.scale)[0] / A.values(rows, polynomial.scale)[0]
     return np.searchsorted(rows.items[item].powers(high - low), end)
@@ -267,6 +271,7 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
     """Return each term's factor in the free variables at given values, divided by the lowest power of each variable."""
+    # a common positive factor keeps the sign, but would widen the bounds
     minimum = {item: polynomial.powers(item)[0] for item in inside}
     factors = []
     for _, monomial in polynomial.terms:

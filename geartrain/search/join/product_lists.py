@@ -187,7 +187,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
 
 
 class Item:
-    """Values of a variable, numerator over denominator, ascending, with the total weight of each.
+    """Values of a variable, numerator divided by denominator, ascending, with the total weight of each value.
 
     x               values, shape (m,) float64, ascending, accurate to a few roundings
     tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients
@@ -256,6 +256,7 @@ def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
     _ITEMS.move_to_end(key)
+    # the requested variable is kept, even if it exceeds the limit by itself
     while len(_ITEMS) > 1 and sum(map(len, _ITEMS.values())) > _REMEMBERED:
         _ITEMS.popitem(last=False)
     return _ITEMS[key]
@@ -269,7 +270,7 @@ ItemMonomial = tuple[tuple[int, int], ...]
 
 
 class PartialAssignments:
-    """Partial assignments as rows of the values of the variables that are assigned.
+    """Partial assignments as rows, each with the index of the value of every assigned variable.
 
     columns   variable -> index of its value, shape (size,)
     """

@@ -137,7 +137,7 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
         why = (
             f"{len(domains[wheel])} counts up to {domains[wheel][-1]}, to the power {power}, are too many or too large"
         )
-        raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts, none above 10^{18 // power}"))
+        raise RangeError(Problem(what, why, f"narrow the range to {_MOST_VALUES} counts, none above 10^{18 // power}"))
     else:
         middle = len(wheels) // 2
         yield from _listable_groups(wheels[:middle], domains)

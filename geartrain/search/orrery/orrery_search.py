@@ -193,7 +193,7 @@ def _wheel(arbor: int, count: int) -> str:
 
 
 def _plain(value: Fraction) -> str:
-    """Return a fraction exactly as text: as a decimal if it terminates within 18 digits, otherwise as a fraction."""
+    """Return a fraction as an exact string: a decimal if it terminates within 18 digits, otherwise a fraction."""
     for digits in range(19):
         scaled = value * 10**digits
         if scaled.denominator == 1:
@@ -264,7 +264,9 @@ def find_orrery(
     targets = read_period_targets(periods, tolerance)
     if first in targets.names:
         what = f"the first arbor and a period are both named {first!r}"
-        raise QuestionError(Problem(what, "each period names an arbor, and names must be distinct", "rename one"))
+        raise QuestionError(
+            Problem(what, "each period names an arbor, and names must be distinct", "rename the first arbor")
+        )
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
         raise QuestionError(Problem(what, why, "rename this arbor"))
@@ -354,16 +356,16 @@ class _OrrerySearch:
     def minimum_wheels(self) -> int:
         """Proved lower bound of the number of wheels.
 
-        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period has
-        two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated
-        have more additional arbors than those that were.
+        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period
+        has two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not
+        enumerated have more additional arbors than the enumerated trees.
         """
         unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
 
     @property
     def proved(self) -> bool:
-        """True if no orrery has fewer wheels than the best one found."""
+        """True if no orrery has fewer wheels than the best orrery found."""
         return self.best is not None and self.best[0][0] <= self.minimum_wheels
 
 
@@ -417,7 +419,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     stopped = {"time": "the time limit was reached; ", "interrupted": "the search was interrupted; "}.get(ended, "")
     return QuestionError(
         Problem(
-            f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
+            f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
             f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
             "increase the tolerance, the number of extra arbors or the beam width, or allow more tooth counts",
         )
@@ -457,7 +459,7 @@ class BeamSearch:
 
     A move drives a target directly, or adds an arbor together with all targets that one pair can drive from it. Wheels
     that a new pair can share with pairs on the same arbor are counted when moves are ranked: approximately for all
-    moves, by common multiples in numpy, and exactly for the selected ones. The search is deterministic.
+    moves, by common multiples in numpy, and exactly for selected moves. The search is deterministic.
     """
 
     def __init__(
@@ -498,6 +500,7 @@ class BeamSearch:
         """Yield trees with an additional arbor whose period is much nearer to the targets, simplest ratios first."""
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
+        # ratios of at least the cube root of the largest ratio
         nearer = self._plainest[side * self.table.logs[self._plainest] >= self.table.logs[-1] / 3]
         for at in nearer[:most].tolist():
             yield self._part((*part.tree, grown(part.tree, -1, len(part.tree) - 1, *self.table.terms(at))), part.left)
@@ -522,8 +525,8 @@ class BeamSearch:
         return known
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the best extensions of a partial tree by one arbor with its targets, and further targets driven from
-        these.
+        """Yield the best extensions of a partial tree: one arbor with its targets, and further targets driven from
+        these arbors.
         """
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
@@ -614,7 +617,11 @@ class BeamSearch:
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Return the best partial trees, with at most a few that have the same targets and periods ranked first."""
+    """Return the `width` best partial trees.
+
+    Only the best few of all trees that show the same targets with the same periods are selected before other
+    trees.
+    """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
     alike: Counter[_Key] = Counter()

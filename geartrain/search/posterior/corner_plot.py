@@ -166,8 +166,8 @@ def _ticks(axis: Any, span: tuple[int, int]) -> None:
 
 
 def _modes(probabilities: Chances) -> str:
-    """Return the most probable count with its probability as text; if several are equally probable, `49-52: 10
-    % each`.
+    """Return the most probable count with its probability, such as `64: 80 %`; if several are equally probable,
+    `49-52: 10 % each`.
     """
     largest = max(probabilities.values())
     modes = sorted(count for count, probability in probabilities.items() if isclose(probability, largest))

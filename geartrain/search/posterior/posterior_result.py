@@ -136,7 +136,7 @@ class CountCombination(Result):
     misfit: Fraction
     """Sum of (error / tolerance)^2 of all observations; exact observations add 0."""
     probability: CountProbability | None
-    """Posterior probability; None if it is unknown, for example in a sample."""
+    """Posterior probability; None if it is unknown, such as in a sample."""
     changed: tuple[str, ...]
     """Wheels whose count differs from the declared count."""
 
@@ -181,7 +181,7 @@ class VarianceShares(Result):
 
 
 class KnownOutput(TypedDict):
-    """Observed output as plain data."""
+    """Observed output as plain data: its observations, its formula, and its evidence."""
 
     output: str
     """Name of the output."""
@@ -190,7 +190,7 @@ class KnownOutput(TypedDict):
     formula: str
     """Speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]
-    """Evidence of this output by itself: prior probability that its observations are satisfied."""
+    """Evidence of this output by itself: prior mean of the likelihood of its observations."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,7 +51,7 @@ class StageFindings(Tabular, Result):
         "beneath": "Tooth counts of the denominator.",
         "ratio": "Product of the numerator counts divided by product of the denominator counts [1].",
         "value": "Ratio as a float [1].",
-        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "error": "Ratio divided by the requested ratio, minus 1 [1].",
         "stages": "Stages of the best pairing.",
         "total": "Sum of all tooth counts.",
         "largest": "Largest tooth count.",
@@ -102,7 +102,9 @@ class StageFindings(Tabular, Result):
     shortfall: Shortfall
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """Assumption of the search that was not requested; "" without such an assumption."""
+    """Assumption of the search that was not requested, or reason why the list is shorter than requested; "" if
+    there is neither.
+    """
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
@@ -197,8 +199,8 @@ def find_stages(
     QuestionError
         If an argument is invalid.
     RangeError
-        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), or if
-        the admissible counts cannot approximate the ratio.
+        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), if too
+        many candidates must be tested one by one, or if the admissible counts cannot approximate the ratio.
 
     Examples
     --------
@@ -399,7 +401,9 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """Yield the number of solutions with one more stage; without the number if its computation would be slow."""
+    """Yield the suggestion of one more stage, with its number of solutions unless counting them would be slow.
+    Nothing is yielded if there are no solutions.
+    """
     size = question.stages + 1
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
     ring = " with an internal mesh, which keeps the sense," if sense else ""

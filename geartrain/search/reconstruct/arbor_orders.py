@@ -59,7 +59,7 @@ def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
 
 
 class CountTokens:
-    """Tokens (negative numbers) in the place of tooth counts of added wheels, which identify each wheel."""
+    """Negative numbers that replace the tooth counts of added wheels and identify each wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -260,7 +260,7 @@ class _Assembly:
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """Return the first arbor of a chain, with the other arbors in its subtree."""
+        """Return the first arbor of a chain with its subtree; if the chain has no arbors, the arbors that follow it."""
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
         for name, each in reversed(self.orders[id(chain)]):
@@ -292,7 +292,7 @@ class NamedMesh(NamedTuple):
 
 
 class AddedPlace(NamedTuple):
-    """Name and kind of an added wheel."""
+    """Added wheel of a topology: its name, and its kind."""
 
     name: str
     kind: AddedKind
@@ -343,6 +343,7 @@ class _Orders:
             return
         for at in node.through:
             yield from self._step(node, node.chain.through[at], at, node.through - {at}, node.compounds, node.idlers)
+        # names of added arbors depend only on their order, so the first unused name is next
         added = node.chain.added[len(node.chain.added) - node.compounds - node.idlers :]
         if node.compounds:
             yield from self._step(node, added[0][0], COMPOUND, node.through, node.compounds - 1, node.idlers)

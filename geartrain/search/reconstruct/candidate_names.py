@@ -24,7 +24,7 @@ _ADDED = "new"
 
 @dataclass(frozen=True)
 class NamedWheel:
-    """Wheel of a candidate with its name."""
+    """Wheel of a candidate with its name, its tooth count, and whether it is added."""
 
     name: str
     teeth: int

@@ -58,9 +58,9 @@ class ChangedCount(Result):
 
 
 def changed_counts(questions: list[ChangedQuestion], execution: Execution | None = None) -> Iterator[ChangedCount]:
-    """Yield the counts of changed problems in their order, as soon as each is complete.
+    """Yield the counts of changed problems in the order of `questions`, as soon as each count is complete.
 
-    An interrupted search is omitted, so no journal stores a partial result.
+    `KeyboardInterrupt` is raised if a search is interrupted, so no journal stores a partial result.
     """
     answers = (execution or Execution()).run(_count, [question.problem for question in questions])
     for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
@@ -106,6 +106,7 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
             left = {name: pairs - {pair}}
             yield f"without the fact {said}", replace(problem, **left)
     if measured:
+        # distances exclude pairs in advance, and restrict chains and layers later
         left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
         yield "if the distances between axes exclude no meshes", replace(problem, **left)
     yield from _senses(problem)
@@ -222,7 +223,9 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problem with each other count of each surviving wheel, small differences first."""
+    """Yield the problem with each count of each surviving wheel that differs by at most `MISREAD` from a possible
+    count, small differences first.
+    """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:
             counts = {count for count, _ in wheel.counts}

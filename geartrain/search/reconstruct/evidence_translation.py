@@ -92,8 +92,8 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
     known = list(_ranges(evidence, output))
     unused = _unused_targets(name, output)
     if not known:
-        why = "it has no `expect`, and no target with a tolerance"
-        fix = "add for example `expect: -5/19`, or `tolerance: 1/446` to a target"
+        why = "the output has no `expect`, and no target with a tolerance"
+        fix = "for example, add `expect: -5/19`, or add `tolerance: 1/446` to a target"
         raise DeclarationError(Problem(f"the speed of '{name}' is not known", why, fix, place))
     signed = [limits for limits, has_sign in known if has_sign and not free_sense]
     plain = [_magnitudes(limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense]
@@ -111,7 +111,7 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
         return bounds
     if not bounds.signed:
         what = f"the sense of '{name}' is not known, and its speed is relative to the frame"
-        why = "it would have two possible speeds relative to the carrier"
+        why = "the pointer would have two possible speeds relative to the carrier"
         raise DeclarationError(Problem(what, why, "give its sense, or its speed with `relative_to` the carrier", place))
     minimum, maximum = bounds.limits
     return replace(bounds, limits=(minimum - turning, maximum - turning))
@@ -238,9 +238,9 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     base = None if unclear else find_base(evidence)
     found += unclear
     if wheels and requested.add.teeth is None:
-        fix = "declare for example `add: {teeth: [12, 225]}`"
+        fix = "for example, declare `add: {teeth: [12, 225]}`"
         place = evidence.place("reconstruct")
-        why = "the search needs their minimum and maximum"
+        why = "the search needs the minimum and maximum count of an added wheel"
         found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))
     bounds = {}
     for name in evidence.outputs:

@@ -140,7 +140,7 @@ class FactTally:
         answers[answer] = before[0] + weight * number, before[1] + number
 
     def facts(self) -> Iterator[Fact]:
-        """Yield all facts, without those on wheels that every train uses."""
+        """Yield all facts except the facts `used` of wheels that every train uses."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
         used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
         yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
@@ -149,6 +149,7 @@ class FactTally:
         """Return the marginal distribution of a fact."""
         found = self._found.get(fact, {})
         answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
+        # trains without an entry share one implicit answer
         left = self.trains - sum(answer.solutions for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
@@ -191,7 +192,9 @@ class ExplainedFacts:
         )
 
     def next_facts(self) -> tuple[NextFact, ...]:
-        """Return the facts whose answer differs among the trains, in descending order of their entropy."""
+        """Return the observable facts whose answers differ among the trains, in descending order of entropy,
+        equivalent facts as one group.
+        """
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         requested = [one for one in requested if len(one.answers) > 1]
         order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
@@ -337,7 +340,7 @@ class FamilyTrain(Result):
     rank: int
     """Rank by probability, from 1."""
     share: Fraction
-    """Probability of the candidate among those in the tree, 0 to 1."""
+    """Probability of the candidate among the candidates in the tree, 0 to 1."""
     counts: dict[str, int]
     """Tooth counts of added wheels, then of surviving wheels whose counts differ among the candidates."""
 
@@ -353,7 +356,7 @@ class FamilyBranch(Result):
     meshes: tuple[str, ...]
     """Meshes as "driving > driven", with the pointers of the driven arbor in parentheses."""
     share: Fraction
-    """Total probability of the candidates in the branch among those in the tree, 0 to 1."""
+    """Total probability of the candidates in the branch among the candidates in the tree, 0 to 1."""
     solutions: int
     """Number of candidates in the branch."""
     trains: tuple[FamilyTrain, ...]
@@ -442,7 +445,7 @@ class CandidateFindings(Result):
     of_all: bool = False
     """True if the facts cover all trains, False if they cover only the trains of the family tree."""
     marginals: tuple[FactMarginal, ...] = ()
-    """Marginal distribution of every fact."""
+    """Marginal distribution of every fact except facts of the kind `pair`."""
     next_facts: tuple[NextFact, ...] = ()
     """Facts to observe next, in descending order of their entropy."""
     family: tuple[FamilyBranch, ...] = ()

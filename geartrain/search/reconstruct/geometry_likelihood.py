@@ -229,6 +229,7 @@ def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
     """
     square = geometry.square_distance(mesh.driving[0], mesh.driven[0])
     whole = geometry.radii_sum(mesh.driving[1], mesh.driven[1])
+    # log(a^2/b^2)^2 / 4 = log(a/b)^2, without the square root of the distance
     return 0.0 if square is None or whole is None else math.log(whole**2 / square) ** 2 / 4
 
 
@@ -266,6 +267,7 @@ class _Modules:
             centre = sum(pull.stiffness * pull.centre for pull in pulls) / stiffness if stiffness else 0.0
         else:
             assert module is not None
+            # a module measured without error cannot be adjusted
             centre = math.log(module)
         misfit = sum(pull.misfit + pull.stiffness * (centre - pull.centre) ** 2 for pull in pulls)
         return _Pull(stiffness, centre, misfit)

@@ -84,7 +84,7 @@ def find_telling_facts(
 ) -> TellingFacts | None:
     """Find facts that distinguish one explanation from all others.
 
-    Return None if not all explanations are listed, or if they are too many.
+    Return None unless all explanations are listed and there are 2 to 2000 of them.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> I
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace(Result):
-    """Rank and probability of one explanation among all."""
+    """Rank and probability of one explanation among all explanations."""
 
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
@@ -171,7 +171,7 @@ class TrainPlace(Result):
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Probability of the best explanation divided by the probability of this one, at least 1."""
+    """Probability of the best explanation divided by the probability of this train, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -135,7 +135,7 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(f"'{link}' is driven, and the frame has wheels", _ONE_START, fix, place)
         elif speed == inputs.get(carrier):
             what = f"'{link}' has the same speed as the carrier"
-            why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
+            why = "a link that turns with the carrier cannot drive arbors on the carrier"
             yield Problem(what, why, "correct one of the two speeds in `inputs`", place)
         elif not speed:
             fix = f"remove '{link}' from `inputs`, and put its wheels on the frame"
@@ -145,7 +145,7 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 def _carrier_wheel_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name in evidence.links[carrier].wheels:
         what = f"'{name}' is a wheel of the carrier"
-        why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
+        why = "a link that turns with the carrier cannot drive arbors on the carrier"
         fix = "remove it, or describe the arbors that it drives in separate evidence"
         yield Problem(what, why, fix, evidence.place("links", carrier, "wheels", name))
 
@@ -177,7 +177,7 @@ def carrier_axis(evidence: Train, carrier: str) -> str | None:
 def _carrier_pointer_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name, output in evidence.outputs.items():
         if output.of == carrier:
-            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is an input already"
+            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is already an input"
             place = evidence.place("outputs", name)
             yield Problem(what, why, "remove the output, or correct its `of`", place)
 

@@ -159,8 +159,8 @@ class PathColumns:
         return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
-        """Return whether each path satisfies the rule that a path which ends at an arbor of the other is a part
-        of it.
+        """Return for each path whether the path that ends at an arbor of the other path, if any, is a part of the
+        other path.
         """
         mine, theirs = self.paths, other.paths
         ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
@@ -258,6 +258,7 @@ class PathChoice:
     ) -> tuple[list[Rows], list[Rows]]:
         some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
         for own, another in product(range(added + 1), repeat=2):
+            # s shared wheels give own + another - s <= added, and own + another - 2 s wheels on one path only
             far = 2 * added - own - another + self._idlers
             keys = self.lists[one].wanted[groups[own]], self.lists[other].wanted[others[another]]
             first, second = self.keys.agreeing(*keys, far)
@@ -406,7 +407,7 @@ class PathChoice:
     # compatibility of ends
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> NDArray[np.bool_]:
-        """Return whether each path forms a tree with two others: of three paths, two separate from the third
+        """Return whether each path forms a tree with two chosen paths: of the three, two must separate from the third
         together.
         """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
@@ -416,7 +417,7 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _apart(self, end: str, row: int, dial: str, rows: Rows) -> NDArray[np.int8]:
-        """Return a lower bound of the distance of each path from a chosen one."""
+        """Return a lower bound of the distance of each path from a chosen path."""
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
         if first.dial.is_exact and second.dial.is_exact:
@@ -467,7 +468,9 @@ class _Chosen:
 
 @dataclass(frozen=True)
 class _Compatible:
-    """Paths to a dial that are compatible with all chosen ones, with lower bounds of their distance from each end."""
+    """Paths to a dial that are compatible with all chosen paths, with lower bounds of their distances from each
+    end.
+    """
 
     rows: Rows
     far: Mapping[str, NDArray[np.int8]]

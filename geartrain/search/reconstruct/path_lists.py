@@ -330,6 +330,7 @@ class PathList:
         own = set(self.primes) if len(order) == len(self.passes) else self._primes_of(order[0])
         closing = [column for column, prime in enumerate(self.primes) if prime in own and prime not in later]
         growth = self._with_arbor(growth, order[0], closing)
+        # depth first, so that at most one block for each arbor is in memory
         for start in range(0, len(growth.codes), _PIECE):
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
@@ -381,6 +382,7 @@ class PathList:
         found |= {
             prime for prime, _ in (*prime_powers(self._wanted.numerator), *prime_powers(self._wanted.denominator))
         }
+        # a count below the square of a prime contains this prime at most once
         return tuple(sorted(prime for prime in found if prime * prime > minimum))
 
     @cache  # noqa: B019 -- lives as long as the list
@@ -446,6 +448,7 @@ class PathList:
         self, growth: PathGrowth, compounds: int, turned: NDArray[np.bool_], requested: NDArray[np.bool_]
     ) -> NDArray[np.bool_]:
         found = requested.copy()
+        # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
         kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
         for kind in np.unique(kinds[requested]):
             rows = np.flatnonzero(requested & (kinds == kind))

@@ -42,7 +42,8 @@ def exit_of(each: ArborPass) -> str:
 def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Yield each partition of dials into those that an arbor shows and those to which each of its wheels leads.
+    """Yield each partition of dials into the dials that an arbor shows and, for each of its wheels, the dials to
+    which the wheel leads.
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
@@ -76,6 +77,7 @@ def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ..
     if not groups:
         yield ()
         return
+    # the first group is always in the first block, so that each partition occurs once
     for size in range(len(groups)):
         for others in combinations(groups[1:], size):
             rest = tuple(group for group in groups[1:] if group not in others)
@@ -207,7 +209,7 @@ class PathTrees:
                     yield from _with_ends(trunk, self._branching(last, below, after))
 
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
-        """Yield each chain of given surviving arbors and some added ones that all paths can share, without its end.
+        """Yield each chain of given surviving arbors and some added arbors that all paths can share, without its end.
 
         The second and third entry are the additions and the parts of the paths that remain after it.
         """

@@ -401,7 +401,7 @@ class RequestedQuestion(Result):
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
-    """Return the message for a problem that is too large: its size, and ways to reduce it."""
+    """Return the error message for a problem that is too large, with its size and suggestions to reduce it."""
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
     widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_UNCERTAINTIES]
     uncertainties = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
@@ -470,7 +470,7 @@ def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) 
     for gear in evidence.gears:
         if frozenset(gear.pair) in unreachable:
             what = f"the known mesh '{gear.name}' is impossible at the distance of its axes"
-            why = "the sum of the pitch radii differs from it by more than `reach` of `geometry`"
+            why = "the sum of the pitch radii differs from the distance by more than `reach` of `geometry`"
             place = evidence.place("gears", evidence.gears.index(gear))
             raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])
 
@@ -481,9 +481,9 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             continue
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
-            what = f"the module of '{name}' must be greater than 0"
+            what = f"the module of '{name}' is not greater than 0"
             raise DeclarationError(
-                [Problem(what, "a module is a positive length", "declare for example `module: 0.5 mm`", place)]
+                [Problem(what, "a module is a positive length", "for example, declare `module: 0.5 mm`", place)]
             )
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 

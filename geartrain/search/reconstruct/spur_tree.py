@@ -258,7 +258,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         trees = tuple(tree for tree in trees if tree.source == source)
         if not trees:
             begin = ", ".join(tree.source for tree in find_spur_trees(train))
-            fix = f"name one of: {begin}"
+            fix = f"give one of these arbors: {begin}"
             why = "a part begins at the input, or at an arbor of known speed"
             raise QuestionError(Problem(f"no part of '{train.name}' begins at '{source}'", why, fix))
     wanted = list(arbors)
@@ -443,7 +443,7 @@ def _renamed(tree: SpurTree) -> SpurTree:
 
 
 def why_not(train: Train, link: str) -> str:
-    """Return the reason, as text, why a link is in none of the parts."""
+    """Return the reason why a link is in none of the parts."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
         return "it does not turn"
@@ -485,7 +485,7 @@ def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Tr
     """Return the evidence that remains of a tree if some arbors are lost.
 
     The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them.
-    Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth
+    Every pointer has its speed, on its arbor or on a lost arbor. As many wheels may be added as are lost. Their tooth
     counts have the range of the first part, or for a later part the range of all parts.
 
     lost   links; `QuestionError` is raised for the first arbor, for a link that is not in the tree, and for an arbor

@@ -152,7 +152,7 @@ class Chain:
 
     @property
     def next_chains(self) -> tuple[Chain, ...]:
-        """Chains that begin at the end of this one."""
+        """Chains that begin at the end of this chain."""
         return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
 
 
@@ -163,7 +163,7 @@ class Topology:
     root: Branching
     """Input arbor."""
     wanted: tuple[tuple[str, Quotients], ...]
-    """Dial, and minimum and maximum quotient of the added wheels on its path, for each dial."""
+    """Pairs of a dial and the bounds (minimum, maximum) of the quotient of the added wheels on its path."""
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:

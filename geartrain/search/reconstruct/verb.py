@@ -153,9 +153,9 @@ def run(
     if not lost and (seen or source is not None):
         raise option_error("--seen" if seen else "--from", "no arbor is lost", "give --lost too")
     if count and folder is not None:
-        raise option_error("--to", "--count lists no trains to write", "omit one of them")
+        raise option_error("--to", "--count lists no trains to write", "omit --to or --count")
     if count and page is not None:
-        raise option_error("--page", "--count lists no trains to show", "omit one of them")
+        raise option_error("--page", "--count lists no trains to show", "omit --page or --count")
     if same and not rank:
         raise option_error("--same", "no train is ranked", "give --rank too")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")

@@ -57,7 +57,7 @@ class CountSizes(ABC):
 
     @property
     def largest(self) -> int:
-        """Maximum tooth count; 0 if there are no counts."""
+        """Maximum tooth count; 0 without tooth counts."""
         return max(self.counts, default=0)
 
     @property

@@ -243,7 +243,7 @@ def _check(value: Fraction, most_numerator: int, most_denominator: int) -> None:
     if value <= 0 or most_numerator < 1 or most_denominator < 1:
         raise QuestionError(
             Problem(
-                f"no fractions near {value} up to {most_numerator}/{most_denominator}",
+                f"no fractions exist near {value} up to {most_numerator}/{most_denominator}",
                 "numbers and bounds must be positive",
                 "give a positive number and bounds of 1 or more",
             )

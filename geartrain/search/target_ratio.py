@@ -193,7 +193,7 @@ def _with_word(number: str, word: str) -> _Term:
     if word in period_table():
         raise _problem(
             f"'{_short(shown)}' is ambiguous",
-            f"it may mean {number} revolutions or {number} times the period",
+            f"the number may be {number} revolutions or {number} times the period",
             f"for counts use other words, such as '{number} months'; for times write the days, such as '29.53 d'",
         )
     unit = _TIMES.get(word, word)
@@ -281,7 +281,7 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
         if same and not {first.word, second.word} & set(period_table()):
             raise _problem(
                 f"'{_short(label)}' has the same time on both sides",
-                "as a quotient of periods it is 1, as a pair of counts it is not",
+                "a quotient of equal periods is 1, but a pair of counts may be meant",
                 f"write '{first.note.split()[0]}/{second.note.split()[0]}' for counts",
             )
         return first.value / second.value, f"{first.note} over {second.note}"

@@ -328,7 +328,7 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
             "require the declared number, declare one planet set that represents all, or give a number for each "
             "carrier, such as planets={'arm': 3}"
         )
-    return Problem(f"cannot require {number} equal planets {one.title} on '{one.carrier}'", why, fix)
+    return Problem(f"{number} equal planets {one.title} on '{one.carrier}' cannot be required", why, fix)
 
 
 # ------------------------------------------------- declared positions: centre distances and the phasing of loops

@@ -166,7 +166,9 @@ def turns(angle: Quantity) -> Fraction:
     if angle.dimension != "angle" or not 0 < found < Fraction(1, 4):
         raise QuestionError(
             Problem(
-                f"{angle} is not a pressure angle", "it must be above 0 and below 90 deg", "for example, write 20 deg"
+                f"{angle} is not a pressure angle",
+                "a pressure angle must be above 0 and below 90 deg",
+                "for example, write 20 deg",
             )
         )
     return found

@@ -269,7 +269,7 @@ def find_orrery(
         )
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
-        raise QuestionError(Problem(what, why, "rename this arbor"))
+        raise QuestionError(Problem(what, why, "rename the arbor"))
     search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
     ended = search.run(effort, walk)
     if search.best is None:

@@ -298,7 +298,9 @@ def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
 def _check_width(name: str, count: int, place: str = "") -> None:
     if count > MOST_COUNTS:
         what = f"wheel '{name}' has {count} possible counts"
-        raise RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow the range", place))
+        raise RangeError(
+            Problem(what, f"at most {MOST_COUNTS} counts of a wheel can be listed", "narrow the range", place)
+        )
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:

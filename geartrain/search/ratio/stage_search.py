@@ -402,7 +402,7 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
     """Yield the suggestion of one more stage, with its number of solutions unless counting them would be slow.
-    Nothing is yielded if there are no solutions.
+    Nothing is yielded without a solution.
     """
     size = question.stages + 1
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit

@@ -83,7 +83,7 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
         what = f"the speed of '{name}' may be the speed of the frame, so its pointer could be on the frame"
         fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
-        raise DeclarationError(Problem(what, "its arbor is not declared", fix, place))
+        raise DeclarationError(Problem(what, "the arbor of the pointer is not declared", fix, place))
     return found
 
 
@@ -342,7 +342,7 @@ def _unsupported(evidence: Train) -> Iterator[Problem]:
 
 def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
     why = "ignoring it could change the trains that are found"
-    return Problem(what, why, "remove it from the evidence", evidence.place(*loc))
+    return Problem(what, why, "remove the declaration from the evidence", evidence.place(*loc))
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:
@@ -363,7 +363,10 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
         if count > _MOST_COUNTS:
             what = f"a wheel has {count} possible counts"
             yield Problem(
-                what, f"at most {_MOST_COUNTS} can be searched", "narrow the range", evidence.place(*place, "teeth")
+                what,
+                f"at most {_MOST_COUNTS} counts of a wheel can be searched",
+                "narrow the range",
+                evidence.place(*place, "teeth"),
             )
     if why := teeth.fault_of_weights:
         fix = "give weights of 0 or more, at least one of them above 0"

@@ -279,7 +279,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
             yield Problem(f"the coupling of {said} would lock an arbor", why, fix, place)
         elif second & first:
             what = f"the coupling of {said} joins arbors that are already joined"
-            yield Problem(what, "given couplings must form a tree of arbors", "remove it", place)
+            yield Problem(what, "given couplings must form a tree of arbors", "remove the coupling", place)
         joined.update(dict.fromkeys(first | second, first | second))
         yield from _bearing_problems(evidence, pair, place)
     for at, gear in enumerate(evidence.gears):

@@ -268,7 +268,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
     why = f"the train has {len(trees)} parts, and each is reconstructed separately"
-    raise QuestionError(Problem(f"{said} cannot be left out together", why, "leave out arbors of one part only"))
+    raise QuestionError(Problem(f"{said} cannot be lost together", why, "omit the arbors of all parts except one"))
 
 
 def _check_input(train: Train) -> None:
@@ -446,22 +446,22 @@ def why_not(train: Train, link: str) -> str:
     """Return the reason why a link is in none of the parts."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
-        return "it does not turn"
+        return "the link does not turn"
     if any(link in lock for lock in train.locks):
-        return "it is locked to another link"
+        return "the link is locked to another link"
     followers = [one for one in train.couplings if link == one.slot and one.kind != "pin_and_slot"]
     if followers:
-        return "it is moved by a pin and follower, whose mean ratio is 0"
+        return "a pin and follower with a mean ratio of 0 moves the link"
     kinds = sorted({wheel.kind for wheel in wheels.values() if wheel.kind != "spur"})
     if kinds:
-        return f"it has {_joined(kinds)} wheels"
+        return f"the link has {_joined(kinds)} wheels"
     if not wheels:
-        return "it has no wheel"
+        return "the link has no wheel"
     mates = {name for gear in train.gears for name in gear.pair if {*gear.pair} & {*wheels}} - {*wheels}
     others = sorted({train.wheels[name][1].kind for name in mates} - {"spur"})
     if others:
-        return f"it meshes with {_joined(others)} wheels"
-    return "it leads to no pointer of known speed" if mates else "its wheels mesh with no other wheel"
+        return f"the link meshes with {_joined(others)} wheels"
+    return "the link leads to no pointer of known speed" if mates else "the wheels of the link mesh with no other wheel"
 
 
 def _unsupported_features(train: Train) -> Iterator[str]:
@@ -567,12 +567,12 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
         if arbor == tree.source:
             what, why = f"'{link}' carries the input", "a reconstruction begins at the input"
         elif arbor not in tree.driven:
-            what = f"'{link}' cannot be left out"
+            what = f"'{link}' cannot be lost"
             why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
-            what, why = f"'{link}' cannot be left out", "it has a ring, and rings are never added"
+            what, why = f"'{link}' cannot be lost", "the arbor has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = f"'{link}' is left out twice", "an arbor is lost together with all links that are joined to it"
+            what, why = f"'{link}' is lost twice", "an arbor is lost together with all links that are joined to it"
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))

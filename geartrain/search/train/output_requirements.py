@@ -323,7 +323,11 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         if free == "search" and any(train.uncertain_wheels()):
             fix += ", or use --free uncertain"
         raise QuestionError(
-            Problem(f"'{train.name}' has no wheel whose tooth count is varied", "no wheel declares `search`", fix)
+            Problem(
+                f"'{train.name}' has no wheel whose tooth count is varied",
+                "no selected wheel has a range of tooth counts",
+                fix,
+            )
         )
     return found
 

@@ -245,7 +245,8 @@ class TrainFindings(Tabular, Result):
         Parameters
         ----------
         teeth : mapping of str to int
-            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if no part is complete.
+            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if no part has all
+            counts.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]

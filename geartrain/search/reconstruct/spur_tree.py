@@ -451,7 +451,7 @@ def why_not(train: Train, link: str) -> str:
         return "the link is locked to another link"
     followers = [one for one in train.couplings if link == one.slot and one.kind != "pin_and_slot"]
     if followers:
-        return "a pin and follower with a mean ratio of 0 moves the link"
+        return "a pin and follower, whose mean ratio is 0, move the link"
     kinds = sorted({wheel.kind for wheel in wheels.values() if wheel.kind != "spur"})
     if kinds:
         return f"the link has {_joined(kinds)} wheels"

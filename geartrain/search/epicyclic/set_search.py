@@ -553,7 +553,7 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
 
-    It is negative if they overlap, and infinite for one planet. For planets on one circle it is (s + p) sin(pi/n) - p -
+    It is negative if planets overlap, and infinite for one planet. For planets on one circle it is (s + p) sin(pi/n) - p -
     2. Planets in mesh with each other are placed by the law of cosines.
     """
     if planets == 1:

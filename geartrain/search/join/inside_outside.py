@@ -2,7 +2,7 @@
 
 They are inside and outside sums over tables of `search.weighted_alternatives`, and exact for integer weights. All sums
 are linear in the weights of each wheel, which may be negative: with weights w(z) (z - mean) instead of w(z) for one
-wheel, the sums of the others are their covariances with it.
+wheel, the sum for a count of another wheel gives its covariance with this wheel.
 
 The best assignments are found in order by an A* search along the tree, with exact minimum remaining misfits.
 """

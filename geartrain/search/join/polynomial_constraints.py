@@ -4,7 +4,7 @@
 a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values, whose
 ends are determined by exact signs.
 
-With more free variables, these are between bounds, and rows are dropped that no values within the bounds can satisfy.
+With several free variables, their values are between bounds. Rows are dropped if no values satisfy the constraint.
 Each term has its own extremes, whose sum bounds the polynomial.
 """
 

@@ -213,7 +213,7 @@ def find_orrery(
     seconds: float | None = None,
     tell: Tell | None = None,
 ) -> Orrery:
-    """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger ones.
+    """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger trees.
 
     The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumeration proves lower
     bounds, and wider beams find better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and

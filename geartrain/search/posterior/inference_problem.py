@@ -245,7 +245,7 @@ class ToothCountPrior(Result):
 def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:
     """Return the priors of the uncertain tooth counts, in the order of declaration.
 
-    free   wheel -> possible counts, which replace the declared ones; a single count makes the wheel certain
+    free   wheel -> possible counts, which replace the declared counts; a single count makes the wheel certain
 
     A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared), a wheel with
     `search` a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not

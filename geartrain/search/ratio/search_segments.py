@@ -239,7 +239,7 @@ class SweepOutcome:
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
     """Count all solutions within a tolerance, and keep the best; without a tolerance, find the best by absolute error.
 
-    The tolerance of the problem is ignored. If there are many solutions, only those near the ratio are listed. The
+    The tolerance of the problem is ignored. If there are many solutions, only solutions near the ratio are listed. The
     tolerance of the list is increased until it includes enough solutions, so all other solutions have larger errors.
     """
     minimum, most = reach_of_errors(question.value, *question.reach)

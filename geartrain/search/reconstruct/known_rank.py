@@ -75,7 +75,7 @@ class TellingFacts(Result):
     sets: tuple[tuple[TellingFact, ...], ...]
     """Smallest sets of facts that only this train satisfies, all of one size of at most three.
 
-    Facts that are true of the same trains are represented by the first of them.
+    Facts that are true of the same trains are represented by the first of these facts.
     """
 
 

@@ -332,7 +332,7 @@ class PathChoice:
         """Yield all choices that extend the chosen paths by one more.
 
         minimum   minimum distance of each pair of dials; smaller distances were searched before
-        known     lists of dials that are already restricted to paths compatible with the new one
+        known     lists of dials that are already restricted to paths compatible with the new path
         """
         paths = {**chosen.paths, dial: row}
         kept: dict[str, _Compatible] = dict(known)

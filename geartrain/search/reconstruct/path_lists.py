@@ -41,7 +41,7 @@ _Fits = NDArray[np.bool_]
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
     """Return the connected components of arbors under the known meshes, as indices with the input at 0.
 
-    Each arbor except the first of a component meshes with an earlier one.
+    Each arbor except the first of a component meshes with an earlier arbor.
     """
     mates: dict[int, list[int]] = {}
     for first, _, second, _ in _meshes(problem):

@@ -251,7 +251,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
 
     source   arbor at which the part begins; the default is any arbor
 
-    Raise `QuestionError` if no part has all of them, for example if the arbors are in different parts.
+    Raise `QuestionError` if no part has all of these arbors.
     """
     trees = find_spur_trees(train)
     if source is not None:

@@ -41,7 +41,9 @@ class Shortfall(Result):
 
 
 class CountSizes(ABC):
-    """Base class of results with tooth counts, with their sum, maximum, and number of distinct counts."""
+    """Base class of results with tooth counts. It provides the sum, the maximum, and the number of distinct tooth
+    counts.
+    """
 
     __slots__ = ()
 

@@ -151,7 +151,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """Split a text at its division sign into one or two parts. A sign between blanks takes precedence."""
+    """Split a string at its division sign into one or two parts. A sign between blanks takes precedence."""
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
         if len(parts) == 2:

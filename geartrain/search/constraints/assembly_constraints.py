@@ -67,7 +67,7 @@ BACKLASH = 0.05
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
-    """Return the constraints on the wheels of a train whose tooth counts are varied, those with the lowest cost first.
+    """Return the constraints on the wheels of a train whose tooth counts are varied, in ascending order of cost.
 
     free   wheel -> admissible counts; all other wheels have their declared counts
 

@@ -131,7 +131,7 @@ def read_constraint_options(
 
 
 def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
-    """Parse the text of an option; return None and append a problem if it is invalid."""
+    """Parse the value of an option; return None and append a problem if the value is invalid."""
     if text is None:
         return None
     try:

@@ -191,7 +191,7 @@ class PlanetClearance:
                 yield from _condition(name, is_above_zero, *whole(self._gap(planet, other, mesh)))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
-        """Return twice the clearance of a planet from the central wheel of another one, minus twice the required
+        """Return twice the clearance of a planet from the central wheel of another planet, minus twice the required
         clearance.
         """
         reach, own = _reach(planet), planet.central[0]
@@ -212,10 +212,11 @@ def _is_plain(planet: Planet, external: bool) -> bool:
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Return twice the distance of a planet's axis from the central axis; None if it meshes with no central wheel.
+    """Return twice the distance of a planet's axis from the central axis; None if the planet meshes with no
+    central wheel.
 
     The distance is that of a mesh of `wheel` with a central wheel, if any; external meshes are preferred to
-    internal ones.
+    internal meshes.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None

@@ -33,7 +33,7 @@ class CentralWheel:
     wheel: str
     """Name of the wheel."""
     mesh: str
-    """Name of the planet wheel with which it meshes."""
+    """Name of the planet wheel with which the central wheel meshes."""
     sign: int
     """Sign of its speed relative to the speed of the reference wheel of the planets, with a fixed carrier: 1 or
     -1.

@@ -63,7 +63,7 @@ _MARGIN = 1e-12
 
 _FARTHEST = Fraction(10**18)  # far beyond the ratios of all sets
 _FINEST = 10**6
-"""Maximum denominator of a clearance, so that lengths in these fractions of a module fit in int64."""
+"""Maximum denominator of a clearance [modules], so that multiples of 1/denominator of a module fit in int64."""
 
 NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
 NO_SPACING = "planets that cannot be equally spaced"
@@ -553,8 +553,8 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
 
-    It is negative if planets overlap, and infinite for one planet. For planets on one circle it is (s + p) sin(pi/n) - p -
-    2. Planets in mesh with each other are placed by the law of cosines.
+    It is negative if planets overlap, and infinite for one planet. For planets on one circle it is
+    (s + p) sin(pi/n) - p - 2. Planets in mesh with each other are placed by the law of cosines.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)

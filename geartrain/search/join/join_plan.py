@@ -1,8 +1,8 @@
-"""Order in which a join assigns its variables: a tree, because assigned variables separate the others into independent
-parts.
+"""Order in which a join assigns its variables: a tree, because assigned variables separate the remaining
+variables into independent parts.
 
-Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are then counted
-separately for each distinct assignment of the common wheels, and the counts are multiplied.
+Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are
+then counted separately for each distinct assignment of the common wheels, and the counts are multiplied.
 """
 
 from __future__ import annotations
@@ -58,7 +58,9 @@ class PlanNode:
     """Numbers of all constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the numbers of the constraints that are complete with this node, then of those in its subtree."""
+        """Yield the numbers of the constraints that are complete with this node, then of the constraints complete in
+        its subtree.
+        """
         if self.guide >= 0:
             yield self.guide
         yield from self.checks
@@ -80,7 +82,7 @@ class JoinProblem:
     """Admissible tooth counts of each wheel, ascending."""
     requested: tuple[IntervalConstraint, ...]
     rules: tuple[CountConstraint, ...]
-    """Constraints on tooth counts. Constraints are numbered in the order `rules`, `requested`."""
+    """Constraints on tooth counts. All constraints are numbered in the order `rules`, `requested`."""
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]

@@ -188,8 +188,8 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return the half-open range of the values that satisfy one inequality, which includes the first or the last value
-    unless it is empty.
+    """Return the half-open range of the values that satisfy one inequality. A range that is not empty includes the
+    first or the last value.
     """
     polynomial, most = inequality.polynomial, len(rows.items[item])
 

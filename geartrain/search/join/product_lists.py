@@ -93,7 +93,7 @@ class ProductStep:
     """Step of the previous wheel; None for the empty product."""
 
     def chain(self) -> Iterator[ProductStep]:
-        """Yield this step, then the previous ones."""
+        """Yield this step, then the previous steps."""
         yield self
         if self.before is not None:
             yield from self.before.chain()

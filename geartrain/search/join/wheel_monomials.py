@@ -26,7 +26,7 @@ Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Maximum number of values of one variable, which need half a gigabyte with all their arrays."""
+"""Maximum number of values of one variable. With all their arrays, these values need half a gigabyte."""
 _MOST_QUOTIENTS = 1 << 22  # maximum number of values of a variable with numerator and denominator
 _MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64

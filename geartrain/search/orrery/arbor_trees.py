@@ -330,17 +330,17 @@ class TreeArbor:
     """Arbor of a tree, with the gear pair that drives it."""
 
     target: int
-    """Index of the period that it shows; -1 if none."""
+    """Index of the period that the arbor shows; -1 if it shows none."""
     parent: int
-    """Index of the arbor that drives it; -1 for the first arbor."""
+    """Index of the arbor that drives this arbor; -1 for the first arbor."""
     driven: int
-    """Numerator of the ratio of its pair, in lowest terms."""
+    """Numerator of the ratio of the pair that drives the arbor, in lowest terms."""
     driver: int
-    """Denominator of the ratio of its pair, in lowest terms."""
+    """Denominator of the ratio of the pair that drives the arbor, in lowest terms."""
     n: int
-    """Numerator of its period [revolutions of the first arbor], in lowest terms."""
+    """Numerator of the period of the arbor [revolutions of the first arbor], in lowest terms."""
     d: int
-    """Denominator of its period [revolutions of the first arbor], in lowest terms."""
+    """Denominator of the period of the arbor [revolutions of the first arbor], in lowest terms."""
 
     @property
     def period(self) -> Fraction:

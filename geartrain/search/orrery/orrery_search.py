@@ -53,15 +53,17 @@ class OrreryArbor(Result):
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the period that it shows, or `arbor 1`, `arbor 2` and so on. The caller names the first arbor."""
+    """Name of the period that the arbor shows, or `arbor 1`, `arbor 2` and so on. The caller names the first
+    arbor.
+    """
     period: Fraction
     """Period [revolutions of the first arbor], exact and positive."""
     sense: int
-    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses it."""
+    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses the sense."""
     wheels: tuple[int, ...]
-    """Distinct tooth counts of its wheels, ascending."""
+    """Distinct tooth counts of the wheels of the arbor, ascending."""
     shows: bool
-    """True if it shows a requested period."""
+    """True if the arbor shows a requested period."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +130,7 @@ class Orrery(Tabular, Result):
 
     @property
     def wheels(self) -> int:
-        """Number of wheels. A wheel that meshes with several others is counted once."""
+        """Number of wheels. A wheel that meshes with several wheels is counted once."""
         return sum(len(arbor.wheels) for arbor in self.arbors)
 
     @property
@@ -593,7 +595,8 @@ class BeamSearch:
     def _joint(self, mine: Ints, mate: Ints, other: Ints, its_mate: Ints) -> Ints:
         """Return 1 if two ratios can share a wheel, otherwise 0.
 
-        They can if their terms `mine` and `other` have a common multiple such that all four counts are admissible.
+        Sharing requires that their terms `mine` and `other` have a common multiple such that all four counts are
+        admissible.
         """
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))

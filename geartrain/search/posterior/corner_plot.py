@@ -55,7 +55,7 @@ class CountProbabilities:
     before: Mapping[str, Chances] = field(default_factory=dict)
     """Prior probability of each tooth count, by wheel; empty if unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Wheel -> declared tooth count, if one is declared."""
+    """Declared tooth count of each wheel that has one."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:

@@ -46,7 +46,9 @@ class InferenceProblem:
     outputs: Mapping[str, Formula]
     """Speed of each output that depends on an uncertain count, as a function of the counts."""
     conditions: tuple[IntervalConstraint, ...]
-    """Conditions for the train to turn: loops must close, and links must not be driven in contradictory ways."""
+    """Conditions for the train to turn: loops must close, inputs must be consistent, and the train must be neither
+    locked nor free.
+    """
     remarks: tuple[str, ...] = ()
     """Remarks on observations that are not used or are violated by every combination, and on outputs with
     undetermined speeds.
@@ -233,7 +235,7 @@ class ToothCountPrior(Result):
         return sum(self.weights)
 
     def weight(self, count: int) -> int:
-        """Return the weight of one of the counts."""
+        """Return the weight of one possible count."""
         return self.weights[self.counts.index(count)]
 
     @property

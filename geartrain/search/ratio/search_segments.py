@@ -208,7 +208,7 @@ class StageFilter:
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """Return as text why pairs of multisets without a feasible pairing to stages are rejected."""
+    """Return the reason for which pairs of multisets without a feasible pairing are rejected."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
@@ -233,7 +233,7 @@ class SweepOutcome:
     complete: bool = True
     """True if every segment was searched."""
     note: str = ""
-    """Reason why fewer solutions were found than may exist; "" otherwise."""
+    """Reason why the search may have found fewer solutions than exist; "" otherwise."""
 
 
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:

@@ -257,8 +257,8 @@ def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, 
     """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of internal
     meshes.
 
-    The columns of the result are the rows of `_arrangements`: whether the pairing satisfies the constraints, the number of
-    stages with coprime counts, and the number of distinct centre distances, shape (n, arrangements) each.
+    Each result has shape (n, arrangements), with the rows of `_arrangements` as columns: whether the pairing satisfies
+    the constraints, the number of stages with coprime counts, and the number of distinct centre distances.
     """
     orders, rings = _arrangements(tops.shape[1], fit.internal)
     tall, short = tops[:, None, :], beneaths[:, orders]

@@ -124,12 +124,12 @@ class StageFindings(Tabular, Result):
 
     @property
     def top_runs(self) -> str:
-        """Admissible counts of the numerator as text, such as `15:60`."""
+        """Admissible counts of the numerator as a string, such as `15:60`."""
         return str(CountRuns.of(self.top)) if self.top else ""
 
     @property
     def beneath_runs(self) -> str:
-        """Admissible counts of the denominator as text."""
+        """Admissible counts of the denominator as a string, such as `15:60`."""
         return str(CountRuns.of(self.beneath)) if self.beneath else ""
 
     def __len__(self) -> int:

@@ -114,7 +114,9 @@ _Pairs = frozenset[frozenset[str]]
 
 @dataclass(frozen=True)
 class MeshFacts:
-    """Known meshes: pairs of wheels that mesh, pairs that do not, coaxial pairs of arbors, and rings."""
+    """Known facts on meshes: pairs of wheels that mesh, pairs that do not mesh, coaxial pairs of arbors, and
+    rings.
+    """
 
     meshes: _Pairs = frozenset()
     apart: _Pairs = frozenset()
@@ -256,7 +258,7 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that one wheel drives, one for each chain."""
+        """Return the arbors that one wheel drives by the given chains."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:

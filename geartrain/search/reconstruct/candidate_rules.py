@@ -362,7 +362,7 @@ def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping
 
 
 class _TrainReading:
-    """Translation of a train into the names of a problem."""
+    """Reader of a known train as a candidate, with the names of a problem."""
 
     def __init__(self, train: Train, problem: ReconstructionProblem, same: Mapping[str, str]) -> None:
         self.train, self.problem, self.same = train, problem, same

@@ -53,7 +53,7 @@ class ChangedCount(Result):
 
     @property
     def fewest(self) -> int | None:
-        """Minimum number of added wheels of a train; None if no train was found."""
+        """Minimum number of added wheels of a train; None if no train explains the problem."""
         return next((added for added, count in enumerate(self.solutions) if count), None)
 
 

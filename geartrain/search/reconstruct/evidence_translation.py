@@ -1,5 +1,5 @@
-"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are refused with their
-place.
+"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are rejected with
+their location.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield the declared ranges of a speed, each with True if it has a sign."""
+    """Yield pairs: a declared range of a speed, and True if the range has a sign."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -198,7 +198,7 @@ class EvidenceQuestion(Shown):
     base: BaseLink
     """Link that carries the arbors. The speeds of the problem are relative to this link."""
     joined: Joined
-    """Arbor -> links that are joined to it by given couplings."""
+    """Links that given couplings join to each arbor, by the name of the arbor."""
     unused: tuple[str, ...]
     """Declarations that do not affect the result, one line for each."""
 

@@ -255,7 +255,9 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
 
 
 def _yes_weight(fact: FactMarginal) -> Fraction:
-    """Return the probability of yes, or of the most probable answer of a fact without yes and no."""
+    """Return the probability of the answer yes; for a fact without yes and no, the probability of its most
+    probable answer.
+    """
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
 

@@ -43,7 +43,9 @@ def chains_close(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
 
 
 def can_close(distance: float, sides: Sides) -> bool:
-    """Return whether a polygon can be closed with one side of length `distance` and the others within bounds [mm]."""
+    """Return whether a polygon can be closed, with one side of length `distance` and further sides within bounds
+    [mm].
+    """
     slack = _ROUNDING * (distance + sum(low for low, _ in sides))
     lengths = ((distance, distance), *sides)
     return all(

@@ -49,12 +49,12 @@ _Subject = tuple[str, str]
 _MOST_TOGETHER = 3
 """Maximum number of facts in a distinguishing set."""
 _MOST_TRAINS = 2000
-"""Maximum number of trains among which one is distinguished."""
+"""Maximum number of trains among which one train is distinguished."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """Distinguishing fact, which is true of one train and not of all."""
+    """Distinguishing fact: it is true of a given train, but not of all trains."""
 
     kind: str
     """Kind of the fact: one of `LOOKED_FOR`, or `MAXIMUM` or `MINIMUM`."""
@@ -254,7 +254,7 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
-    """Return the rank and probability of one explanation among all.
+    """Return the rank and probability of one explanation among all explanations.
 
     Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
     depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.

@@ -44,7 +44,7 @@ class BaseLink:
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of evidence for which `base_problems` yields nothing."""
+    """Return the base of evidence, in which `base_problems` must find no problem."""
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
     if carrier is None:

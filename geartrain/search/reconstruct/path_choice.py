@@ -198,7 +198,9 @@ _INPUT = ""
 _NEAR = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
 _SHORT = 2
-"""Difference between the number of added wheels of the train and of a short path; few others are then compatible."""
+"""Difference between the number of added wheels of the train and of a short path, with which few other paths
+are compatible.
+"""
 _MOST_ENDS = 6
 """Maximum number of dials in tours, which are tried in all orders. Further dials are ignored."""
 _PIECE = 1 << 21
@@ -329,7 +331,7 @@ class PathChoice:
         share: _RoundRobin | None,
         known: Mapping[str, _Compatible] = MappingProxyType({}),
     ) -> Iterator[Choice]:
-        """Yield all choices that extend the chosen paths by one more.
+        """Yield all choices that extend the chosen paths by one more path.
 
         minimum   minimum distance of each pair of dials; smaller distances were searched before
         known     lists of dials that are already restricted to paths compatible with the new path

@@ -97,7 +97,7 @@ class SeenMeshes:
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> NDArray[np.bool_] | None:
-        """Return a mask of the paths that may take a given pass of one more arbor; None if all may."""
+        """Return a mask of the paths that may take a given pass of one more arbor; None if all paths may."""
         if not self._fits[at]:
             return None
         found = np.ones(len(codes), dtype=bool)
@@ -236,7 +236,9 @@ _PIECE = 1 << 19
 
 @dataclass(frozen=True)
 class AddedArbors:
-    """Number of added arbors on a path: `compounds` have two wheels, `idlers` have one that is driven and drives."""
+    """Number of added arbors on a path: `compounds` have two wheels, `idlers` have one wheel, which is driven and
+    drives.
+    """
 
     compounds: int
     idlers: int

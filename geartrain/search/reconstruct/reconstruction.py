@@ -191,7 +191,7 @@ class ReconstructionAnswer(Result):
     base: BaseLink | None = None
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Arbor -> links that are joined to it by given couplings."""
+    """Links that given couplings join to each arbor, by the name of the arbor."""
     expected: ExpectedCost | None = None
     """Estimated cost of the search, computed before the search."""
     drawn: tuple[RankedTrain, ...] = ()

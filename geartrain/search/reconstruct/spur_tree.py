@@ -137,7 +137,7 @@ class SpurTree:
 
     @property
     def source(self) -> str:
-        """First arbor of the part, which drives the others."""
+        """First arbor of the part, which drives all other arbors."""
         return self.base.source
 
     @property
@@ -185,7 +185,7 @@ class SpurTree:
         return tuple(name for link in links for name in self.train.links[link].wheels if name in self.counts)
 
     def meshes(self, lost: Collection[str] = ()) -> tuple[tuple[str, str], ...]:
-        """Return the meshes as (driving wheel, driven wheel), without those of lost arbors."""
+        """Return the meshes as (driving wheel, driven wheel), without the meshes of lost arbors."""
         return tuple(
             (mesh.driving, mesh.driven)
             for arbor, mesh in self.driven.items()
@@ -299,7 +299,7 @@ class _Parts:
         self._inputs = {link: speed for link, speed in train.case(None).inputs.items() if speed}
 
     def trees(self) -> Iterator[SpurTree]:
-        """Yield each part as soon as the speed of an arbor is known at which it can begin."""
+        """Yield the parts in an order in which the speed of the first arbor of each part is already known."""
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)

@@ -132,7 +132,7 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors in series on the way to some dials, without a branching between them, and the end of the chain."""
+    """Arbors in series on the path to some dials, without a branching between them, and the end of the chain."""
 
     dials: Dials
     """Dials to which the chain leads."""
@@ -221,7 +221,7 @@ class CountLimit(NamedTuple):
     dials: Dials
     """Dials whose speed the wheel changes; empty for a wheel that changes no speed."""
     drives: bool
-    """True for a driving wheel on the way to these dials, False for a driven wheel."""
+    """True for a driving wheel on the path to these dials, False for a driven wheel."""
     most: int
 
 

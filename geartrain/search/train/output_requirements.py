@@ -163,7 +163,8 @@ class OutputRequirement:
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
-    """Yield the conditions for a train to turn: loops must close, and links must not be driven in contradictory ways.
+    """Yield the conditions for a train to turn: loops must close, inputs must be consistent, and the train must be
+    neither locked nor free.
 
     Raise `QuestionError` if the train cannot turn with any counts.
     """
@@ -333,7 +334,9 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
 
 
 def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
-    """Return the admissible counts of a wheel: those of `search`, otherwise its `choices` or `range`."""
+    """Return the admissible counts of a wheel: its `search`, otherwise its `choices`, otherwise its `range`; empty
+    if it has none.
+    """
     counts = teeth.searched or sorted(set(teeth.choices or ()))
     if not counts and teeth.range is not None:
         counts = range(teeth.range[0], teeth.range[1] + 1)

@@ -170,8 +170,8 @@ def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: in
 
 
 def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int]) -> AssignmentColumns:
-    """Return the assignments that satisfy the late constraints, which are not part of the join, and count the
-    others in `removed`.
+    """Return the assignments that satisfy the late constraints, which are not part of the join. The numbers of
+    rejected assignments are added to `removed`.
     """
     number = len(question.reasons) - len(question.late)
     for at, rule in enumerate(question.late, number):
@@ -415,7 +415,7 @@ class AssignmentOrder:
     requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]
-    """Wheel -> declared tooth count, if one is declared."""
+    """Declared tooth count of each wheel that has one."""
 
     @property
     def level(self) -> bool:

@@ -422,7 +422,7 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Ranks of assignments, obtained by counting the assignments with smaller errors."""
+    """Function that ranks assignments, by counting the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 

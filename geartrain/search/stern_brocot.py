@@ -223,8 +223,10 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
     excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
     denominator.
     """
+    # towards infinity the fractions are the integers up to `value`, of which only the last can be nearest
     if not far[1]:
         return length if value - length < Fraction(1, 2) else length + 1
+    # the opposite end is 0, which is not a gear ratio
     if not far[0]:
         return 1
     n, d = value.numerator, value.denominator

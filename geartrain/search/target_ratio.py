@@ -152,6 +152,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 def _parts(text: str, label: str) -> list[str]:
     """Split a string at its division sign into one or two parts. A sign between blanks takes precedence."""
+    # a term such as '1/3 d' may contain a division sign itself
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
         if len(parts) == 2:

@@ -54,6 +54,7 @@ class CountRuns(Sequence[int]):
         """
         if isinstance(counts, CountRuns):
             return counts
+        # a range may have 10^12 counts, which must not be enumerated
         if isinstance(counts, range) and counts.step == 1:
             return cls.joined([(counts.start, counts.stop - 1)] if counts else [])
         return cls.joined((count, count) for count in counts)

@@ -104,6 +104,7 @@ class _ConstraintBuilder:
         requested = self.requested
         rack = None if requested.undercut is None else minimum_teeth(turns(requested.undercut), requested.addendum)
         for name, (_, wheel) in self.fitting.train.wheels.items():
+            # the count of a worm is its number of starts, which does not determine its size
             if name not in self.fitting.free or wheel.kind == "worm":
                 continue
             if requested.minimum is not None:

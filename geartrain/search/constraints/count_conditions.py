@@ -185,6 +185,7 @@ def plainest(one: LinearSum) -> WholeSum:
     positive.
     """
     (found,) = whole(one)
+    # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
     if found.terms and found.terms[0][1] < 0:
         common = -common

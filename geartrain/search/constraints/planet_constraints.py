@@ -200,6 +200,7 @@ class PlanetClearance:
         sign, addendum = (1, self.addendum) if mesh.ring is None else (-1, self.ring_addendum)
         tips = LinearSum.of([(sign, mesh.parts[1 - other.side(mesh)]), (1, own.parts[planet.side(own)])])
         tips = tips.plus(2 * (self.addendum + addendum + self.clearance)).times(mesh.module)
+        # a ring encloses the planet, so the signs of the reach and of its radius are opposite
         return reach.times(sign) - tips
 
 

@@ -306,6 +306,7 @@ class ExactJoin:
         """
         counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
         tops = self.items[item].tops
+        # clipped; a solution above all values fails the comparison below
         indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
         found = np.flatnonzero(whole & (tops[indices] == counts) & (indices >= first) & (indices < last))
         return found, indices[found]

@@ -122,6 +122,7 @@ class _Recorder:
             distinct, which = self.join.seen(child, grown)
             below = self.record(child, distinct)
             onward = np.arange(grown.size) if which is None else which
+            # transitions to rows without a complete assignment are removed
             leads = np.zeros(distinct.size, dtype=np.bool_)
             leads[below.parents] = True
             kept = leads[onward]

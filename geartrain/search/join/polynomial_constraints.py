@@ -201,6 +201,7 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
     guess = _guess(polynomial, rows, item)
     before, behind = np.clip(guess - 1, 0, most - 1), np.clip(guess, 0, most - 1)
     first, last = met(every, before), met(every, behind)
+    # both values are on one side of the end, so the whole range is bisected
     wrong = np.flatnonzero(first == last)
     before[wrong], behind[wrong] = 0, most - 1
     first[wrong], last[wrong] = met(wrong, before[wrong]), met(wrong, behind[wrong])
@@ -253,12 +254,13 @@ class RelaxedInequality:
         best = np.zeros(rows.size)
         for one, low, high in zip(self.rest, self.lows, self.highs, strict=True):
             factor = self.sense * one.values(rows, self.scale)[0]
+            # rounding errors must not exclude a row
             best += np.maximum(low * factor, high * factor) + self.slack * high * np.abs(factor)
         return np.asarray(best >= 0)
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """Return an inequality relaxed over the variables in `corners`; its other variables are assigned."""
+    """Return an inequality relaxed over the variables in `corners`; all other variables are assigned."""
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))

@@ -179,6 +179,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     step = max(1, _LONGEST // len(factors))
     for at in range(0, max(len(rest), 1), step):
         quotient, left = np.divmod(rest[at : at + step, None], factors[None, :])
+        # the quotient must be a product of the previous wheels
         place = np.minimum(np.searchsorted(shorter, quotient), len(shorter) - 1)
         rows, columns = np.nonzero((left == 0) & (shorter[place] == quotient))
         found.append((rows + at, columns, quotient[rows, columns]))

@@ -188,6 +188,7 @@ def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Seque
         at = wheels.index(wheel)
         sign = power if recipe.top else -power
         steps = [(term[1][at] - terms[0][1][at]) // sign for term in terms]
+        # a common factor of numerator and denominator cancels
         minimum = min(steps)
         for row, step in zip(rows, steps, strict=True):
             if step > minimum:

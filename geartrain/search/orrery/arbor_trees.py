@@ -433,6 +433,7 @@ class TreeEnumeration:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
                 new = grown(tree, -1, parent, *self.table.terms(at))
                 yield from self._with_targets((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
+            # the pairs above omit a first arbor that drives only the second
             if extra == 2:
                 yield from self._with_extra_chain(tree, left, parent)
 

@@ -440,7 +440,7 @@ class PartialTree:
     wheels: int
     """Minimum number of wheels of the gear pairs of the tree."""
     bulk: float
-    """Sum of the logarithms of the terms of its ratios.
+    """Sum of the logarithms of the terms of all ratios in the tree.
 
     Small terms have many multiples, so their wheels can be shared more often.
     """

@@ -27,7 +27,9 @@ from geartrain.train.fields import MOST_TEETH
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
 FAR = Fraction(5)
-"""Error in tolerances beyond which a Gaussian likelihood is set to 0; it would be less than exp(-12.5)."""
+"""Error, in units of the tolerance, beyond which a Gaussian likelihood is set to 0; it would be less than
+exp(-12.5).
+"""
 MOST_COUNTS = 10**5
 """Maximum number of possible counts of one wheel."""
 _LINE: Interval = (None, None)

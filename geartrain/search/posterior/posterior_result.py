@@ -186,7 +186,7 @@ class KnownOutput(TypedDict):
     output: str
     """Name of the output."""
     claims: list[str]
-    """Descriptions of the observations of its speed."""
+    """Descriptions of the observations of the speed of the output."""
     formula: str
     """Speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]

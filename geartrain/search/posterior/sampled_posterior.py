@@ -148,6 +148,7 @@ class PosteriorTally:
 
     def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
         near = np.flatnonzero(misfit <= self._threshold())  # candidates for the list of the best
+        # one more than is kept, so that `_trim` detects omitted ties
         order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
         self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
         self._trim()

@@ -190,6 +190,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
     if size - 1 - below < 2:
         # at most one count above: the counts themselves, from the middle one on, are the table
         uppers = _chosen(numbers, size - 1 - below)
+        # the counts above begin at the middle count itself
         starts = table if size > 1 else np.zeros_like(table)
         highs = row_products(uppers)
         return ProductWindows(counts, size, rows, lows, highs, uppers, highs, 0 * rows, starts, counts[-1] + 1)

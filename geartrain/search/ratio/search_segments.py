@@ -72,10 +72,12 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
     if question.of_equal_sums:
         return _search_sums(question, task["low"], task["high"])
     judge, count = StageFilter(question), 0
+    # every pair of multisets is expanded to all of its pairings
     chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
     for beneath, top in blocks(question, task["low"], task["high"]):
         (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
         first, last = cuts(p, q, *question.edges)
+        # several multisets may have the same product
         count += int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
         if near.tolerance < question.tolerance:
             first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
@@ -323,5 +325,6 @@ def _segments(question: StageProblem) -> list[Range]:
         return []
     products = multisets(len(question.top), size) + multisets(len(question.beneath), size)
     number = ceil(products / (2 * _block(question)))
+    # equal steps of the logarithm contain about equal numbers of products
     inner = {int(low * (high / low) ** (at / number)) for at in range(1, number)}
     return list(pairwise(sorted({low, high, *inner})))

@@ -262,6 +262,7 @@ def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, 
     """
     orders, rings = _arrangements(tops.shape[1], fit.internal)
     tall, short = tops[:, None, :], beneaths[:, orders]
+    # one table of k x k divisors serves all k! pairings
     coprime = (np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)[:, np.arange(tops.shape[1]), orders].sum(axis=2)
     # twice the centre distance in modules; 0 for a ring and a pinion with equal counts
     distances = np.sort(np.where(rings, np.abs(tall - short), tall + short), axis=2)

@@ -405,6 +405,7 @@ def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
     Nothing is yielded without a solution.
     """
     size = question.stages + 1
+    # one more external stage would reverse the required sense
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
     ring = " with an internal mesh, which keeps the sense," if sense else ""
     more = replace(question, stages=size, best=1, by="error", fit=fit)

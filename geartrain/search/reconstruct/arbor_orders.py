@@ -265,6 +265,7 @@ class _Assembly:
         """Return the first arbor of a chain with its subtree; if the chain has no arbors, the arbors that follow it."""
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
+        # from the end, because an arbor contains the arbors that it drives
         for name, each in reversed(self.orders[id(chain)]):
             if each.idler:
                 driven = PlacedWheel(None, next(self.idle)) if each.driven == ADDED else each.driven

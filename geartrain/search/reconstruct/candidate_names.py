@@ -107,6 +107,7 @@ class FreeNames:
 
     def wheel(self, link: str, survives: bool) -> str:
         """Return the name of the next added wheel on an arbor."""
+        # the underscore separates two numbers, as in `new1_2`
         stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
         name = numbered(stem, self.wheels)
         self.wheels.add(name)
@@ -126,6 +127,7 @@ class _Naming:
         # the driven wheel first, then the driving wheels
         drives = [arbor.passes, *(below for _, below in arbor.drives)]
         children = [(self._first(child), at, child) for at, below in enumerate(drives) for child in below]
+        # the order of the dials does not depend on tooth counts
         children.sort(key=lambda one: one[:2])
         named = {} if driven is None else {0: driven}
         for _, at, _ in children:

@@ -44,7 +44,7 @@ class ChangedCount(Result):
     complete: bool = True
     """True if the search covered all candidates."""
     refused: str | None = None
-    """Reason why the changed problem could not be searched; None if it was."""
+    """Reason why the changed problem could not be searched; None if it was searched."""
 
     @property
     def total(self) -> int:
@@ -79,6 +79,7 @@ def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
     """Return the problems that result from dropping each hard fact in turn."""
+    # a change without effect on the problem needs no search
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
@@ -180,7 +181,7 @@ class LoneDial(Result):
     fewest: int | None
     """Minimum number of added wheels that explain the dial; None if the permitted number is not sufficient."""
     refused: str | None = None
-    """Reason why the dial could not be searched; None if it was."""
+    """Reason why the dial could not be searched; None if it was searched."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -410,6 +410,7 @@ def _branches(root: _Node) -> Iterator[FamilyBranch]:
         share = Fraction(node.weight, root.weight)
         yield FamilyBranch(parent, tuple(meshes), share, node.solutions, tuple(node.ends))
         heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].weight)
+        # reversed, because the stack returns the last entry first
         waiting += [(number, [mesh], below) for mesh, below in reversed(heaviest_first)]
         number += 1
 

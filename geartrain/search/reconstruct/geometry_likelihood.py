@@ -122,7 +122,8 @@ def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
 def order_exists(blocked: Sequence[Sequence[frozenset[int]]]) -> bool:
     """Return whether the layers can be stacked in some order.
 
-    blocked   for every layer, sets of other layers that must be all below it or all above it
+    blocked for each layer, sets of layers; all layers of a set must be on the same side of the layer, below or
+    above it
     """
     every = frozenset(range(len(blocked)))
 

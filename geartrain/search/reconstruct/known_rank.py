@@ -191,7 +191,7 @@ class AdmittingQuestion(Result):
     place: TrainPlace | None
     """Rank of the train; None if it adds more wheels than were searched."""
     refused: str | None = None
-    """Reason why the changed problem was not searched; None if it was."""
+    """Reason why the changed problem was not searched; None if it was searched."""
 
 
 @dataclass(frozen=True, slots=True)

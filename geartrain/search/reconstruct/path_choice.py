@@ -101,6 +101,7 @@ class PathColumns:
         self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
         number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
+        # one row per arbor, because an arbor is compared for many paths at once
         self.codes = np.ascontiguousarray(paths.codes.T)
         self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
@@ -344,6 +345,7 @@ class PathChoice:
             if not len(kept[other].rows):
                 return
         missing = self._missing(paths)
+        # a part that must be used is on no remaining path
         if missing & ~reduce(or_, (self._reach(each, near) for each, near in kept.items()), 0):
             return
         following = min(kept, key=lambda each: len(kept[each].rows))  # most constrained dial first

@@ -147,7 +147,7 @@ class PathGrowth:
     added: NDArray[np.int8]
     """Number of added wheels, including idlers."""
     idle: NDArray[np.int8]
-    """Number of surviving wheels on the path that it does not use."""
+    """Number of surviving wheels on the arbors of the path that the path does not use."""
     need: NDArray[np.int8]
     """Number of added wheels that must contain a large prime, because no later arbor contains it."""
     ended: NDArray[np.bool_]

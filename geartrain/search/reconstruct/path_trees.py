@@ -274,6 +274,7 @@ class PathTrees:
             for dial, path in paths.items()
         }
         for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(below)):
+            # an arbor with a single exit belongs to a chain
             if at and not here and len(blocks) < 2:
                 continue
             if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):

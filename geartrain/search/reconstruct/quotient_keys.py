@@ -71,6 +71,7 @@ class QuotientKeys:
         fewer = self._table(drivers - (drivers > driven), driven - (driven >= drivers))
         if fewer is None:
             return np.ones(keys.shape, dtype=bool)
+        # the negative key, modulo 2^64, is the key of the reciprocal
         counts = self._counts if drivers > driven else -self._counts
         return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 

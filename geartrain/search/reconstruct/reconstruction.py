@@ -80,7 +80,7 @@ class ReconstructionRequest(Shown):
     known: tuple[Train, ...] = ()
     """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Wheel or output of a known train -> its name in the evidence, if the names differ."""
+    """Name in the evidence of each wheel or output of a known train that has another name there."""
 
 
 class ReconstructionRun:

@@ -131,6 +131,7 @@ class SurvivingGeometry:
             return True
         if not square:
             return False  # on one axis
+        # squares are exact fractions; distances may be irrational
         return bounds is None or bounds[0] ** 2 <= square <= bounds[1] ** 2
 
 

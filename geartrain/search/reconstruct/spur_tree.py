@@ -301,6 +301,7 @@ class _Parts:
     def trees(self) -> Iterator[SpurTree]:
         """Yield the parts in an order in which the speed of the first arbor of each part is already known."""
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
+        # the part at the input begins; it determines the speeds at which others begin
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
         while waiting:

@@ -267,6 +267,7 @@ class TrainConstruction:
         given = dict(self.given["outputs"][name] or {})
         if output.expect is None or not output.expect.holds(speed):
             given["expect"] = fraction_text(speed)
+        # a value without a tolerance has a short form
         elif set(given["expect"]) == {"value"}:
             given["expect"] = given["expect"]["value"]
         return {"of": link} | {key: value for key, value in given.items() if key != "of"}

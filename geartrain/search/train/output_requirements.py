@@ -237,6 +237,7 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
     else:
         wanted = drive / published.value.value if published.value.value else Fraction(0)
         allowed = tuple(_inverse(low, high, drive))
+        # a ratio of 0 corresponds to no finite speed, so no error can be computed
         yield SpeedRequirement(label, wanted, True, allowed, graded and bool(wanted))
 
 

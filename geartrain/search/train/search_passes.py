@@ -158,6 +158,7 @@ def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: in
     count = int(counts[0])
     removed = [int(gone[at][0]) if at in gone else 0 for at in range(len(question.reasons))]
     listed = before + count <= work.most
+    # late constraints can be tested only on complete assignments
     if question.late or listed:
         count = 0
         for rows in join.stream((question.plan,), join.start()):

@@ -218,6 +218,7 @@ def _relaxations(search: PartSearch) -> Iterator[str]:
     if len(names) + len(search.part.requirements) < 2:
         return
     for name in names:
+        # 0: the solutions are counted, not listed
         passed = search.without(rule=name).run(None, 0)
         if passed.tally.count:
             yield f'without the constraint "{name}" there {_solution_count(passed)}'

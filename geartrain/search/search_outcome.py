@@ -13,7 +13,7 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Counts of the candidates that a search rejected, by reason; they explain an empty or short list of solutions.
+    """Counts of the candidates that a search rejected, by reason, which explain an empty or short list of solutions.
 
     See Also
     --------
@@ -25,7 +25,9 @@ class Shortfall(Result):
     considered: int = 0
     """Number of candidates before any constraint is applied."""
     removed: Mapping[str, int] | None = None
-    """Number of rejected candidates by reason. A candidate is counted under the first constraint that it violates."""
+    """Number of rejected candidates by reason. A candidate is counted under the constraint at which the search
+    rejected it.
+    """
     nearest: str = ""
     """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
     ratio error, or of a constraint that no candidate satisfies; "" if there is a solution or the search was

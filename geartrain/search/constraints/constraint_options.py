@@ -40,7 +40,8 @@ class ConstraintOptions:
     shift: int = 0
     """Maximum difference between coaxial centre distances, to be compensated by profile shift [half modules]."""
     planets: int | Mapping[str, int] | None = None
-    """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number.
+    """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number. With
+    None, the numbers declared by `copies` are used.
 
     The wheels on the arbors of equal planets must have the same relative orientation.
     """

@@ -144,8 +144,8 @@ class Orrery(Tabular, Result):
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration as plain data. The first arbor turns once per `unit`, and the outputs expect their
-        requested speeds.
+        """Return a declaration as plain data. The first arbor turns once per `unit`. The outputs expect their exact
+        speeds, and have the requested periods as targets.
 
         A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 

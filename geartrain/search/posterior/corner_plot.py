@@ -206,7 +206,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     Raises
     ------
     QuestionError
-        If no combination satisfies the observations, or if the number of wheels is not from 1 to 9.
+        If no combination satisfies the observations, or if the pairs contain no wheel or more than 9 wheels.
 
     Examples
     --------

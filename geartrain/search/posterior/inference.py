@@ -419,7 +419,7 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
     """Compute the joint posterior of each pair of wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    One further posterior is computed for each possible count of every wheel except the last.
+    One further posterior is computed for each count of nonzero probability, of every wheel except the last.
 
     Parameters
     ----------

@@ -213,7 +213,9 @@ class KnownRank(Result):
     admitted: tuple[AdmittingQuestion, ...] = ()
     """Ranks in problems without the broken rules: first with the dial speeds of the train, then without these dials."""
     telling: TellingFacts | None = None
-    """Facts that distinguish the train; None unless all explanations are listed."""
+    """Facts that distinguish the train; None unless the train is an explanation and 2 to 2000 explanations are all
+    listed.
+    """
 
 
 @dataclass(frozen=True)

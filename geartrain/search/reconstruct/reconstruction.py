@@ -185,7 +185,9 @@ class ReconstructionAnswer(Result):
     best: tuple[RankedTrain, ...]
     """Best explanations in descending order of probability, at most the requested number."""
     original: tuple[int, int] | None = None
-    """First and last rank of the original train by probability, if its arbors were treated as lost; otherwise None."""
+    """First and last rank of the original train by probability, if its arbors were treated as lost; None
+    otherwise, or if the train is not listed.
+    """
     findings: CandidateFindings = NO_FINDINGS
     """Facts derived from the explanations: common facts, most informative facts, family tree."""
     base: BaseLink | None = None

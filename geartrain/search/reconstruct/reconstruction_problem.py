@@ -221,8 +221,8 @@ class Additions:
     arbors: int | None = None
     """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """Arbors that may carry added wheels: "new" for added arbors only, "any" for driving wheels on surviving arbors
-    too.
+    """Arbors that may carry added wheels. "new": added arbors only. "any": surviving arbors too, with added
+    driving wheels, and with an added driven wheel if no wheel of the arbor survives.
     """
 
 

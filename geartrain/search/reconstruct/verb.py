@@ -58,7 +58,7 @@ def run(
         typer.Option(
             "--from",
             help="With --lost: link at which the part to reconstruct begins; default: the first part that contains "
-            "these arbors.",
+            "the lost arbors.",
         ),
     ] = None,
     seen: Annotated[
@@ -108,7 +108,7 @@ def run(
             "--sample",
             min=0,
             max=MOST_DRAWN,
-            help="Draw this number of trains at random, with their posterior probabilities.",
+            help="Draw this number of trains at random, in proportion to their posterior probabilities.",
         ),
     ] = 0,
     seed: Seed = 1,

@@ -84,7 +84,7 @@ def run(
         bool,
         typer.Option(
             "--closure",
-            help="Require that wheels touch and the teeth of loops mesh at the declared positions of the axes.",
+            help="Require that meshing wheels reach each other, and that teeth of loops mesh, at the declared positions.",
         ),
     ] = False,
     where: Annotated[

@@ -96,7 +96,7 @@ class CountRuns(Sequence[int]):
         return self.spans[-1][1]
 
     def as_array(self) -> NDArray[np.int64]:
-        """Return the counts as an ascending array. Raises `RangeError` if there are more than a million counts."""
+        """Return the counts as an ascending array. Raise `RangeError` if there are more than a million counts."""
         import numpy as np
 
         if len(self) > _MOST_LISTED:

@@ -167,11 +167,17 @@ def _check(
         )
     if tolerance is not None and tolerance < 0:
         raise QuestionError(
-            Problem(f"the tolerance {tolerance} is negative", "a tolerance is a magnitude", "give a tolerance >= 0")
+            Problem(
+                f"the tolerance {tolerance} is negative", "a tolerance must not be negative", "give a tolerance >= 0"
+            )
         )
     if scale < 0:
         raise QuestionError(
-            Problem(f"the factor {scale} of tolerances is negative", "a tolerance is a magnitude", "give a factor >= 0")
+            Problem(
+                f"the factor {scale} of tolerances is negative",
+                "it would make tolerances negative",
+                "give a factor >= 0",
+            )
         )
 
 

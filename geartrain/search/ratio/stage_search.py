@@ -88,7 +88,7 @@ class StageFindings(Tabular, Result):
     fit: StageConstraints
     """Constraints on the counts."""
     by: str
-    """Order in which `solutions` are listed."""
+    """Name of the order in which `solutions` are listed."""
     tolerance: Fraction
     """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best is
     proved complete.

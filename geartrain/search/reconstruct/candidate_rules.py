@@ -119,7 +119,9 @@ def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
 
 
 def as_missing_dial(broken: BrokenRule) -> BrokenRule:
-    """Return a broken rule on the speed of a dial as a dial that is not shown; return other rules unchanged."""
+    """Return a broken rule on the speed of a dial as a broken rule on a missing dial; return other rules
+    unchanged.
+    """
     if broken.rule != "speed":
         return broken
     return replace(broken, rule="dial", change=_without(*broken.subject), values=())

@@ -173,7 +173,7 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, high)], name, place)
     why = "targets with a sense allow both senses, and a target of the magnitude allows one interval in each sense"
     raise DeclarationError(
-        Problem(f"the possible speeds of '{name}' are two intervals", why, "give one target only", place)
+        Problem(f"the possible speeds of '{name}' are two intervals", why, "keep only one of the targets", place)
     )
 
 

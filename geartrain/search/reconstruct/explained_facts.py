@@ -456,7 +456,9 @@ class CandidateFindings(Result):
     assumptions: tuple[ChangedCount, ...] = ()
     """Number of explanations without each hard fact, if requested."""
     missing: MissingExplanation | None = None
-    """Reasons why the evidence has no explanation; None if it has an explanation."""
+    """Reasons why the evidence has no explanation; None if it has an explanation, or if the reasons were not
+    searched.
+    """
 
 
 NO_FINDINGS = CandidateFindings()

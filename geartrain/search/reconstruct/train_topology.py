@@ -216,7 +216,7 @@ Quotients = tuple[Fraction, Fraction]
 
 
 class CountLimit(NamedTuple):
-    """Maximum tooth count of one added wheel."""
+    """Maximum tooth count of one added wheel, imposed by its mesh with a ring."""
 
     dials: Dials
     """Dials whose speed the wheel changes; empty for a wheel that changes no speed."""

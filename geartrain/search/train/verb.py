@@ -84,7 +84,7 @@ def run(
         bool,
         typer.Option(
             "--closure",
-            help="Require that meshing wheels reach each other, and that teeth of loops mesh, at the declared positions.",
+            help="Require that meshing wheels reach each other and teeth of loops mesh at the declared positions.",
         ),
     ] = False,
     where: Annotated[

@@ -127,7 +127,7 @@ def table(rows: list[TrainRow]) -> list[str]:
         *head,
         *(f"| {', '.join(names)} | {cells} |" for cells, names in lines.items()),
         "",
-        f"All known causes are 0 in {', '.join(exact)}.",
+        f"All known contributions are 0 in {', '.join(exact)}.",
         "",
     ]
 
@@ -210,7 +210,7 @@ $ geartrain budget assumed.yaml --of moon
 | theory | the anomaly of the pins differs from the true motion of Moon or Sun | peak to peak, at the best phase |
 | teeth | transmission error of perfectly made teeth | peak to peak |
 | lost motion | backlash of the teeth if the crank is turned back | maximum |
-| cutting | cutting errors of the wheels | central 95 % range of the Monte Carlo trials |
+| cutting | pointer error due to deviations of teeth and wheels | central 95 % range of the Monte Carlo trials |
 
 **Ratio.** If $w$ is the mean speed of a pointer (turns per unit of time) and $t$ its target, the angle that the pointer
 gains during the time $T$ is
@@ -239,14 +239,14 @@ $$ \\text{teeth} = e_f - e_0, \\qquad \\text{lost motion} = |e_b - e_f|. \\tag{3
 
 The backlash between a pin and its slot cannot be declared, so it is reported as unknown.
 
-**Cutting.** In each Monte Carlo trial, the cutting errors of the wheels are drawn at random
-([cut by hand](cut-by-hand.md)). If $e_c$ is the error of the pointer in a trial at a random position, the contribution
-of cutting is the range from the 2.5th to the 97.5th percentile of
+**Cutting.** In each Monte Carlo trial, the deviations of the teeth and wheels are drawn at random ([cut by
+hand](cut-by-hand.md)). If $e_c$ is the error of the pointer in a trial at a random position, the contribution of
+cutting is the range from the 2.5th to the 97.5th percentile of
 
 $$ e_c - (e_f - e_0), \\tag{4} $$
 
 and the confidence interval of this range follows from order statistics. If nearly all trials jam, the errors are
-computed from the pushing flanks as if jamming teeth could pass.
+computed from the pushing flanks as if jamming teeth could pass each other.
 
 The value of a contribution in days is its value in degrees divided by the mean speed of the pointer relative to the
 body against which it is read. The total is the sum of the contributions of all causes, which is an upper bound of the
@@ -254,11 +254,10 @@ error.
 
 ## Largest error of each train
 
-For each shipped train in its first state, the table lists the pointer with the largest total error and its two largest
-causes in degrees. "Assumed" means that the train declares no teeth, so the budget assumes the teeth of the example and
-bearing friction at every pointer. "None" means that triangular teeth cannot be assumed, because they cannot turn with
-the tooth counts of the train.
-"""
+For each shipped train in its first state, the table lists the pointer with the largest total error and the two largest
+contributions to this error, in degrees. "Assumed" means that the train declares no teeth, so the budget assumes the
+teeth of the example and bearing friction at every pointer. "None" means that triangular teeth cannot be assumed,
+because triangular wheels with these tooth counts cannot turn. """
 
 PUBLISHED = """## Published statements
 
@@ -289,7 +288,7 @@ STATEMENTS = (
     ),
     (
         "The indicated Moon could be wrong by 20 degrees (Edmunds and Freeth 2011, second-hand)",
-        "Confirmed for cutting errors of 0.3 deg ([cut by hand](cut-by-hand.md)), and for any cutting errors if the"
+        "Confirmed for pitch deviations of 0.3 deg ([cut by hand](cut-by-hand.md)), and for any deviations if the"
         " crank is turned back: {moon_lost_motion}",
     ),
 )

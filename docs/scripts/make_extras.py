@@ -35,8 +35,8 @@ PAGE_TEXT = """# Extras
 
 Extras are groups of optional packages. Without extras, geartrain installs {count:.0f} packages ({size:.0f} MB). They
 suffice for `solve`, `check`, `report`, `view`, `gearbox`, `inspect`, `torques`, `motion`, `dynamics`, `strength`,
-`reconstruct`, `teeth`, `mesh`, `export` of SVG, STL and GLB, and for the library. A command that needs more packages
-prints the command that installs them, for example
+`reconstruct`, `teeth`, `mesh`, for the `export` of SVG, STL and GLB files, and for the library. A command that needs
+more packages prints the command that installs them, for example
 
 ```sh
 pip install 'matplotlib>=3.8'
@@ -48,10 +48,10 @@ In a clone of the repository, `pip install -e '.[plot]'` installs the same packa
 |---|---|---|---:|---:|
 {rows}
 
-Sizes are given for installed files before Python compiles them. Extras share packages, so that several extras need less
-than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for development: `dev` (810
-MB with the core), `site` for this site, and `ci` for all tests. The table is written by `python
-docs/scripts/make_extras.py --measure`.
+Sizes are those of the installed files before Python compiles them. Extras share packages, so several extras together
+need less space than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for
+development: `dev` (810 MB with the core), `site` for this site, and `ci` for all tests. `python
+docs/scripts/make_extras.py --measure` writes the table.
 """
 
 

@@ -22,9 +22,10 @@ HEAD = """# Sources and their errata
 
 This page compares every number, equation and statement of four sources with the values that geartrain computes. The
 tests recompute each value. A number is classified as reproduced if the computed value agrees with it to within half a
-unit of the last printed digit, and an equation if its two sides are equal at many positions. A number is classified as
-read if the shipped train or table declares it; such a number is not computed. The errata of each source are numbered,
-and the evidence for each erratum is the computed value. The last section lists errata of other publications.
+unit of the last printed digit; an equation is classified as reproduced if its two sides are equal at many positions. A
+number is classified as read if the shipped train or table declares it; such a number is not computed. The errata of
+each source are numbered, and the evidence for each erratum is the computed value. The last section lists errata of
+other publications.
 
 To see how a value is computed, run, for example, `python docs/scripts/make_sources.py 'Sorge Eq. (12)'`.
 """
@@ -60,15 +61,14 @@ def section(source: Source) -> Iterator[str]:
     yield from (f"## {source.name}", "", f"{source.cite}. {source.text}", "")
     yield from table(("erratum", "place", "printed", "correct", "evidence"), errata(source))
     if equations:
-        yield f"**Equations reproduced** (maximum relative difference): {equal(equations)}."
-        yield ""
+        yield from table(("equations reproduced", "maximum relative difference"), equal(equations))
     if numbers:
         yield from table(("place", "number", "printed", "computed"), grouped(numbers))
     if statements:
         yield from table(("place", "statement", "computed"), [(r.place, r.claim, r.ours) for r in statements])
     outside = [row for row in source.rows if row.verdict == OUTSIDE]
     if outside:
-        yield from ("**Not computed**:", "", *not_computed(outside), "")
+        yield from table(("not computed", "reason"), not_computed(outside))
 
 
 def errata(source: Source) -> list[tuple[str, ...]]:
@@ -86,12 +86,12 @@ def errata(source: Source) -> list[tuple[str, ...]]:
     ]
 
 
-def equal(rows: Iterable[Row]) -> str:
-    """Return the places of equations by the bound of their difference."""
+def equal(rows: Iterable[Row]) -> list[tuple[str, ...]]:
+    """Return the places of equations and the bound of their difference, a line for each bound."""
     bounds: dict[str, list[str]] = {}
     for row in rows:
         bounds.setdefault(row.ours.removeprefix("equal to "), []).append(row.place)
-    return ". ".join(f"{bound}: {'; '.join(merged(places))}" for bound, places in bounds.items())
+    return [("; ".join(merged(places)), bound) for bound, places in bounds.items()]
 
 
 def merged(places: Iterable[str]) -> Iterator[str]:
@@ -125,13 +125,13 @@ def short(row: Row) -> str:
     return row.ours.partition(" = ")[0] if " = " in row.ours else row.ours
 
 
-def not_computed(rows: Iterable[Row]) -> list[str]:
-    """Return a list of reasons with the places of statements that are not computed."""
+def not_computed(rows: Iterable[Row]) -> list[tuple[str, ...]]:
+    """Return the places of statements that are not computed and the reason, a line for each reason."""
     reasons: dict[str, list[str]] = {}
     for row in rows:
         reason = row.why.partition("; ")[0] if row.why.startswith(NOT_COMPUTED) else row.why
         reasons.setdefault(reason, []).append(row.place)
-    return [f"- {'; '.join(places)}: {reason}" for reason, places in reasons.items()]
+    return [("; ".join(places), reason) for reason, places in reasons.items()]
 
 
 def table(header: tuple[str, ...], body: Iterable[tuple[str, ...]]) -> Iterator[str]:

@@ -1,4 +1,5 @@
-"""Entry to the library: `load` reads a file, a name or plain data and returns a `GearTrain` that answers questions.
+"""Main classes of the library: `load` reads a file, a name or plain data and returns a `GearTrain` with all
+computations.
 
 gear_train                   `load`, and the class whose methods call the functions of the other packages
 gearbox, gear_series         all states of a train with clutches; all gears that its shift elements can produce

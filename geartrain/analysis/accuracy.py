@@ -41,7 +41,7 @@ class MethodAccuracy(Shown):
 
     See Also
     --------
-    find_accuracy : Measures them.
+    find_accuracy : Measure all methods on a train.
     """
 
     stage: Stage
@@ -51,13 +51,13 @@ class MethodAccuracy(Shown):
     seconds: float
     """Run time [s]."""
     error: float | None
-    """Maximum difference from the values of the reference method, in `unit`; None for the reference method itself."""
+    """Maximum error of the results relative to `reference`, in `unit`; None for the reference method itself."""
     unit: Literal["relative", "pitches", "deg"]
     """Unit of `error`."""
     reference: str
-    """Method whose values are the reference for the error."""
+    """Reference of the error: another method, the error estimate of the method itself, or the power balance."""
     prepared: float | None = None
-    """Time spent on preparations before the run, such as the computation of tables [s]."""
+    """Time spent on preparations before the run, such as the computation of tables [s]; None without preparations."""
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -68,14 +68,14 @@ class TrainAccuracy(Tabular, TrainResult):
 
     See Also
     --------
-    find_accuracy : Returns it.
+    find_accuracy : Measure all methods on a train.
     """
 
     KEYS = ("state", "positions", "methods", "neglected")
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {
         "error": "Maximum error; empty for the reference method [see `unit`].",
-        "ratio": "Run time over the run time of the fastest method of the stage [1].",
+        "ratio": "Run time divided by the run time of the fastest method of the stage [1].",
     }
 
     PAGE = "report.accuracy_report:accuracy_document"
@@ -87,7 +87,7 @@ class TrainAccuracy(Tabular, TrainResult):
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
-    """Unmeasured stage -> reason why the stage does not apply to the train."""
+    """Stage that is not measured -> reason why the stage does not apply to the train."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
@@ -115,7 +115,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     Returns
     -------
     TrainAccuracy
-        Run times and errors. The references are exact speeds and composed motion.
+        Run times and errors, with a row for each method, and the reason for each stage that is not measured.
 
     Examples
     --------
@@ -158,12 +158,15 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for speeds: exact elimination, if the train is usually solved so, and floats."""
+    """Yield the run times and errors of the methods for speeds: exact elimination, if `solve` uses it by default, and
+    floats.
+    """
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
 
     def solve(method: Any) -> Answer:
+        # a new train each time, because a GearTrain caches its results
         answer = GearTrain(train.declaration).solve(state, method=method)
         list(answer.speeds.values())  # speeds are computed when they are read
         return answer
@@ -182,8 +185,8 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for transmission functions: direct evaluation, and interpolation in tables of two
-    tolerances.
+    """Yield the run times and errors of the methods for transmission functions: direct evaluation, and interpolation in
+    tables of two tolerances.
     """
     transmissions: dict[str, TransmissionFunction] = {
         mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid
@@ -223,7 +226,9 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for motion: composition (with numpy, compiled, from tables) and first-order superposition."""
+    """Yield the run times and errors of the methods for motion: composition (with numpy, compiled, from tables) and
+    first-order superposition.
+    """
     if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -264,9 +269,10 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for torques: exact balance with losses, and mean torque sampled over one revolution."""
+    """Yield the run times and errors of the methods for torques: balance with losses, and mean torque of a run."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
+    # a new train in each run, because results are cached
     seconds, found = _best_of(lambda: GearTrain(train.declaration).torques(state))
     if not found.verdict:
         raise QuestionError(Problem(f"{found.verdict.kind}: {found.verdict.text}"))

@@ -1,4 +1,4 @@
-"""All gears that a gearbox can produce by any choice of closed shift elements, and series of gears by their steps."""
+"""Enumeration of the gears of a gearbox over all sets of closed shift elements, and search for series of gears."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ _FIGURES = 12  # decimals to which sums of squares are compared, so that roundin
 
 @dataclass(frozen=True)
 class PossibleGear(Result):
-    """Gear that results from closing a set of shift elements (clutches and brakes)."""
+    """Gear of a gearbox that results from closing a set of shift elements (clutches and brakes)."""
 
     engaged: tuple[str, ...]
     """Closed shift elements, in the order of declaration."""
     ratio: Fraction | None
     """Speed of the input divided by speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Declared states in which exactly these elements are closed."""
+    """Declared states that engage the same elements; empty for an undeclared gear."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class GearSeries(Result):
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of the natural logarithms of the steps; 0 for equal steps."""
+        """Population standard deviation of the natural logarithms of the steps; 0 for equal steps."""
         return pstdev(map(log, self.steps))
 
     @property
@@ -78,7 +78,7 @@ class GearSearch(Tabular, Result):
 
     See Also
     --------
-    find_gears : returns it.
+    find_gears : Enumerate the gears.
     """
 
     MEANINGS: ClassVar = {
@@ -100,21 +100,23 @@ class GearSearch(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """Driving link."""
+    """Name of the driving link."""
     output: str
-    """Driven link."""
+    """Name of the driven link."""
     closed: int
     """Number of elements that must be closed so that the inputs determine all speeds."""
     combinations: int
-    """Number of ways to choose `closed` shift elements."""
+    """Number of combinations of `closed` shift elements."""
     gears: tuple[PossibleGear, ...]
-    """All gears: forward gears from the lowest, then reverse gears, then gears whose output is at rest."""
+    """All gears: forward gears, then reverse gears, both by decreasing magnitude of the ratio, then gears with the
+    output at rest.
+    """
     free: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
-    """Combinations of `closed` elements that lock the train."""
+    """Combinations of `closed` elements that lock the train or contradict its inputs."""
     requested: int = 0
-    """Number of gears of the requested series; 0 if none was requested."""
+    """Number of gears of the requested series; 0 if no series was requested."""
     series: int = 0
     """Number of series whose steps and shifts satisfy the request; 0 if no series was requested."""
     widest: GearSeries | None = None
@@ -160,7 +162,7 @@ def find_gears(
     steps : tuple of float
         Minimum and maximum step of a series: ratio of a gear divided by the ratio of the next gear.
     single : bool
-        True to allow only shifts in which one element opens and one closes.
+        True to allow only shifts in which at most one element opens and at most one closes.
 
     Returns
     -------
@@ -171,7 +173,8 @@ def find_gears(
     Raises
     ------
     QuestionError
-        If the train is not a gearbox, has no output, or has too many combinations of closed elements.
+        If the train is not a gearbox, has no input that turns or no output, or has too many combinations of closed
+        elements.
 
     Examples
     --------
@@ -195,7 +198,9 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of gears: forward gears, reverse gears, each by decreasing ratio, then gears at rest."""
+    """Return the sort key of a gear: forward gears, then reverse gears, both by decreasing magnitude of the ratio, then
+    gears with the output at rest.
+    """
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
@@ -207,7 +212,7 @@ _Choice = tuple[str, ...]
 
 
 class _AllGears(NamedTuple):
-    """Gears of all choices of `closed` elements, and the choices that leave the train free or lock it."""
+    """Gears of all combinations of `closed` elements, and the combinations that leave the train free or lock it."""
 
     closed: int
     gears: list[PossibleGear]
@@ -272,6 +277,7 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
         at: [
             to
             for to in range(at + 1, len(gears))
+            # different elements can give the same ratio, which is not a step even if `low` is 1
             if low <= ratios[at] / ratios[to] <= high and ratios[at] > ratios[to]
             if not single or _is_single(gears[at], gears[to])
         ]
@@ -280,22 +286,24 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, the widest one, and the most even one; None if there are none."""
+"""Number of series, the series with maximum spread, and the series with minimum deviation; None without any series."""
 _Way = tuple[float, int, tuple[int, ...]]
-"""Sum of squares or variance of the logarithms of steps, number of double shifts, and gears of a series."""
+"""Sum of squares or variance of the logarithms of steps, number of double shifts, indices of the gears of a series."""
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Count the series of a number of gears, and find the widest and the most even one, by dynamic programming.
+    """Count the series of `number` gears, and find the series with maximum spread and with minimum variance of the
+    logarithmic steps, by dynamic programming.
 
     For given first and last gears the mean step is fixed, so the minimum sum of squared steps has the minimum variance.
-    Ties are broken by the number of double shifts, and among the widest series by their variance.
+    Series of equal spread are ranked by their variance, and series of equal variance by the number of double shifts.
     """
     ratios = [each.ratio or Fraction(1) for each in gears]
     count, found = 0, list[tuple[Fraction, _Way]]()
     for start, first in enumerate(ratios):
         for end, ((sum_, double, way), ways) in _series_from(start, gears, links, number).items():
             variance = sum_ / (number - 1) - (log(first / ratios[end]) / (number - 1)) ** 2
+            # rounding can make the variance of equal steps slightly negative
             found.append((-first / ratios[end], (round(max(variance, 0.0), _FIGURES), double, way)))
             count += ways
     if not found:
@@ -306,7 +314,9 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return the series to every last gear with the minimum sum of squared steps, and the number of all series."""
+    """Return, by last gear, the series with the minimum sum of squared logarithmic steps, and the number of series that
+    end at this gear.
+    """
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):

@@ -47,7 +47,7 @@ class GearTrain:
 
     See Also
     --------
-    load : a train from a file or by name
+    load : Load a train from a file or by name.
 
     Notes
     -----
@@ -74,8 +74,8 @@ class GearTrain:
     """Validated declaration. `geartrain.load` and `declare` build it from files and plain data."""
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Solve the speeds in one state by propagation along components and exact elimination, and evaluate the
-        outputs.
+        """Solve the speeds in one state, by default by propagation along components and exact elimination, and evaluate
+        the outputs.
 
         Parameters
         ----------
@@ -290,7 +290,7 @@ class GearTrain:
 
     @property
     def states(self) -> tuple[str, ...]:
-        """Names of the declared states; empty if the train has only one."""
+        """Names of the declared states; empty if the train declares no states."""
         return tuple(self.declaration.states)
 
     @property
@@ -313,15 +313,15 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with real teeth, each with its transmission function; empty if no pair declares a tooth form.
 
-        Each pair has the driving side of the first state that determines its driving side. `mechanics.meshes_in`
-        returns the pairs of another state.
+        The driving side of a pair is taken from the first state that determines it. `mechanics.meshes_in` returns the
+        pairs with the driving sides of another state.
         """
         return self.mechanics.meshes
 
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """Yield the solved speeds of every state, in the order of declaration."""
+        """Yield the solved speeds of every state in the order of declaration; one answer for a train without states."""
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
@@ -353,7 +353,7 @@ class GearTrain:
         Returns
         -------
         OutputFormula
-            Exact formula in lowest terms, available as text, LaTeX or a sympy expression.
+            Exact formula in lowest terms, available as plain text, LaTeX or a sympy expression.
 
         Raises
         ------
@@ -426,7 +426,7 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train declares no clutches, no states, or no input that turns.
+            If the train declares no clutches, no states, no input that turns, or no output other than the input.
 
         Examples
         --------
@@ -536,7 +536,7 @@ class GearTrain:
         on_done: Callable[[float], object] = lambda _: None,
         model: Literal["rigid", "compliant"] = "rigid",
     ) -> Any:
-        """Simulate the motion in time with inertia, backlash, impacts, drag and friction (docs/dynamics.md).
+        """Simulate the motion in the time domain with inertia, backlash, impacts, drag and friction (docs/dynamics.md).
 
         Rigid teeth are simulated by nonsmooth time stepping. Compliant teeth have stiffness and damping; their results
         are peak torques and dynamic factors instead of impulses. Two runs are made, with steps h and h/2. Results that
@@ -545,8 +545,8 @@ class GearTrain:
         Parameters
         ----------
         rate : str or float, optional
-            Speed of the first input that turns, in its declared sense, as text such as "1 turn/s" or a number [rad/s];
-            by default the declared drive.
+            Speed of the first input that turns, in its declared sense, as a string such as "1 turn/s" or a number
+            [rad/s]; by default the declared drive.
         turns : float
             Number of evaluated revolutions of that input in its mean motion.
         state : str, optional
@@ -611,7 +611,8 @@ class GearTrain:
         step : float, optional
             Length of a step [s]; by default the step of the finer run of `dynamics`.
         fast : bool, optional
-            True to compile kernels (extra `fast`). By default the kernels are compiled if numba is installed.
+            True to compile kernels (extra `fast`), None to compile them if numba is installed; by default nothing is
+            compiled.
 
         Returns
         -------
@@ -753,7 +754,7 @@ class GearTrain:
     @property
     def unfolded(self) -> GearTrain:
         """Train in which each equal planet is declared as a separate link; the train itself if no link represents
-        several (`copies`).
+        several equal planets (`copies`).
         """
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
@@ -787,6 +788,7 @@ class GearTrain:
     def _verdicts(self) -> str:
         try:
             return " or ".join(dict.fromkeys(answer.verdict.kind for answer in self.answers()))
+        # repr must not raise, even for a declaration that cannot be solved
         except GearTrainError as error:
             return error.problems[0].what
 

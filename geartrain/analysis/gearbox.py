@@ -27,7 +27,7 @@ ElementKind = Literal["brake", "clutch"]
 
 @dataclass(frozen=True)
 class GearState(Result):
-    """Results of one state of a gearbox."""
+    """Results of one state of a gearbox: speeds, ratio, slips, torques and recirculating power."""
 
     KEYS = (
         *("state", "engaged", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
@@ -37,38 +37,43 @@ class GearState(Result):
     state: str
     """Name of the state."""
     engaged: tuple[str, ...]
-    """Closed shift elements."""
+    """Names of the closed shift elements."""
     verdict: Verdict
     """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
     """Transmission ratio: speed of the input divided by speed of the output; None if one is at rest or undetermined."""
     step: Fraction | None
-    """Ratio of this state divided by the ratio of the next state; None if their senses differ or one has no ratio."""
+    """Ratio of this state divided by the ratio of the next state; None for the last state, if the signs of the ratios
+    differ, or if one of the two states has no ratio.
+    """
     driven_by: str
-    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if the
-    input is at rest. Empty if no input turns; speeds are then the declared ones.
+    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first other input that turns if the
+    input is at rest. Empty if no input turns; `speeds` and `slips` are then in the unit of the train.
     """
     speeds: Mapping[str, Fraction]
     """Link with a determined speed -> its speed divided by the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
     """Open element -> slip speed divided by the speed of `driven_by`. The slip of a brake is the speed of its link, and
-    the slip of a clutch is the speed of its first link relative to its second.
+    the slip of a clutch is the speed of its first link relative to its second. Elements with an undetermined slip are
+    omitted.
     """
     torques: Mapping[str, Fraction | None]
     """Closed element -> torque that it exerts on its (first) link, divided by the torque of the input; None if it is
-    statically indeterminate.
+    statically indeterminate. Empty if the torques of the train are not determined.
     """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
     """Power that recirculates between gear sets, divided by input power; None if the torques are not determined."""
     inner: Fraction | None
-    """Power that recirculates within gear sets, divided by input power; it occurs if a carrier turns freely."""
+    """Power that recirculates within gear sets, divided by input power; it occurs if a carrier turns freely. None if
+    the torques are not determined.
+    """
 
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state to the next."""
+    """Shift from one state of a gearbox to a following state, with the elements that open and close."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -77,9 +82,9 @@ class Shift(Result):
     after: str
     """State after the shift."""
     released: tuple[str, ...]
-    """Elements that open."""
+    """Names of the elements that open."""
     applied: tuple[str, ...]
-    """Elements that close."""
+    """Names of the elements that close."""
 
     @property
     def is_double(self) -> bool:
@@ -100,13 +105,16 @@ class ShiftElement(Result):
     states: tuple[str, ...]
     """States in which the element is closed."""
     torque: Fraction | None
-    """Torque of maximum magnitude, divided by the torque of the input."""
+    """Torque of maximum magnitude over all states, divided by the torque of the input; None if no state determines it.
+    """
     torque_state: str
-    """State in which `torque` occurs."""
+    """State in which `torque` occurs; empty if `torque` is None."""
     slip: Fraction | None
-    """Slip speed of maximum magnitude while the element is open, divided by the speed of the input."""
+    """Slip speed of maximum magnitude while the element is open, divided by the speed of the link `driven_by` of the
+    state; None if no state determines it.
+    """
     slip_state: str
-    """State in which `slip` occurs."""
+    """State in which `slip` occurs; empty if `slip` is None."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +123,7 @@ class Gearbox(Tabular, Result):
 
     See Also
     --------
-    geartrain.GearTrain.gearbox : returns it.
+    geartrain.GearTrain.gearbox : Compute these results.
     """
 
     MEANINGS: ClassVar = {
@@ -137,15 +145,15 @@ class Gearbox(Tabular, Result):
     title: str
     """Title of the train."""
     input: str
-    """Driving link."""
+    """Name of the driving link."""
     output: str
-    """Driven link."""
+    """Name of the driven link."""
     states: tuple[GearState, ...]
     """States in the order of declaration."""
     elements: tuple[ShiftElement, ...]
     """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
-    """Shifts between consecutive states that have ratios of the same sense."""
+    """Shifts from each state with a ratio to the next state with a ratio, if both ratios have the same sign."""
 
     def _summary(self) -> str:
         ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
@@ -153,8 +161,8 @@ class Gearbox(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each state: closed elements, ratio, step, efficiency, and link speeds divided by the
-        input speed.
+        """Table with a row for each state: closed elements, ratio, step, efficiency, recirculating power, and link
+        speeds in units of the input speed.
         """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
@@ -192,7 +200,7 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """Return the input link and the output link of a gearbox; `QuestionError` if the train is not a gearbox."""
+    """Return the names of the input link and the output link; raise `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
         what = f"'{declared.name}' is not a gearbox"
         why = "a gearbox declares `clutches`, and `states` that engage them"
@@ -205,7 +213,7 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
         raise QuestionError(Problem(what, why, "declare a non-zero speed under `inputs`"))
     names = [name for name, each in case.outputs.items() if each.links(name, declared.frame)[0] != source]
     if output is None and not names:
-        what = f"'{declared.name}' has no output"
+        what = f"'{declared.name}' has no output other than its input"
         why = "a ratio is the speed of the input divided by the speed of an output"
         raise QuestionError(Problem(what, why, "declare the driven link under `outputs`"))
     if output is not None:
@@ -231,6 +239,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
         state,
         engaged,
         answer.verdict,
+        # with another link as the unit of speed, the input is at rest or undetermined
         1 / out if out and drive == source else None,
         None,
         drive,
@@ -253,6 +262,7 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
     """Return the torques while the input drives and a unit of power leaves at the output; None if undetermined."""
     found = solve_driven(train, link, source, state)
+    # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
@@ -298,6 +308,7 @@ def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
 
 
 def _with_step(state: GearState, following: GearState | None) -> GearState:
+    # a step from a forward to a reverse gear would be negative, and without meaning
     if following is None or state.ratio is None or following.ratio is None or state.ratio * following.ratio < 0:
         return state
     return replace(state, step=state.ratio / following.ratio)

@@ -34,7 +34,9 @@ def _refuse(*_: object, **__: object) -> NoReturn:
 
 
 class _Attributes(LazyDict):
-    """Attributes of a link or pair. Attributes of the train are read-only, others can be set."""
+    """Attributes of a node or edge of the graph. Attributes that describe the train are read-only; users can set
+    others.
+    """
 
     __slots__ = ()
     clear = popitem = _refuse
@@ -115,6 +117,7 @@ def _frozen(graph: Graph) -> Graph:
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
         setattr(graph, name, _refuse)
     for *_, data in (*graph.nodes(data=True), *graph.edges(data=True)):
+        # changed in place, because both ends of an edge refer to the same dict
         data.__class__ = _Attributes
     return graph
 
@@ -149,7 +152,9 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | PinMesh | None:
-        """Return the gear pair with teeth as driven in this state, or the pin with dimensions; None for other pairs."""
+        """Return the gear pair with teeth as driven in this state, or the pin with dimensions; None for a pair or
+        coupling without teeth or dimensions.
+        """
         return self._meshes.get(name)
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:

@@ -23,13 +23,13 @@ MOST_VARIANTS = 100_000_000  # 0.8 GB for each column of float64
 
 @dataclass(frozen=True)
 class TrainVariants(Tabular, Result):
-    """Speeds of outputs for combinations of tooth counts.
+    """Table of the speeds of outputs for combinations of tooth counts.
 
     `found["moon"]` returns the column of the output or wheel "moon".
 
     See Also
     --------
-    geartrain.GearTrain.variants : returns it.
+    geartrain.GearTrain.variants : Compute the table.
     """
 
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
@@ -42,7 +42,7 @@ class TrainVariants(Tabular, Result):
     """Tooth counts, one combination per row, shape (n, wheels); the last wheel varies fastest."""
     speeds: Floats
     """Speeds of the outputs [unit of the train], shape (n, outputs); nan if the train is locked or free, or if
-    the tooth counts do not satisfy a loop.
+    the tooth counts do not satisfy the condition of a closed loop.
     """
     errors: Floats
     """Bounds of the relative errors of the speeds, shape (n, outputs); infinite if no digit is certain."""
@@ -96,7 +96,7 @@ def find_variants(
     number = prod(map(len, choices.values()))
     if number > MOST_VARIANTS:
         what = f"{number:,} combinations of tooth counts are too many"
-        raise QuestionError(Problem(what, f"at most {MOST_VARIANTS:,} fit into memory", "pass fewer tooth counts"))
+        raise QuestionError(Problem(what, f"a table has at most {MOST_VARIANTS:,} rows", "pass fewer tooth counts"))
     formulas = find_formulas(declared, state, choices)
     names = tuple(name for name in (outputs or case.outputs) if name in formulas)
     grid = np.meshgrid(*(np.array(each, dtype=np.int64) for each in choices.values()), indexing="ij")
@@ -110,6 +110,7 @@ def find_variants(
         turns &= exclusion.values(columns) != 0
     for at, name in enumerate(names):
         found = formulas[name]
+        # the formulas also have values for trains that are locked or free
         speeds[:, at] = np.where(turns, found.values(columns), np.nan)
         errors[:, at] = found.accuracy(columns)
     table = np.stack([columns[wheel] for wheel in choices], axis=1) if choices else np.zeros((1, 0), dtype=np.int64)

@@ -115,6 +115,11 @@ SPELT = {
 }
 
 
+def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
+    """Return a validation error for a declaration, with its fix."""
+    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
+
+
 def scale(unit: str) -> tuple[str, Fraction]:
     """Return the dimension of a unit, and its size in base units."""
     return UNITS.get(unit) or IRRATIONAL[unit]

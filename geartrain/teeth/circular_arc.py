@@ -1,4 +1,4 @@
-"""Circular-arc clock teeth after British Standard 978, Part 2: radial flanks under tips that are arcs of circles.
+"""Circular-arc clock teeth after British Standard 978, Part 2: radial flanks under tips that consist of circular arcs.
 
 The wheel's addendum f is derived from the epicycloid that the arc replaces. A circle with half the diameter of the
 pinion's pitch circle rolls on the wheel's pitch circle. The epicycloid and its mirror image over a tooth half a pitch
@@ -28,14 +28,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from geartrain.numerics.quantity import Length
+from geartrain.numerics.quantity import Length, bad
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 from geartrain.teeth.tooth_form import (
     IDEAL,
     ShaftAngle,
     ToothForm,
     TwoFigures,
-    bad,
     check_above_0,
     check_one_of,
     in_modules,
@@ -51,7 +50,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
-_PRACTICAL, _ARC = 0.95, 1.40  # addendum of a wheel and radius of its arc, over f_a
+_PRACTICAL, _ARC = 0.95, 1.40  # addendum of a wheel and radius of its arc, divided by f_a
 _BOTTOM = 0.4  # modules: bottom clearance, depth of a space less addendum of the mate
 _FEWEST, _MOST_TEETH = 5, 10_000
 _THIN = {False: 1.05, True: 1.25}  # modules: thickness of leaves, up to and above ten leaves
@@ -67,8 +66,9 @@ def addendum_factor(z: int, ratio: float) -> float:
     """Return the factor f_a of a wheel's addendum [module]: the height above the pitch circle at which the epicycloid
     meets its mirror image.
 
-    The wheel drives a pinion of `z` leaves; `ratio` is the wheel's tooth count over the pinion's. The equations in the
-    module's docstring are solved by fixed-point iteration, which converges because the slope of b is below one.
+    The wheel drives a pinion of `z` leaves; `ratio` is the wheel's tooth count divided by the pinion's. The equations
+    in the module's docstring are solved by fixed-point iteration. It converges, because 2 u b increases more slowly
+    than t.
     """
     k, b, t = 1 + 2 * ratio, 0.0, 0.0
     # the count is only an upper limit, since the loop ends when t no longer changes
@@ -175,7 +175,7 @@ class CircularArc(ToothForm):
                 why = (
                     f"circular-arc teeth are computed for {_FEWEST} to {_MOST_TEETH} teeth (BS 978 begins at 6 leaves)"
                 )
-                raise refused(f"a wheel of {z} teeth has no circular-arc teeth", why, IDEAL)
+                raise refused(f"a wheel of {z} teeth cannot have circular-arc teeth", why, IDEAL)
         pinion = self.pinion or (1 if z1 < z2 else 2)
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
         factor, many = addendum_factor(zp, zw / zp), zp > 10
@@ -264,7 +264,7 @@ class CircularArc(ToothForm):
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
         """Return the mesh of a pair on parallel axes, with the first wheel driving.
 
-        Raises `GearTrainError` for internal gears and bevel wheels.
+        Raises `GearTrainError` for ring gears, and for wheels that are neither spur nor contrate.
         """
         from geartrain.teeth.contact.outline_mesh import OutlineMesh
 
@@ -280,9 +280,12 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of a pair, cached so that equal pairs of a long train are computed once."""
+    """Return the outlines of a pair at its centre distance [module], cached so that equal pairs of a train are computed
+    once.
+    """
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
+    # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash
     mean = (first.thickness + second.thickness) / 2
     return OutlineGears(first.outline(), second.outline(), distance, mean, pi - 2 * mean)
 
@@ -292,7 +295,7 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """Tooth with radial flanks and a tip of two circular arcs; all lengths in modules."""
+    """Sizes of one circular-arc tooth: radial flanks, and a tip of two equal arcs. Lengths are in modules."""
 
     z: int
     """Number of teeth of the wheel."""
@@ -319,12 +322,13 @@ class ArcTooth:
     def centre(self) -> tuple[float, float]:
         """Centre (x, y) of the arc on the side of positive x [module].
 
-        The centre line of the tooth is the y axis. The centre of the arc of a pointed tip is beyond it, at negative x.
+        The centre line of the tooth is the y axis. For a pointed tip the centre is on the other side of this line, at
+        negative x.
         """
         half = self.thickness / self.z
         x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
         chord = hypot(x, self.tip - y)
-        # on the perpendicular bisector of the chord; `far` is its distance from the chord over the chord's length
+        # on the perpendicular bisector of the chord; `far` is its distance from the chord divided by the chord's length
         far = sqrt(self.radius**2 - chord**2 / 4) / chord
         return x / 2 - far * (self.tip - y), (self.tip + y) / 2 - far * x
 
@@ -332,7 +336,8 @@ class ArcTooth:
     def fits(self) -> bool:
         """True if a tooth with these sizes exists.
 
-        The arc must extend from the pitch circle to the tip, rise monotonically, and leave a flank below it.
+        The arc must extend from the pitch circle to the tip, rise monotonically, and leave a flank between the arc and
+        the root circle.
         """
         half = self.thickness / self.z
         chord = hypot(self.z / 2 * sin(half), self.tip - self.z / 2 * cos(half))
@@ -374,7 +379,7 @@ class ArcTooth:
         """Yield the vertices (x, y, bulge) of one tooth from root to root [module]; the tooth's centre line is the x
         axis.
 
-        The bulge of an edge is the tangent of a quarter of its angle, so that circular arcs are exact.
+        The bulge of an edge is the tangent of a quarter of its arc's angle, so that circular arcs are exact.
         """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)
@@ -383,4 +388,5 @@ class ArcTooth:
         yield start * along, -start * across, tan(sweep / 4)
         yield self.tip, 0.0, tan(sweep / 4)
         yield start * along, start * across, 0.0
+        # the last edge is the bottom land, an arc about the axis up to the flank of the next tooth
         yield self.root * along, self.root * across, tan((pi / self.z - lean) / 2)

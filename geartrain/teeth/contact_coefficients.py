@@ -20,8 +20,7 @@ from pydantic import (
     model_validator,
 )
 
-from geartrain.numerics.quantity import Figure, Friction, parse_friction
-from geartrain.teeth.tooth_form import bad
+from geartrain.numerics.quantity import Figure, Friction, bad, parse_friction
 
 
 class CoulombFriction(BaseModel):

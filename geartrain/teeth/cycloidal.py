@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Figure
+from geartrain.numerics.quantity import Figure, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, check_above_0, check_one_of, refused
+from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, check_above_0, check_one_of, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -73,7 +73,7 @@ class Cycloidal(ConjugateToothForm):
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
             raise bad(
                 "rolling",
-                "a rolling circle as large as the pitch circle generates a dedendum of zero height",
+                "a rolling circle as large as the pitch circle or larger generates no dedendum",
                 "give a fraction below 1 (1/2 makes radial flanks, a larger one undercut flanks)",
             )
         if self.thickness is not None:
@@ -85,7 +85,9 @@ class Cycloidal(ConjugateToothForm):
             min(height.value for height in self.addendum) < 0 or not sum(height.value for height in self.addendum)
         ):
             raise bad(
-                "height", "an addendum is negative, or both are 0", "give modules, 0 or more, not 0 for both wheels"
+                "height",
+                "an addendum is negative, or both are 0",
+                "give addenda of 0 or more modules, not 0 for both wheels",
             )
         return self
 
@@ -97,12 +99,12 @@ class Cycloidal(ConjugateToothForm):
             raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -119,17 +121,20 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the radii of the rolling circles of approach and recess [module; half-angles in rad for bevels]."""
+        """Return the radii of the rolling circles of approach and recess [module; for bevels, half-angles of cones in
+        rad].
+        """
         if self.rolling is not None:
             if wheels.bevel:
                 raise refused(
                     "`rolling` does not apply to bevel pairs",
                     "their rolling circles are cones",
-                    "give rolling_fraction",
+                    "give `rolling_fraction` instead",
                 )
             first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
             return first, second
         first, second = (float(figure.value) for figure in self.rolling_fraction or (_HALF, _HALF))
+        # the dedendum of gear 1 works in approach, of gear 2 in recess; with a ring, both circles refer to the pinion
         return first * pitch.R1, second * (pitch.R1 if wheels.internal else pitch.R2)
 
     def _arcs(self, pitch: PitchSurfaces, circles: tuple[float, float]) -> tuple[float, float]:
@@ -145,7 +150,9 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X that ends at the tip of an addendum of `height` modules."""
+    """Return the arc of contact X that ends at the tip of an addendum of `height` modules [module; for bevels, rad on
+    the unit sphere].
+    """
     from math import asin, sin
 
     from geartrain.teeth.conjugate.closed_form_sides import circle_reach, cone_reach
@@ -153,6 +160,7 @@ def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, heigh
 
     if pitch.bevel:
         d, size = cone_reach(R, rho, R + cone_height(R, z, float(height))), sin(rho)
+        # arcs of a small circle on the sphere follow the formulas of a plane circle of radius sin(rho)
         chord = sin(d / 2)
     else:
         size = rho

@@ -3,7 +3,7 @@
 Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from the
 centre of the ring. The centre of a pin describes a shortened epitrochoid in the frame of the disc. The outline of the
 disc is offset inwards from that curve by the radius of a pin. Every contact normal passes through the pitch point. Half
-of all pins press at once, or fewer if there is a clearance (docs/reducers.md, (1) to (7)).
+of all pins press at once, or fewer if a clearance and the deflection of a pin are given (docs/reducers.md, (1) to (7)).
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth, LanternPins
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PairVerdict, motion_figures
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -156,8 +157,6 @@ class CycloidalDisc:
         docs/reducers.md (5).
 
         phase   angle of one pin from the line of centres (rad)
-
-        The shape is (pins, ...).
         """
         arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
@@ -198,11 +197,12 @@ class CycloidalDisc:
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
         """Return the load-weighted mean sliding speed divided by the pitch-line speed, and the power loss divided by
-        the friction coefficient.
+        the output power and by the friction coefficient.
 
         phase   angle of one pin from the line of centres (rad)
         """
         angles = self.angles(phase)
+        # distance of the contact from the pitch point times the relative angular velocity 2/z1 - 2/z2 = 2/(z1 z2)
         reach = (self.distance(angles) - self.pin) / (self.lobes / 2) / self.pins
         loads = self.loads(phase)
         lost = (loads * reach).sum(axis=0)
@@ -215,14 +215,15 @@ class CycloidalDisc:
 
     @property
     def loss(self) -> float:
-        """Mean power loss over a pitch, as a fraction of the power, divided by the friction coefficient."""
+        """Mean power loss over a pitch, divided by the output power and by the friction coefficient."""
         return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe about the x axis as a chain of chords that stay inside the lobe, so that the pins clear
-        it.
+        """Return one lobe about the x axis as chords that stay inside the lobe, so that the pins clear them.
+
+        `tolerance` is the maximum distance of a chord from the lobe [module]; 4096 chords are the maximum.
         """
         number = _MIN_CHORDS
         while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
@@ -234,6 +235,7 @@ class CycloidalDisc:
         # the outline begins at the bottom between two lobes
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
+        # the tip of a lobe is where the eccentricity of half a module adds to the radius of the pin circle
         tip = self.circle + 0.5 - self.pin - self.clearance
         return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
@@ -283,7 +285,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
     driver : {1, 2}
         1 if the disc drives, 2 if the ring drives.
     direction : {1, -1}
-        -1 for motion backwards, on the coast flanks.
+        1 for forward motion, -1 for backward motion, in which the coast flanks drive.
     """
 
     def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -315,6 +317,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S [rad]."""
+        # the load is given on the driven side, so the loss is added to the input power
         found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
         return found
 
@@ -349,7 +352,7 @@ def _range_text(fewest: int, most: int) -> str:
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Results of a disc in its ring of pins."""
+    """Results of a lobed disc in its ring of pins: the results of every pair, the sizes of the pins and their loads."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -377,7 +380,7 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Position of a lobe at angle 0 [pitches past the line of centres]: midway between two pins less half the
+        """Position of a lobe at angle 0, past the line of centres [pitch]: midway between two pins minus half the
         backlash.
         """
         return (1 - self.backlash) / 2

@@ -28,16 +28,14 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Forms that are compared by default, with one reading of each."""
+"""Names of the forms that are compared by default; forms with several readings have one of them here."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one form of a comparison: path of contact, losses and loads, or the faults that prevent it from
-    running.
-    """
+    """Result for one compared form: path of contact, losses and loads, or the faults of teeth that cannot run."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
@@ -46,7 +44,9 @@ class MeasuredForm(Result):
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
-    """Losses and loads divided by the values of the involute; None for teeth that cannot run."""
+    """Losses and loads divided by the values of the involute; None for the involute itself and for teeth that cannot
+    run.
+    """
     faults: tuple[ToothFault, ...] = ()
     """Faults that prevent the teeth from running, of kind "refused" if the form rejects the wheels."""
 
@@ -88,7 +88,7 @@ class FormComparison(Result):
     base: MeasuredForm
     """Result for the involute."""
     forms: tuple[MeasuredForm, ...]
-    """Results for the compared forms."""
+    """Results for the compared forms, and for an involute with contact in recess only if a form has such contact."""
 
     @property
     def path(self) -> PathOfContact:
@@ -144,7 +144,8 @@ def compare_forms(
     Returns
     -------
     FormComparison
-        Results of the involute, and for each other form its ratios, or the faults that prevent the form from running.
+        Results of the involute, and ratios or faults of each form. If a form has contact in recess only, the last
+        result is an involute with the same arcs.
 
     Raises
     ------
@@ -165,6 +166,7 @@ def compare_forms(
     if base.measures is None:
         raise _reference_error(base)
     found = [_form_result(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
+    # without this row, an advantage of the arcs would be attributed to the tooth form
     found += _recess_only_involute(found, wheels, arcs, angle, base.measures)
     models = [model for name, (model, _) in known.items() if name in names]
     return FormComparison((int(wheels.z1), int(wheels.z2)), _matched_text(models, arcs), base, tuple(found))
@@ -190,11 +192,13 @@ def _check(
     for name in names:
         if name not in known:
             fix = suggest(name, list(known), otherwise=f"give one or more of: {', '.join(known)}", wide=True)
-            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix))
+            raise QuestionError(
+                Problem(f"'{name}' is not a tooth form that can be compared", "only conjugate forms are compared", fix)
+            )
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
-        why = "teeth of uniform stress are not determined by pressure angles of 45 deg or more"
+        why = "a pressure angle of 45 deg or more does not determine teeth of uniform stress"
         fix = "give an angle between 0 and 45 deg, such as 20 deg"
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "pressure_angle"))
 
@@ -202,7 +206,7 @@ def _check(
 def _reference_error(base: MeasuredForm) -> QuestionError:
     """Return the error for a reference involute that cannot run.
 
-    Fixes that change its pressure angle are omitted, because that angle is given.
+    Fixes that change the pressure angle are omitted, because the reference has 20 degrees by definition.
     """
     what = "the 20 deg involute, the reference of the comparison, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
@@ -239,9 +243,9 @@ def _recess_only_involute(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> Iterator[MeasuredForm]:
-    """Yield the involute with the arcs of the first form that has contact in recess only.
+    """Yield the involute with the arcs of the first form whose contact is in recess only; nothing without such a form.
 
-    It separates the effect of these arcs from the effect of the form.
+    The comparison with this involute separates the effect of the arcs from the effect of the form.
     """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:

@@ -17,10 +17,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-from geartrain.numerics.quantity import Figure, Quantity, Velocity
+from geartrain.numerics.quantity import Figure, Quantity, Velocity, bad
 from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import root
-from geartrain.teeth.tooth_form import bad
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -40,8 +39,8 @@ SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 def buckingham_constants() -> tuple[float, float, float]:
     """Return the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
 
-    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) of the lower speed and q = sqrt(V2/V1), the two other
-    values give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
+    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) and q = sqrt(V2/V1), the coefficients mu1 and mu2 at the
+    speeds V1 < V2 give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
     """
     (_, rest), (slow, low), (fast, high) = BUCKINGHAM
     q = sqrt(fast / slow)
@@ -62,7 +61,7 @@ def _positive(value: Any) -> Any:
 
 def _not_negative(value: Any) -> Any:
     if value.value < 0:
-        raise bad("friction", f"{value.text} is below 0", "give 0 or more")
+        raise bad("friction", f"a value of {value.text} is below 0", "give 0 or more")
     return value
 
 
@@ -233,10 +232,14 @@ class TabulatedFriction(FrictionLaw):
             raise bad(
                 "friction",
                 "speeds and coefficients do not form a table",
-                "give as many coefficients as speeds, two or more",
+                "give as many coefficients as speeds, at least two of each",
             )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise bad("friction", "the speeds are not in rising order from 0 or more", "give them in rising order")
+            raise bad(
+                "friction",
+                "the speeds are not in rising order from 0 or more",
+                "list the speeds in rising order, from 0 or more",
+            )
         return self
 
     @property
@@ -273,11 +276,10 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a
-    mapping.
+    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a mapping
+    as in a declaration.
 
-    Return it as a declaration has it. Values of a column of a table are separated by colons. Any other input is
-    returned unchanged.
+    The values of a table column are separated by colons. Input that does not begin with a name is returned unchanged.
     """
     parts = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):
@@ -290,12 +292,12 @@ def law_of_text(raw: object) -> object:
 
 
 FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
-"""Field type: friction law as a mapping in a declaration or as the text of an option."""
+"""Field type: friction law as a mapping in a declaration, or as the string of an option."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """Friction law of a pair with known pitch-line speed, as a function of the sliding speed divided by that speed.
+    """Friction law of a pair at a known pitch-line speed, as a function of sliding speed divided by pitch-line speed.
 
     Examples
     --------

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
-from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, PairSize
+from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
-    from geartrain.teeth.tooth_form import ToothForm
-    from geartrain.teeth.transmission import ToothTransmission, TransmissionFunction
+    from geartrain.teeth.tooth_transmission import ToothTransmission
+    from geartrain.teeth.transmission import TransmissionFunction
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class GearMesh(Shown, ABC):
 
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
-    tooth_form: ToothForm
+    tooth_form: NamedForm
     """Tooth form of the pair."""
     who: MeshDriver
     """Name of the driving wheel, and how the driver was determined."""
@@ -150,7 +150,7 @@ class GearMesh(Shown, ABC):
         return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth. The texts do not mention the pair or its file."""
+        """Yield all faults of these teeth. The messages do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
@@ -340,6 +340,7 @@ class GearMesh(Shown, ABC):
     @property
     def backlash(self) -> float:
         """Backlash of the teeth [pitch]."""
+        # the period times the ratio is the angular pitch of the driven wheel
         return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
 
     @property
@@ -354,12 +355,14 @@ class GearMesh(Shown, ABC):
 
     @property
     def has_friction(self) -> bool:
-        """True if these teeth have friction losses."""
+        """True if a coefficient of friction above 0 or a friction law is declared."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
     @property
     def friction_words(self) -> str:
-        """Sentence on the friction of the pair at its pitch-line speed."""
+        """Statement of the friction of the pair, without a full stop: the coefficient, or the friction law, its mean
+        coefficient and the pitch-line speed if that speed is known.
+        """
         declared, at = self.wheels.friction_law, self.wheels.pitch_line
         if declared is None:
             return f"Coefficient of friction {self.transmission.friction:g}"
@@ -397,9 +400,9 @@ class GearMesh(Shown, ABC):
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
-        """Mean efficiency with the actual driver and with the other wheel driving, as texts.
+        """Mean efficiency with the actual driver and with the other wheel driving, as strings.
 
-        Both texts are "-" if no friction is declared or the pair jams.
+        Both strings are "-" if the losses cannot be computed or the teeth cannot run.
         """
         if not self.tells_losses or not self.verdict:
             return "-", "-"
@@ -439,5 +442,6 @@ def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
             always = all(fault in other for other in said)
             label = way.label if always else f"{way.label}, '{way.driver}' driving"
             placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
+            # a fault that occurs with both drivers has the same label twice, and is listed once
             found += [] if placed in found else [placed]
     return tuple(found)

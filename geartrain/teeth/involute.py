@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Angle
+from geartrain.numerics.quantity import Angle, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, check_above_0, refused
+from geartrain.teeth.tooth_form import TwoFigures, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,7 +47,7 @@ class Involute(ConjugateToothForm):
     """
 
     any_distance: ClassVar[bool] = True
-    more_contact: ClassVar[str] = "take more teeth, taller ones, or a smaller pressure angle"
+    more_contact: ClassVar[str] = "use more teeth, larger addenda, or a smaller pressure angle"
 
     form: Literal["involute"] = Field(description="Name of the tooth form")
     pressure_angle: Angle = Field("20 deg", validate_default=True, description="Pressure angle of the rack")
@@ -70,8 +70,8 @@ class Involute(ConjugateToothForm):
     )
     proportions: Literal["full", "deep", "stub"] | None = Field(
         None,
-        description="Named addendum and dedendum, instead of the two, in modules: full has 1 and 1.25 (ISO 53 A), deep "
-        "1 and 1.4, stub 0.8 and 1",
+        description="Named proportions instead of `addendum` and `dedendum`, in modules: full 1 and 1.25 (ISO 53 A), "
+        "deep 1 and 1.4, stub 0.8 and 1",
     )
 
     @model_validator(mode="before")
@@ -115,7 +115,7 @@ class Involute(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
@@ -227,7 +227,8 @@ class Involute(ConjugateToothForm):
             if distance <= minimum:
                 raise refused(
                     f"a centre distance of {distance:.6g} modules is too short for these involutes",
-                    f"their base circles need more than {minimum:.6g}; without profile shift it is {wheels.distance:g}",
+                    f"their base circles require more than {minimum:.6g}; the distance without profile shift is "
+                    f"{wheels.distance:g}",
                     "give a longer centre_distance or a larger pressure_angle",
                 )
         thinned = wheels.modules(self.backlash, "backlash")
@@ -242,6 +243,7 @@ class Involute(ConjugateToothForm):
         add, mate, ded, shift = (float(figure.value) * flat for figure in figures)
         z, ring = wheels.z2 if at else wheels.z1, bool(at and wheels.internal)
         psi = atan(tan(self.pressure_angle.si) / flat)
+        # the flank of the rack is straight as deep as the addendum of the mate; its fillet is below
         return InvoluteWheel(z, psi, shift, add, ded, min(mate, ded), ring)
 
     def _spur(self, wheels: WheelPair) -> ConjugatePair:
@@ -260,7 +262,9 @@ class Involute(ConjugateToothForm):
 
         if sum(figure.value for figure in self.shift):
             raise refused(
-                "the shifts of a bevel pair do not sum to 0", "the shaft angle fixes their pitch cones", _PAIR
+                "the shifts of a bevel pair do not sum to 0",
+                "the shaft angle fixes the pitch cones of both wheels",
+                _PAIR,
             )
         if self.centre_distance is not None:
             raise refused("bevel wheels have no centre distance", "their axes intersect", "remove `centre_distance`")
@@ -272,9 +276,10 @@ class Involute(ConjugateToothForm):
             tip = R + cone_height(R, z, height)
             if not base_cone(R, psi) <= tip < pi:
                 raise refused(
-                    f"the tips of wheel {at + 1} do not lie beyond its base cone",
-                    f"they are {height:g} modules above its pitch cone",
-                    "give it a larger addendum or a smaller negative shift",
+                    f"the tip cone of wheel {at + 1} is out of range",
+                    f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below "
+                    "180 deg",
+                    "give the wheel an addendum near 1 and a shift near 0",
                 )
             arcs.append(spherical_arc(R, psi, tip))
         # one arc may be negative, if its contact ends on the other side of the pitch point

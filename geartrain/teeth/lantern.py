@@ -98,7 +98,7 @@ class Lantern(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
@@ -121,6 +121,7 @@ class Lantern(ConjugateToothForm):
         start = flank_start(R, A, B, mate)
         outside, inside = self._arcs(pitch, R, A, B, mate, start)
         sides = lantern(R, A, B, outside), lantern(R, A, B, inside, inside=True)
+        # on the dedendum, contact is limited to the flank that the approaching pins have not cut away
         real = outside, min(inside, -start)
         pin = pin_angle(R, A, B) * R
         # pin, tooth and backlash together are one pitch
@@ -149,6 +150,7 @@ class Lantern(ConjugateToothForm):
             Other parameters of the form.
         """
         usual = conjugate_pair_of(cls.declared(given), wheels)
+        # a negative arc of approach is the part of the recess that the pins cut off
         lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _CUT_MARGIN
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
@@ -198,8 +200,8 @@ class Lantern(ConjugateToothForm):
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact passes the pitch "
-                "point",
+                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact occurs at the "
+                "pitch point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
         # chord between the centres of two adjacent pins

@@ -1,4 +1,4 @@
-"""Teeth of minimum friction for a given maximum pressure angle, and the extremal that the source prints."""
+"""Teeth of minimum friction loss for a given maximum pressure angle, and the extremal printed in W. D. Smith (1993)."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Angle, Figure, Quantity
+from geartrain.numerics.quantity import Angle, Figure, Quantity, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.friction_law import FrictionLawOfText, PairFriction, PositiveVelocity
-from geartrain.teeth.tooth_form import TwoFigures, bad
+from geartrain.teeth.tooth_form import TwoFigures
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,16 +27,16 @@ _MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of minimum friction, with a constant pressure angle near the pitch point and the minimum contact speed
+    """Teeth of minimum friction loss: a constant pressure angle near the pitch point, and the minimum contact speed
     further out.
 
-    `margin` is the minimum speed of the contact along the dedendum. `literal` selects the extremal printed in the
-    source instead: its pressure angles exceed 45 deg, it does not include the pitch point, and it cannot be used as a
-    pair (docs/sources.md).
+    `margin` is the minimum speed of the contact along the dedendum divided by the pitch-line speed. `literal` selects
+    the extremal printed in the source instead: its pressure angles exceed 45 deg, it does not include the pitch point,
+    and it cannot be used as a pair (docs/sources.md).
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : the other optima of the same source.
+    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : other optimal tooth forms of the same source.
 
     Examples
     --------
@@ -122,12 +122,12 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
@@ -144,7 +144,7 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return a function for the loss density mu S, up to a factor, at the distance d from the pitch point.
+        """Return the function of the distance d from the pitch point that gives the loss density mu S, up to a factor.
 
         Return None if friction is the same at every contact.
         """
@@ -154,6 +154,7 @@ class LeastFriction(ConjugateToothForm):
 
         def weight(d: Floats) -> Floats:
             S = pitch.S(d)
+            # (A + B) |S| is the sliding speed divided by the pitch-line speed
             found: Floats = by((pitch.A + pitch.B) * abs(S)) * S
             return found
 

@@ -1,4 +1,4 @@
-"""The two wheels of a gear pair as a train declares them, and the one that drives."""
+"""The two wheels of a gear pair as a train declares them, and the driving wheel."""
 
 from __future__ import annotations
 
@@ -25,6 +25,22 @@ class DeclaredPair(Protocol):
     @property
     def fitting(self) -> Any:
         """Mounting accuracy of the pair; None if the accuracy declared for the train applies."""
+
+
+class NamedForm(Protocol):
+    """Attributes of a tooth form that its mesh uses."""
+
+    @property
+    def form(self) -> str:
+        """Name of the form."""
+
+    @property
+    def words(self) -> str:
+        """Name of the form as it appears in sentences."""
+
+    @property
+    def has_lengths(self) -> bool:
+        """True if the form declares a length with a unit."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +74,7 @@ class MeshingWheels:
     internal: tuple[bool, bool] = (False, False)
     """True for each wheel that is a ring."""
     friction: float | None = None
-    """Coefficient of friction; None if none is declared."""
+    """Coefficient of friction; None if no friction or a friction law is declared."""
     distance: float | None = None
     """Half the sum of transverse module times tooth number of both wheels [m]; None unless both modules have a unit."""
     friction_law: FrictionLaw | None = None
@@ -79,6 +95,7 @@ class MeshingWheels:
     def pitch_distance(self) -> float | None:
         """Centre distance at which the declared pitch circles touch [m]; None without declared lengths."""
         z1, z2 = self.counts
+        # `distance` belongs to the sum of the tooth numbers, also for a ring
         return (
             self.distance
             if self.distance is None or not any(self.internal)
@@ -103,13 +120,13 @@ class MeshingWheels:
 
     @property
     def note(self) -> str:
-        """Note on a wheel that is treated as another kind; empty otherwise."""
+        """Note on a contrate wheel, which is treated as a spur wheel; empty without such a wheel."""
         return _CONTRATE if "contrate" in self.kinds else ""
 
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Scale and centre distance of a pair with real teeth."""
+    """Size of a pair with real teeth: scale of its lengths and centre distance, from which layouts place its wheels."""
 
     scale: float
     """Number of modules in one length unit of the teeth."""

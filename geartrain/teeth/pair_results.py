@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair over a period: the driven speed divided by the driver speed, always positive.
+    """Speed ratio of a pair over a period: the driven speed divided by the driver speed, without the sign of an
+    external mesh. It is negative only while a pin follower moves backwards.
 
     See Also
     --------
@@ -111,7 +112,7 @@ class TransmissionError(Result):
 
     @property
     def text(self) -> str:
-        """Peak-to-peak transmission error in degrees, as text."""
+        """Peak-to-peak transmission error in degrees, as a string."""
         return f"{degrees(self.peak_to_peak):.6g}"
 
 
@@ -177,7 +178,7 @@ class SlidingEfficiency(Result):
 
     @property
     def text(self) -> str:
-        """Mean efficiency as text, or "locks"."""
+        """Mean efficiency as a string, or "locks"."""
         return "locks" if self.mean is None else f"{self.mean:.6f}"
 
 
@@ -191,7 +192,7 @@ def _gear_or_none(gear: int) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class ToothFault(Result):
-    """Fault that prevents teeth from running."""
+    """Fault that prevents the teeth of a pair from running, with its cause and remedy; part of a verdict."""
 
     KEYS = ("kind", Key("gear", to=_gear_or_none), "what", "why", "fix")
 
@@ -200,13 +201,14 @@ class ToothFault(Result):
     gear: int
     """Number of the faulty gear, 1 or 2; 0 for the pair as a whole."""
     X: float
-    """Arc X on the pitch surfaces at which the fault begins [module]; NaN for the pair as a whole."""
+    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN if no position applies.
+    """
     what: str
-    """Text that states the fault."""
+    """Statement of the fault."""
     why: str
-    """Text that states its cause."""
+    """Statement of the cause."""
     fix: str
-    """Text that states its remedy."""
+    """Statement of the remedy."""
 
     @property
     def problem(self) -> Problem:
@@ -220,7 +222,7 @@ class PairVerdict(Result):
 
     See Also
     --------
-    geartrain.teeth.GearMesh : its `verdict`.
+    geartrain.teeth.GearMesh : its property `verdict`.
 
     Examples
     --------
@@ -277,19 +279,22 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the problem of teeth that lock at the coefficient `friction`, because it is at least `locking`."""
+    """Return the problem of teeth that lock because the coefficient `friction` is at least the limit `locking`."""
     return Problem(
         f"a friction of {friction:g} locks these teeth",
-        f"at {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
+        f"at a friction of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
         f"give a friction below {locking:.4g}, or let the other wheel drive",
     )
 
 
 def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
-    """Return the problem of teeth that lock under a friction law at their speed."""
+    """Return the problem of teeth that lock under the friction law named `transmission`, at their speed.
+
+    `locking` is the minimum constant coefficient of friction that locks the teeth.
+    """
     return Problem(
         f"the friction law '{transmission}' locks these teeth at this speed",
-        f"the driver cannot overcome the sliding friction at some angle, as with a constant friction of {locking:.6g}",
+        f"the driver cannot overcome the sliding friction at some angle; the limit is a coefficient of {locking:.6g}",
         "give a law with less friction or another speed, or let the other wheel drive",
     )
 
@@ -299,7 +304,7 @@ def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
 
 @dataclass(frozen=True)
 class PinFigures(Result):
-    """Results of a pin in a slot."""
+    """Results of one pin coupling with one of its sides driving: dimensions, motion and efficiency."""
 
     pin_radius: float
     """Distance of the pin from its axis [m, or the unit of the declared lengths]."""
@@ -330,7 +335,7 @@ def pin_figures(transmission: PinTransmission) -> PinFigures:
 
 @dataclass(frozen=True)
 class PairFigures(Result):
-    """Results of one pair with one of its wheels driving. A tooth form may add its own."""
+    """Results of one pair with one of its wheels driving. Tooth forms with further results have a subclass."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
         *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
@@ -350,7 +355,7 @@ class PairFigures(Result):
 
     @property
     def error_text(self) -> str:
-        """Peak-to-peak transmission error in degrees, as text; "-" for teeth that cannot run."""
+        """Peak-to-peak transmission error in degrees, as a string; "-" for teeth that cannot run."""
         return self.transmission_error.text if self.transmission_error else "-"
 
 
@@ -363,7 +368,9 @@ def motion_figures(
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table and the row of one pair. `wide` is True for a table as wide as the page."""
+    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table as wide as the
+    page.
+    """
 
     header: tuple[str, ...]
     row: tuple[str, ...]
@@ -372,7 +379,7 @@ class AccountTable:
 
 @dataclass(frozen=True)
 class PairAccount:
-    """Report of one pair with one of its wheels driving."""
+    """Report of one pair with one of its wheels driving: tables as text, and results for JSON."""
 
     words: str
     """Text that explains the tables of all pairs of this kind."""

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.quantity import Length, Quantity
+from geartrain.numerics.quantity import Length, Quantity, bad
 from geartrain.teeth.contact_coefficients import DeclaredCoulombFriction, DeclaredRestitution
-from geartrain.teeth.tooth_form import bad, check_above_0
+from geartrain.teeth.tooth_form import check_above_0
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
 
 
 def _integer(raw: object) -> object:
-    """Convert decimal text to an integer, since a declaration gives numbers as text."""
+    """Convert a decimal string to an integer, since a declaration gives numbers as strings."""
     return int(raw) if isinstance(raw, str) and raw.isdecimal() else raw
 
 
@@ -35,7 +35,7 @@ def _not_negative(length: Quantity) -> Quantity:
 
 
 class _Coupling(BaseModel):
-    """Coupling of two links by pins."""
+    """Coupling of two links by a pin or pins as declared, base class of all kinds."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
@@ -155,7 +155,10 @@ Coupling = Annotated[PinAndSlot | PinFollower | PinsInHoles | Parallel, Field(di
 
 
 def winding_number(kind: str) -> int:
-    """Return the mean speed ratio, slot over pin, in the carrier's frame: 0 for kind "pin_follower", otherwise 1."""
+    """Return the mean speed of the slot divided by the speed of the pin, in the frame of the carrier.
+
+    The value is 0 for kind "pin_follower", otherwise 1.
+    """
     return 0 if kind == "pin_follower" else 1
 
 
@@ -168,9 +171,10 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
         raise bad("pin", what, "give a pin_radius above 0 and an offset of 0 or more")
     # an offset of 0 needs no unit
     if offset.value and (radius.unit is None) != (offset.unit is None):
-        mixed = "mix a number without a unit and a length with a unit"
+        mixed = "have a unit in one value only"
         what = f"pin_radius {radius.text} and offset {offset.text} {mixed}"
         raise bad("pin", what, "give both with a unit, or both without")
+    # compared as exact fractions, so that equal lengths in different units are recognised
     r, e = radius.base, offset.base
     # the slot would reverse its direction at that moment
     if r == e:

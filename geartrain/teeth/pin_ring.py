@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
-from geartrain.numerics.quantity import Length, Quantity
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, check_above_0, in_modules, refused
+from geartrain.numerics.quantity import Length, Quantity, bad
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, check_above_0, in_modules, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.cycloidal_disc import CycloidalDisc, DiscTransmission
@@ -24,8 +24,9 @@ _PIN_SPACING = 1.7  # default distance between two pins divided by the diameter 
 class PinRing(ToothForm):
     """Lobed disc of a cycloidal reducer in a ring of round pins, which has one pin more than the disc has lobes.
 
-    The speed ratio is constant, and half of all pins carry load. The centre of the disc is half a module from the
-    centre of the ring, so that the module is twice the eccentricity (docs/reducers.md).
+    The speed ratio is constant. Half of all pins carry load, or fewer if `clearance` and `deflection` are given. The
+    centre of the disc is half a module from the centre of the ring, so that the module is twice the eccentricity
+    (docs/reducers.md).
 
     See Also
     --------
@@ -45,12 +46,12 @@ class PinRing(ToothForm):
     pin_circle: Length | None = Field(
         None,
         description="Radius of the circle through the pins' centres, in modules or with a unit; default the ring's "
-        "pitch radius over 0.7",
+        "pitch radius divided by 0.7",
     )
     pin_diameter: Length | None = Field(
         None,
-        description="Diameter of the pins, in modules or with a unit; default the distance between two pins over 1.7, "
-        "or less if these would undercut the lobes",
+        description="Diameter of the pins, in modules or with a unit; default the distance between two pins divided "
+        "by 1.7, or less if such pins would undercut the lobes",
     )
     clearance: Length = Field(
         "0",
@@ -115,6 +116,7 @@ class PinRing(ToothForm):
                 "give a larger pin_circle, or a smaller module (twice the eccentricity)",
             )
         apart = 2 * circle * sin(pi / pins)
+        # the curve of the pin centres, and so its curvature, does not depend on the pin radius
         found = CycloidalDisc(lobes, circle, 0.0)
         # a margin of 10 % keeps the default pins from undercutting the lobes
         usual = min(apart / _PIN_SPACING / 2, 0.9 * found.sharpest)
@@ -122,14 +124,15 @@ class PinRing(ToothForm):
         if 2 * pin >= apart:
             raise refused(
                 f"pins of {2 * pin:.6g} modules touch each other",
-                f"on their circle they are {apart:.6g} modules apart",
+                f"their centres are {apart:.6g} modules apart",
                 f"give a pin_diameter below {apart:.5g} modules",
             )
         back = self._modules("clearance", module)
         if pin + back >= found.sharpest:
             raise refused(
                 f"pins of {2 * pin:.6g} modules undercut the lobes",
-                f"the path of their centres has a minimum radius of curvature of {found.sharpest:.6g} modules",
+                f"the path of their centres has a minimum radius of curvature of {found.sharpest:.6g} modules, "
+                "and the pin radius and the clearance together must be smaller",
                 f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a larger pin_circle",
             )
         yielding = None if self.deflection is None else self._modules("deflection", module)
@@ -197,7 +200,9 @@ class PinRing(ToothForm):
         return DiscMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply: a clearance above 0."""
+        """Return the reason why the backlash of the manufacturing options does not apply: a declared clearance above 0;
+        None without one.
+        """
         return super().own_backlash(pair) if self.clearance.value else None
 
     def thinned(self, backlash: Quantity) -> PinRing:
@@ -211,7 +216,8 @@ class PinRing(ToothForm):
         Returns
         -------
         PinRing
-            Copy with this `clearance`.
+            Copy whose `clearance` is half the backlash.
         """
+        # both flanks are set back, so the backlash is twice the clearance
         half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
         return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

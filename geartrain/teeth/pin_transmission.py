@@ -1,6 +1,6 @@
 """Transmission functions of a pin in a slot, with the pin at radius r and the two axes at the distance e.
 
-The driver's angle S is measured from the direction that points from the pin's axis to the slot's.
+The driver's angle S is measured from the direction that points from the pin's axis to the slot's axis.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ if TYPE_CHECKING:
 
 
 _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflows nor overflows
-# the mean of a smooth periodic function over equidistant samples is exact to rounding unless r is close to e
+# the mean of a smooth periodic function over equidistant samples is exact to rounding error unless r is close to e
 _SAMPLES = 4096
 
 
 def log_share(r: float, e: float) -> float:
     """Return ln((r + e)/(r - e))/pi for r > e.
 
-    This is the increase of the mean of 1/eta over the *slot's* turn per unit of friction, with the efficiency
-    eta = 1/(1 + f |tan d|). The angle between pin radius and slot is d, with sin d = (e/r) sin psi.
+    This is the increase of the mean of 1/eta over a turn of the *slot* per unit of friction, with the efficiency
+    eta = 1/(1 + f |tan d|). The angle between pin radius and slot is d, with sin d = (e/r) sin psi at slot angle psi.
     """
     return log((r + e) / (r - e)) / pi
 
@@ -67,7 +67,7 @@ class PinTransmission(TransmissionFunction):
 
     @property
     def amplitude(self) -> float:
-        """Maximum transmission error [rad], equal for both sides: arcsine of the smaller over the larger of r and e."""
+        """Maximum transmission error [rad], equal for both driving sides: arcsin(min(r, e) / max(r, e))."""
         less, more = min(self.r, self.e), max(self.r, self.e)
         # asin would lose half its digits near r = e
         return atan2(less, sqrt((more - less) * (more + less)))
@@ -83,6 +83,7 @@ class PinTransmission(TransmissionFunction):
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error, which is 0, and its rms deviation [rad]."""
+        # the error is an odd function of S, so its mean is 0 without computation
         error = self.error(self._turn_samples())
         return 0.0, sqrt(float(np.mean(error**2)))
 
@@ -96,7 +97,7 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
         raise RangeError(
             Problem(
                 f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range",
-                f"both are between {_MINIMUM:g} and {1 / _MINIMUM:g}, and the offset may be 0",
+                f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0",
                 "give a pin radius above 0 and an offset of 0 or more",
             )
         )
@@ -218,14 +219,14 @@ class PinToSlotTransmission(PinTransmission):
     def efficiency_at_constant_load(self) -> float:
         """Return the efficiency 1/(1 + (f/pi) ln((r + e)/(r - e))) at constant torque on the slot; NaN for a follower.
 
-        Without friction, the work of a constant torque on a follower is 0 over a swing.
+        The work of a constant torque on a follower is 0 over a complete oscillation.
         """
         return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
 
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r.
 
-        The minimum is 0 for a follower with friction, which has dead points.
+        For a follower, the minimum is 0 with friction, because of the dead points, and 1 without friction.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -319,7 +320,7 @@ class SlotToPinTransmission(PinTransmission):
         """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot at constant torque on the
         slot.
 
-        The mean is NaN if friction locks the pin at some angle.
+        The mean is NaN if friction locks the pin at any angle.
         """
         return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
 

@@ -1,4 +1,4 @@
-"""Losses of a pair whose friction depends on the sliding speed of its teeth, for any tooth form."""
+"""Losses of a pair whose friction depends on the sliding speed or the pitch-line speed, for any tooth form."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _END = 1e-9  # of an interval: distance from its ends at which the efficiency is
 
 
 class _Nodes(NamedTuple):
-    """Quadrature nodes: driver angles [rad], weights, efficiency and mean coefficient of friction at each."""
+    """Quadrature nodes: driver angle [rad], weight, efficiency and mean coefficient of friction of each node."""
 
     S: Floats
     weights: Floats
@@ -117,6 +117,7 @@ class RubbedTransmission(DerivedTransmission):
     @property
     def locks(self) -> bool:
         """True if friction locks the pair at some driver angle."""
+        # NaN of a pair that no constant friction locks is not due to friction
         return self.transmission.locking_friction < inf and bool(np.isnan(self._period_nodes.efficiency).any())
 
     @cached_property
@@ -139,7 +140,7 @@ class RubbedTransmission(DerivedTransmission):
     def _adaptive_nodes(self, whole: _Nodes, low: float, high: float, depth: int = 0) -> Iterator[_Nodes]:
         """Yield quadrature nodes of one interval by adaptive Gauss-Legendre quadrature.
 
-        The interval is bisected until the input work at constant load is integrated to rounding error.
+        The interval is bisected, at most 40 times, until the integral of 1/efficiency is accurate to 1e-12 periods.
         """
         middle = (low + high) / 2
         ends = ((low, middle), (middle, high))
@@ -186,8 +187,9 @@ class RubbedTransmission(DerivedTransmission):
 
 
 def rubbed(transmission: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
-    """Return the transmission function with the declared friction law, or unchanged if friction does not depend on
-    speed.
+    """Return the transmission function with the losses of the declared friction law.
+
+    The function is returned unchanged if no friction law is declared or the pitch-line speed is unknown.
     """
     by = pair_friction(wheels)
     return transmission if by is None else RubbedTransmission(transmission, by)

@@ -1,7 +1,7 @@
-"""Standard teeth for pairs that declare none: involutes without profile shift, with the largest addendum that suits all
-mates.
+"""Standard teeth for pairs that declare no tooth form: involutes without profile shift.
 
-Drawings, the viewer, layouts and exports of wheels use them.
+Each wheel has the largest addendum, up to 1 module, with which it runs with all its mates. Drawings, the viewer,
+layouts and exports of wheels use standard teeth.
 """
 
 from __future__ import annotations
@@ -85,6 +85,7 @@ def _design(
         heights = [_tallest(*_ring_last(gears[name], gears[mate]), angle) for mate in mates[name]]
         if None in heights:
             return None
+        # the mate with the lowest limit decides, since a wheel has one addendum
         addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
     # each addendum is the minimum over all mates of a wheel, so that pairs must be checked with both addenda
     for first, second in edges:
@@ -115,7 +116,9 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel without a mate: an equal wheel, or for a ring gear a pinion with half its teeth."""
+    """Return a mate for a wheel without a mate: an equal wheel, or for a ring gear a pinion with half as many teeth,
+    rounded down.
+    """
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 

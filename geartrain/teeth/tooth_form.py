@@ -7,10 +7,9 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity
+from geartrain.numerics.quantity import Figure, Length, PairDamping, PairStiffness, Quantity, bad
 from geartrain.numerics.results import summary_line, values_summary
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ def twice(raw: object) -> object:
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as strings."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -66,7 +65,7 @@ class ToothForm(BaseModel, ABC):
     """
 
     more_contact: ClassVar[str] = "declare longer `arcs`"
-    """Text of a fix that increases the contact ratio."""
+    """Fix that increases the contact ratio, as part of a message."""
 
     ringed: ClassVar[bool] = False
     """True for teeth whose second wheel is a ring gear."""
@@ -107,7 +106,7 @@ class ToothForm(BaseModel, ABC):
         Raises
         ------
         GearTrainError
-            For invalid parameters. Its place is the name of the parameter if only one is at fault.
+            If a parameter is invalid. The place of each problem is the name of the parameter, if only one is at fault.
         """
         (form,) = get_args(cls.model_fields["form"].annotation)
         try:
@@ -120,13 +119,14 @@ class ToothForm(BaseModel, ABC):
     def _problem(cls, item: Any) -> Problem:
         """Return a validation error of pydantic as a problem, with the fix that the form gives, if any."""
         context = item.get("ctx") or {}
+        # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
         what = item["msg"] if "fix" in context else f"'{item['input']}' is not a valid value"
         return Problem(what, "", str(context.get("fix", "")), str(place))
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the parameters with a default for each required one that is missing.
+        """Return the parameters, supplemented by a default for each missing parameter that the form requires.
 
         Parameters
         ----------
@@ -193,6 +193,7 @@ class ToothForm(BaseModel, ABC):
             None if the backlash can be applied.
         """
         for name in self.own_play:
+            # a default value is not a declaration, and --backlash may replace it
             given = getattr(self, name) if name in self.model_fields_set else None
             if given is not None:
                 text = " and ".join(each.text for each in given) if isinstance(given, tuple) else given.text
@@ -212,14 +213,9 @@ class ToothForm(BaseModel, ABC):
         Returns
         -------
         ToothForm
-            A copy with this backlash.
+            Copy with this backlash, or this form unchanged.
         """
         return self.model_copy(update={"backlash": backlash}) if "backlash" in self.own_play else self
-
-
-def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """Return a validation error for a declaration, with its fix."""
-    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from itertools import pairwise
 from math import degrees, inf
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.pair_results import PairVerdict
 
 
 _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
@@ -44,7 +43,9 @@ def check_friction(friction: float) -> float:
 
 
 class SpeedLeap(NamedTuple):
-    """Step of the speed ratio at an impact of teeth: the ratio before it, and the larger ratio after it."""
+    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after the
+    impact.
+    """
 
     before: float
     after: float
@@ -169,7 +170,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angle at constant driver torque; NaN if the pair is locked."""
+        """Return the mean efficiency over driver angles at constant driver torque; NaN if friction locks the pair."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
@@ -201,7 +202,7 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ContactRubbing
-            Sliding speed and shares of power, of shape (contacts, *shape of S).
+            Sliding speed and friction terms of input and output power, of shape (contacts, *shape of S).
 
         Raises
         ------
@@ -226,9 +227,10 @@ class TransmissionFunction(Shown, ABC):
         return []
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the intervals of driver angle between the kinks of one period [rad]; shorter ones than 1e-13 periods
-        are rounding.
+        """Return the intervals of driver angle between the kinks of one period [rad]; intervals shorter than 1e-13
+        periods are omitted.
         """
+        # a function without kinks is smooth over a whole period, from 0
         cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
@@ -264,7 +266,7 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function while the driver turns backwards. It differs for teeth with backlash."""
+        """Return the transmission function while the driver turns backwards; by default this function itself."""
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
@@ -305,38 +307,8 @@ class TransmissionFunction(Shown, ABC):
         return angle
 
 
-class ToothTransmission(TransmissionFunction):
-    """Transmission function of a pair of toothed wheels with either wheel driving, forwards or backwards.
-
-    If the driver turns backwards, the coast flanks drive. Angles keep their sign convention, so they decrease.
-    """
-
-    driver: int
-    """Number of the driving wheel, 1 or 2."""
-    direction: int
-    """Direction of rotation, 1 or -1."""
-
-    @property
-    @abstractmethod
-    def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run."""
-
-    @abstractmethod
-    def _driven(self, driver: int, direction: int) -> Self:
-        """Return the transmission function of the same pair with another driver or direction."""
-
-    @property
-    def reversed(self) -> Self:
-        """Transmission function with the other wheel driving."""
-        return self._driven(3 - self.driver, self.direction)
-
-    def reversed_motion(self) -> Self:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation."""
-        return self._driven(self.driver, -self.direction)
-
-
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write S modulo the period into `out`, twice as fast as numpy.mod.
+    """Write S modulo the period into `out`, twice as fast as numpy.mod; `scratch` is overwritten.
 
     The period is split into two parts, so that the first product is exact up to about 10^8 periods.
     """
@@ -398,7 +370,7 @@ class ExactRatio(TransmissionFunction):
         return 1.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases, which is 0."""
+        """Return the maximum rate at which the speed ratio decreases [1/rad], which is 0."""
         return 0.0
 
     @staticmethod

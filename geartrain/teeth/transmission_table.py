@@ -61,7 +61,8 @@ class CellTable:
     Attributes
     ----------
     uncertainty : float
-        Bound on the difference from the function, in its own unit: twice the maximum found between the nodes.
+        Estimated maximum difference from the function, in the unit of the function: twice the maximum difference found
+        at points between the nodes and near the ends of the cells.
     """
 
     def __init__(
@@ -76,6 +77,7 @@ class CellTable:
         wide = halves > _THIN * period
         # an infinite half width leaves the constant term only, which avoids overflow in thin cells
         powers = np.where(wide, halves, np.inf)[:, None] ** np.arange(degree + 1)
+        # powers are evaluated fastest, by Horner's method; at this low degree the conversion loses few digits
         monomials = np.linalg.inv(np.vander(nodes, increasing=True))
         self.coefficients = np.ascontiguousarray((values @ monomials.T / powers).T)
         # the maximum error is between the nodes or at the ends of a cell; an end itself may be beyond a kink
@@ -106,7 +108,7 @@ class CellTable:
         return int(self.coefficients.nbytes + self.middles.nbytes)
 
     def __call__(self, S: ArrayLike) -> Floats:
-        """Return the function at driver angles S [rad] of any shape."""
+        """Return the interpolated function at driver angles S [rad] of any shape."""
         S = np.asarray(S, dtype=float)
         with np.errstate(invalid="ignore"):
             u = np.mod(S, self.period)
@@ -131,9 +133,9 @@ def folded_kinks(transmission: HasKinks) -> Floats:
 def fit(
     function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
-    """Return the table with the fewest cells that is within `tolerance`.
+    """Return the table with the fewest cells, doubled from 32, whose uncertainty is at most `tolerance`.
 
-    If rounding error prevents that, return the last table that halved the uncertainty.
+    If rounding error or the maximum number of cells prevents that, return the last table that halved the uncertainty.
     """
     best = table = CellTable(function, period, kinks, _FEWEST, degree)
     while best.uncertainty > tolerance and table.cells < min(_MOST, _PATIENCE * best.cells):
@@ -146,15 +148,15 @@ def fit(
 class TabulatedTransmission(DerivedTransmission):
     """Transmission function evaluated from tables, each made on first use.
 
-    Results over a whole period are those of the underlying function.
+    Results over a whole period, such as the mean efficiency, are those of the underlying function.
 
     Parameters
     ----------
     transmission : TransmissionFunction
         Underlying transmission function.
     tolerance : float
-        Maximum error of the tables: of the transmission error in driven pitches (or periods), of the speed ratio over
-        its mean, and of the efficiency.
+        Maximum error of the tables: of the transmission error in driven pitches (or periods), of the speed ratio
+        relative to its mean, and of the efficiency.
     degree : int
         Degree of the polynomials.
     """
@@ -221,13 +223,13 @@ class TransmissionTables(NamedTuple):
     period: Floats
     """Period of each function [rad of the driver]."""
     inverse: Floats
-    """1 over the period of each function [1/rad]."""
+    """Reciprocal of the period of each function [1/rad]."""
     coarse: Floats
     """Period rounded to 24 bits [rad]; the exact period is `coarse` + `rest`."""
     rest: Floats
     """Period minus `coarse` [rad]."""
     density: Floats
-    """Number of uniform cells over the period, for each function [1/rad]."""
+    """Number of uniform cells divided by the period, for each function [1/rad]."""
     first: Ints
     """Index of the first cell of each function in `cells`."""
     last: Ints
@@ -239,7 +241,7 @@ class TransmissionTables(NamedTuple):
     cells: Floats
     """Cells of all functions, `CELL` numbers each: middle [rad] and coefficients from the highest power.
 
-    Numbers of error and speed alternate.
+    The numbers of the transmission error and of the speed ratio alternate.
     """
 
 
@@ -325,7 +327,7 @@ def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> Tran
 def _cells(transmission: TransmissionTable) -> Floats:
     """Return the cells of a function, shape (n, `CELL`).
 
-    They are the cells of the finer of its two tables, each combined with the cell of the other table that contains it.
+    Each cell of the finer of the two tables is combined with the cell of the other table that contains it.
     """
     finer = max(transmission.error, transmission.speed, key=lambda table: table.cells)
     found = np.zeros((len(finer.middles), CELL))
@@ -351,14 +353,15 @@ def transmission_along(
 ) -> None:
     """Compute transmission error [rad] and speed ratio of one function at driver angles [rad].
 
-    The results are written into `error` and `speed`; `u` and `cell` are scratch. The operations are those of
-    `CellTable`, in loops most of which the compiler vectorizes.
+    The results are written into `error` and `speed`; `u` and `cell` are scratch. The operations are the
+    same as in `CellTable`, in loops most of which the compiler vectorizes.
     """
     inverse, coarse, rest = tables.inverse[transmission], tables.coarse[transmission], tables.rest[transmission]
     density, first, last = tables.density[transmission], tables.first[transmission], tables.last[transmission]
     for at in range(len(angle)):
         S = angle[at]
         periods = np.floor(S * inverse)
+        # in this order, as in `behind`: S minus the product with the coarse part is exact
         u[at] = (S - periods * coarse) - periods * rest
     for at in range(len(angle)):
         cell[at] = np.int32(u[at] * density)
@@ -374,7 +377,7 @@ def transmission_along(
 
 @kernel
 def _polynomials(cells: Floats, begin: np.uint64, u: float) -> tuple[float, float]:
-    """Return error and speed from the numbers of one cell, by Horner's method for both polynomials together."""
+    """Return transmission error and speed ratio from the coefficients of one cell, by Horner's method."""
     x, y = u - cells[begin], u - cells[begin + np.uint64(1)]
     at, one, two = begin + np.uint64(2), np.uint64(1), np.uint64(2)
     error, speed = cells[at], cells[at + one]

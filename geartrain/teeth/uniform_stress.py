@@ -22,7 +22,7 @@ class UniformStress(ConjugateToothForm):
 
     See Also
     --------
-    geartrain.teeth.LeastFriction, geartrain.teeth.UniformTemperature : the other optima of the same source.
+    geartrain.teeth.LeastFriction, geartrain.teeth.UniformTemperature : other optimal tooth forms of the same source.
 
     Examples
     --------
@@ -49,12 +49,12 @@ class UniformStress(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         from geartrain.teeth.conjugate.optimal_sides import uniform_stress
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none

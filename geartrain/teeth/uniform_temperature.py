@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.numerics.quantity import Angle, Figure, Quantity
+from geartrain.numerics.quantity import Angle, Figure, Quantity, bad
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import TwoFigures, bad, check_above_0, check_one_of, refused
+from geartrain.teeth.tooth_form import TwoFigures, check_above_0, check_one_of, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -33,7 +33,7 @@ class UniformTemperature(ConjugateToothForm):
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of the same source.
+    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : other optimal tooth forms of the same source.
 
     Examples
     --------
@@ -82,12 +82,12 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of these wheels at its design centre distance.
+        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
 
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. The error message suggests possible sizes.
+            If `wheels` cannot have teeth of this form. The message gives a fix.
         """
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
@@ -106,6 +106,7 @@ class UniformTemperature(ConjugateToothForm):
         psi = (self.minimum_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
         found = []
+        # the contact speed is w + A S on gear 1 and w - B S on gear 2, so that reading a has b = -A in recess
         for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):
             if not X:
                 found.append(none(0.0))

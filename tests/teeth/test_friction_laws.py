@@ -309,7 +309,7 @@ loads: {arm: -84 N m}
         ("{law: stribeck, statc: 1, kinetic: 1, speed: 1 m/s}", "did you mean 'static'"),
         ("{law: stribeck, static: 1, kinetic: 1, speed: 1 mm}", "is a length"),
         ("{law: stribeck, static: 1, kinetic: 1, speed: 0 m/s}", "must be greater than 0"),
-        ("{law: table, speeds: [1 m/s], coefficients: [1]}", "two or more"),
+        ("{law: table, speeds: [1 m/s], coefficients: [1]}", "at least two"),
         ("{law: table, speeds: [2 m/s, 1 m/s], coefficients: [1, 1]}", "rising order"),
         ("{law: table, speeds: [1 m/s, 2 m/s], coefficients: [1, -1]}", "0 or more"),
     ],

@@ -627,7 +627,7 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
         ({"form": "least_friction", "literal": True, "arcs": [0.5, 0.5]}, "one side only"),
         ({"form": "least_friction", "pressure_angles": ["80 deg", "50 deg"]}, "literal shape"),
         ({"form": "cycloidal", "rolling": "2", "rolling_fraction": "0.5"}, "both given"),
-        ({"form": "cycloidal", "rolling_fraction": "1"}, "zero height"),
+        ({"form": "cycloidal", "rolling_fraction": "1"}, "generates no dedendum"),
         ({"form": "cycloidal", "arcs": [0.5, 0.5], "addendum": "1"}, "both given"),
         ({"form": "lantern", "pin_diameter": "0"}, "must be greater than 0"),
     ],

@@ -293,7 +293,7 @@ def test_the_readme_begins_with_the_verdict_and_has_a_row_for_every_mesh() -> No
         (
             "form: involute, addendum: 0.7, pressure_angle: 25 deg",
             "form: involute, addendum: 0.7",
-            "take more teeth, taller ones, or a smaller pressure angle",
+            "use more teeth, larger addenda, or a smaller pressure angle",
         ),
     ],
 )

@@ -72,7 +72,7 @@ def mercury() -> Finding:
     drop = [name for name in ("mercury epicycle", "me20", "mercury rel") if name in train.declaration.outputs]
     change = "links: {me20: {wheels: {me20: 24}}}\noutputs: {epicycle: {of: me20, relative_to: b}}"
     right, wrong = train.solve()["mercury epicycle"], changed("freeth-2021", change, drop).solve()["epicycle"]
-    text = f"with 24 the epicycle makes {wrong} turns per year, with 20 {right}; the period relation is 1513/480"
+    text = f"24 teeth give {wrong} turns of the epicycle per year, 20 teeth {right}; the period relation is 1513/480"
     return Finding(wrong == Fraction(1513, 480), text)
 
 

@@ -124,7 +124,7 @@ class Corrected(Judge):
 
     def shows(self, printed: str, value: Any) -> str:
         """Both."""
-        return f"error {float(f'{value[0]:.2g}'):g} as printed, at most {self.bound:.0e} after correction"
+        return f"relative difference {float(f'{value[0]:.2g}'):g} as printed, at most {self.bound:.0e} after correction"
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,7 @@ def introduction() -> Iterator[Row]:
     for form in ("involute", "cycloid"):
         yield words(
             f"Section 6, {form}s",
-            "these gears need no matched pair: any size meshes with any other",
+            "these gears need not be made in pairs: any size meshes with any other",
             f"same_flank('{form}')",
         )
     yield words("Section 7, force", "only involutes transmit a constant force", "steady_force()")
@@ -311,7 +311,7 @@ def work_and_stress() -> Iterator[Row]:
         "Section 15, n contacts",
         "n contacts that share the force do not change the work W",
         "shared_work()",
-        "the work decreases, since each point of a tooth bears less force",
+        "the work decreases, since each point of a tooth carries less force",
     )
     yield words(
         "Footnote 6",
@@ -436,7 +436,7 @@ SOURCE = Source(
     "Smith",
     "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
     "The copy consists of the abstract with the contexts of its references; equations are numbered as in the full "
-    "note, whose PostScript was published by its author. The equations are evaluated on finished spur and bevel "
+    "note, whose PostScript file was published by its author. The equations are evaluated on finished spur and bevel "
     "profiles of 24 and 36 teeth (involute, uniform stress and uniform temperature). Points of both teeth are turned "
     "to the positions at which they touch, and derivatives are computed numerically.",
     tuple(row for part in _PARTS for row in part()),

@@ -61,7 +61,7 @@ def loops() -> Finding:
         halves.add((turns.count(True), turns.count(False)))
     return Finding(
         found.moves and all(one == two for one, two in halves),
-        f"it turns; numbers that turn either way in a loop: {_told(halves)}",
+        f"it turns; gears of a loop that turn clockwise and counter-clockwise: {_told(halves)}",
     )
 
 
@@ -286,7 +286,7 @@ def first_steps() -> Iterator[Row]:
         "true only for the irrational ratio 2.383963",
     )
     yield words(
-        "Step 2", "faces and corners of the characteristic pentagons mark pentagons and triangles", "same_lines()"
+        "Step 2", "the characteristic pentagons give the directions of the pentagons and triangles", "same_lines()"
     )
     yield words("Step 3, decagon", "the cut through middles of edges is a regular decagon", "decagon()")
     yield equation("Step 3, R_sph of L", "R_sph = L/(2 sin 18)", "off(L / (2 * sin(18 * DEG)), R_SPH)")

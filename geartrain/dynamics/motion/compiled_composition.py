@@ -80,7 +80,7 @@ class FedBackTransmission:
         return self.sense * delta.reshape(S.shape), self.sense * rate.reshape(S.shape) + float(self.ratio)
 
 
-class SparseRows(NamedTuple):
+class SourceRows(NamedTuple):
     """Rows of a matrix over the sources: entries of row m begin at `start[m]`."""
 
     start: Ints
@@ -114,9 +114,9 @@ class ComposedSources(NamedTuple):
 class CompositionArrays(NamedTuple):
     """Input of the kernel."""
 
-    drivers: SparseRows
+    drivers: SourceRows
     """Change of each source's driver angle per unit of the error of earlier sources."""
-    outputs: SparseRows
+    outputs: SourceRows
     """Error of each output per unit of the error of each source."""
     offset: Floats
     """Constant added to the error of each output [rad]."""
@@ -170,9 +170,9 @@ def _sources(composition: ErrorComposition, gains: Sequence[float]) -> ComposedS
     )
 
 
-def _sparse(rows: Sequence[Mapping[int, float]]) -> SparseRows:
+def _sparse(rows: Sequence[Mapping[int, float]]) -> SourceRows:
     kept = [{of: c for of, c in row.items() if c} for row in rows]
-    return SparseRows(
+    return SourceRows(
         np.cumsum([0, *map(len, kept)], dtype=np.int64),
         np.array([of for row in kept for of in row], dtype=np.int64),
         np.array([c for row in kept for c in row.values()], dtype=np.float64),
@@ -223,7 +223,7 @@ def compose(
 
 
 @kernel
-def _add(rows: SparseRows, m: int, values: Floats, into: Floats) -> None:
+def _add(rows: SourceRows, m: int, values: Floats, into: Floats) -> None:
     """Add row m times the values of the sources, in place."""
     for x in range(rows.start[m], rows.start[m + 1]):
         factor, value = rows.c[x], values[rows.of[x]]

@@ -161,8 +161,8 @@ class ErrorComposition:
     @cached_property
     def weights(self) -> Floats:
         """Error of each output per unit of the error of each source [rad/rad], shape (outputs, sources)."""
-        response = self.spread.response[:, [source.pair for source in self.sources]]
-        rows = [response[seen.of] - seen.sense * response[seen.base] for seen in self.outputs]
+        of = [source.pair for source in self.sources]
+        rows = [self.spread.sensitivity(seen.of, seen.base, seen.sense)[of] for seen in self.outputs]
         return np.array(rows).reshape(len(self.outputs), len(self.sources))
 
     @cached_property
@@ -217,9 +217,9 @@ class ErrorComposition:
     @cached_property
     def chunk(self) -> int:
         """Maximum number of positions evaluated at once; it limits the memory for trains of any length."""
-        # stored numbers: errors and rates of the sources, and a Jacobian of coupled pairs at each position
+        # stored numbers: errors and rates of the sources with copies, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
-        return max(64, min(_CHUNK, _NUMBERS // (2 * (len(self.sources) + widest) + 1)))
+        return max(64, min(_CHUNK, _NUMBERS // (4 * (len(self.sources) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input

@@ -213,7 +213,8 @@ class ErrorPropagation:
         """Return errors of all links [rad], shape (links, n), from the errors of all pairs [rad], shape (pairs, n),
         without feedback.
         """
-        return np.asarray(self.response @ deltas)
+        with np.errstate(invalid="ignore"):  # an infinite response times 0, which `sensitivity` refuses
+            return np.asarray(self.response @ deltas)
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
         """Return the sensitivity of a link's angle, relative to link `base`, to the error of each pair [rad/rad].
@@ -234,7 +235,9 @@ class ErrorPropagation:
 def _nearest(value: Fraction) -> float:
     """Return the nearest float; beyond the range of float64, 0 or an infinity."""
     number = as_float(value)
-    return copysign(0.0 if abs(value) < 1 else inf, value) if number is None else number
+    if number is not None:
+        return number
+    return copysign(0.0 if abs(value) < 1 else inf, -1 if value < 0 else 1)
 
 
 def find_error_propagation(

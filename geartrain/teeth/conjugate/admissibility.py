@@ -27,7 +27,7 @@ Halves = tuple[float, float]
 
 _SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
 _LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
-_ROUNDING = 1e-12  # modules
+_ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
@@ -96,7 +96,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
                 gear,
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
-                f"their flanks would cross by {-degrees(thickness):.4g} deg of its {360 / z:.4g} deg pitch",
+                f"the flanks of a tooth would cross by {-degrees(thickness):.4g} deg; the pitch is {360 / z:.4g} deg",
                 shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
             )
 
@@ -191,6 +191,7 @@ def _polar(point: Floats, height: float) -> tuple[float, float]:
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
     """Return all faults that prevent these involute wheels from running; empty if they can run."""
+    # the undercut of an involute follows from the rack's corner instead of the contact speed
     others = (fault for fault in faults(path, pair.halves) if fault.kind != "undercut")
     return (*_jam(pair), *_interference(pair, path), *_undercut(pair, path), *others, *_bottom(pair), *ring_tips(path))
 
@@ -207,14 +208,14 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             0,
             float("nan"),
             "the teeth jam",
-            f"at the centre distance {pair.distance:.6g} modules they are thicker than the spaces by "
-            f"{-pair.backlash:.4g}",
+            f"at the centre distance {pair.distance:.6g} modules the teeth are "
+            f"{-pair.backlash:.4g} modules thicker than the spaces",
             f"{apart}thin the teeth with `backlash`, or reduce the profile shifts",
         )
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the mate's tip passes the point at which the line of action touches the base circle."""
+    """Yield a fault where the mate's tip goes beyond the point at which the line of action touches the base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         # radius of the mate at the point where the line of action touches the base circle of this gear

@@ -3,7 +3,7 @@
 Cycloids: the path of contact is the rolling circle itself, in the plane and on the sphere.
 
 Lantern wheels (spur only): the path of contact is the path of the pin's centre, shortened by the pin's radius
-towards the pitch point. The letters are those of the source, W. D. Smith (1993), equations (12) to (16): pins of
+towards the pitch point. The symbols are from W. D. Smith (1993), equations (12) to (16): pins of
 radius B at distance A from the axle, R the pitch radius, L = d + B the distance of the pin's centre from the pitch
 point. Where the contact speed along the mate's flank is 0, the envelope of the pins has a cusp, and the pins cut
 away part of the flank on their way in. `flank_start` returns the first contact of the remaining flank.
@@ -71,7 +71,7 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
         raise RangeError(
             Problem(
                 f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
-                f"half of it is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
+                f"half of that circle is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
                 "use a shorter arc or a larger rolling circle",
             )
         )
@@ -98,6 +98,7 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
     `R` is its pitch cone angle and `tip` its tip cone angle [rad]. cos tip = cos d cos R - sin d sin psi sin R with
     sin psi = tan(d/2)/tan rho. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
     """
+    # d from v by an arc tangent, since an arc cosine of 1 - v would lose half the digits near the pitch point
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
     return 2 * atan(sqrt(v / 2) / sqrt(1 - v / 2))
 
@@ -161,7 +162,7 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     most = first if inside else 3.14 - first
     # slightly less than half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
-        side, limit = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
+        side, limit = ("dedendum", "the undercut") if inside else ("addendum", "half a turn of the lantern")
         raise RangeError(
             Problem(
                 f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",

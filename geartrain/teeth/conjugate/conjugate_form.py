@@ -1,6 +1,7 @@
-"""Base class of conjugate tooth forms: computes a pair of wheels and its transmission function from a declaration.
+"""Base class of conjugate tooth forms, which computes a pair and its transmission function from a declaration.
 
-It includes the checks that these forms share: arcs, pressure angles, kinds of wheels, and the numbering of the gears.
+The module includes the checks that all conjugate forms share: arcs, pressure angles, kinds of wheels, and the numbering
+of the gears.
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import Field, model_validator
 
 from geartrain.errors import RangeError
-from geartrain.numerics.quantity import Angle, Figure, Length
+from geartrain.numerics.quantity import Angle, Figure, Length, bad
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, check_above_0, refused
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, check_above_0, refused
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import PairFigures
 
-_DESIGN = 1e-9  # relative difference of centre distances that counts as rounding
+_DESIGN = 1e-9  # relative difference of centre distances that counts as rounding error
 
 
 class ConjugateToothForm(ToothForm):
@@ -37,7 +38,7 @@ class ConjugateToothForm(ToothForm):
 
     See Also
     --------
-    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : Two examples.
+    geartrain.teeth.Involute, geartrain.teeth.Cycloidal : Two conjugate forms.
     """
 
     conjugate: ClassVar[bool] = True
@@ -57,7 +58,7 @@ class ConjugateToothForm(ToothForm):
     @model_validator(mode="after")
     def _lengths_are_lengths(self) -> ConjugateToothForm:
         if self.backlash.value < 0:
-            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
+            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "give 0 or more")
         check_above_0(self, "length", "centre_distance")
         return self
 
@@ -91,6 +92,7 @@ class ConjugateToothForm(ToothForm):
             pitch_distance=wheels.distance,
             internal=any(wheels.internal),
             shaft_angle=shaft_angle_of(self, wheels, shaft_angle),
+            # the hand of the helix has no effect in the transverse section
             helix=abs(wheels.helix[0]),
         )
         mesh = ConjugateMesh(wheels, self, wheels.driver, transmission)
@@ -288,6 +290,7 @@ class ConjugateToothForm(ToothForm):
 
         wheels = WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance, helix)
         pair, distance = conjugate_pair_of(self, wheels), self.misplaced(wheels)
+        # a normal force larger than its transverse component acts as a larger coefficient of friction
         friction = friction * self.slant_pressure(wheels)
         if distance is None:
             return ConjugateTransmission(pair, friction, driver, direction)
@@ -393,8 +396,8 @@ def _refusal(kinds: tuple[str, str]) -> str:
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear
-    first.
+    """Raise `GearTrainError` for a pair that names its ring gear first if the two wheels have different tooth
+    parameters or `pins` is declared.
     """
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
@@ -415,7 +418,11 @@ def _are_skew(shaft_angle: ShaftAngle) -> bool:
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes and for contrate wheels."""
+    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes, contrate wheels and helical
+    wheels.
+
+    Raises `GearTrainError` for bevel wheels without a declared shaft angle.
+    """
     if {"contrate", "helical"} & set(wheels.kinds):
         return None
     angle = shaft_angle()
@@ -423,6 +430,6 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
         raise refused(
             f"it cannot have {form.words} teeth",
             "the shaft angle of its bevel wheels is not declared",
-            f"declare `axes` with the `direction` of both, or {IDEAL}",
+            f"declare `axes` with the `direction` of both axes, or {IDEAL}",
         )
     return angle

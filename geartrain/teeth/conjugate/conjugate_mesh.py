@@ -1,7 +1,7 @@
 """Mesh of a gear pair with conjugate teeth in a train: spur, internal or bevel.
 
-It numbers the wheels as gear 1 and gear 2 of the form. It computes the faults of the pair, its results (arcs, contact
-ratio, transmission error, backlash, efficiency) and its design (sizes, path of contact, losses, outlines).
+The mesh numbers the wheels as gear 1 and gear 2 of the form. It computes the faults of the pair, its results (arcs,
+contact ratio, transmission error, backlash, efficiency) and its design (sizes, path of contact, losses, outlines).
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import degrees, pi, tan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 
@@ -20,17 +20,17 @@ from geartrain.teeth.conjugate.admissibility import tip_thickness
 from geartrain.teeth.conjugate.path_losses import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.meshing_wheels import PairSize
+from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 _WORDS = (
     "Conjugate teeth have a constant speed ratio at their design centre distance, involutes at any distance; other "
@@ -45,6 +45,24 @@ _HEADER = (
 )
 
 
+class ConjugateDetails(NamedForm, Protocol):
+    """Methods of a conjugate tooth form that its mesh uses."""
+
+    more_contact: ClassVar[str]
+    """Advice on how to increase the contact ratio."""
+
+    def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
+        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is
+        undefined.
+        """
+
+    def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
+        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
+
+    def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
+        """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
+
+
 @dataclass(frozen=True)
 class ConjugateMesh(GearMesh):
     """Gear pair with conjugate teeth; a ring gear is gear 2 of its transmission function in either order of the pair.
@@ -52,13 +70,14 @@ class ConjugateMesh(GearMesh):
     At a centre distance other than the design's, the speed ratio varies for all forms except involutes.
     """
 
-    tooth_form: ConjugateToothForm
+    tooth_form: ConjugateDetails
     transmission: ConjugateTransmission | OffDesignTransmission
 
     @property
     def tooth_phase(self) -> float:
-        """Offset of the driven wheel [pitch]: half a tooth thickness of both wheels, since contact of flanks is the
-        zero position.
+        """Position of a driven tooth past the line of centres at angle 0, where flanks touch [pitch].
+
+        It is the sum of half the tooth thicknesses of both wheels.
         """
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
@@ -102,7 +121,12 @@ class ConjugateMesh(GearMesh):
         gear, wheels = self.gears.index(wheel) + 1, self.wheel_pair
         free, pins = self.tooth_form.bottom_clearance(wheels, gear), self.tooth_form.lantern_pins(wheels)
         return ToothRequirement(
-            self.transmission.pair, gear, tolerance, CLEARANCE if free is None else max(free, 0.0), pins
+            # a negative clearance is a fault of the pair; the root is then drawn without clearance
+            self.transmission.pair,
+            gear,
+            tolerance,
+            CLEARANCE if free is None else max(free, 0.0),
+            pins,
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
@@ -177,7 +201,7 @@ class ConjugateFigures(PairFigures):
     arcs: tuple[float, float]
     """Arcs of approach and recess of the driver [pitch]."""
     contact_ratio: float
-    """Arc of contact over the pitch."""
+    """Contact ratio: arc of contact divided by pitch."""
     pressure_angle: float
     """Pressure angle at the pitch point [rad]."""
     shaft_angle: float | None
@@ -189,8 +213,8 @@ class ConjugateFigures(PairFigures):
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Return the results of a pair as driven; the kinematic results of involutes are computed even if the pair cannot
-    run.
+    """Return the results of a pair with the present driver; the kinematic results of involutes are computed even if the
+    pair cannot run.
     """
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
@@ -241,26 +265,28 @@ def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) ->
 
 @dataclass(frozen=True)
 class DesignLosses(Result):
-    """Loss, stress, heat and sliding of a pair as designed."""
+    """Losses, stress, heat and sliding of a pair as designed, from its path of contact."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, contact stress, heat, flash temperature and case depth, relative to the standard involute."""
+    """Loss, contact stress, heat, flash temperature and working depth, normalised by friction coefficient and load."""
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
-    """Maximum sliding speed over the lower of both contact speeds along the flanks; infinite where that speed is 0."""
+    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite where that
+    speed is 0.
+    """
 
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of a pair whose teeth in contact share the load."""
+    """Efficiency of a pair whose tooth pairs in contact share the load, with the assumption on which it is based."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency of sliding, exact in the friction coefficient."""
+    """Efficiency with friction of sliding teeth, exact in the friction coefficient."""
     assumption: str = SHARED
     """Assumption on how teeth in contact share the load, in words."""
 

@@ -14,7 +14,8 @@ from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.admissibility import faults, ring_tips
 from geartrain.teeth.conjugate.path_losses import efficiency, locking_friction, powers
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 # 8 nodes give 1e-11 and 16 give rounding on usual teeth; twice as many for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(32)
-_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding
+_TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding error
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +35,8 @@ class ConjugatePair(Shown):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has methods `pair` and `pair_of_arcs` that return one.
+    geartrain.teeth.Involute : Like every conjugate form, it has methods `pair` and `pair_of_arcs` that return such a
+    pair.
     """
 
     path: PathOfContact
@@ -93,7 +95,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has a method `transmission` that returns one.
+    geartrain.teeth.Involute : Like every conjugate form, it has a method `transmission` that returns such a function.
     """
 
     def __init__(self, pair: ConjugatePair, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -114,7 +116,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     @property
     def distance(self) -> float:
-        """Design centre distance [module]; meaningless for bevel pairs."""
+        """Design centre distance [module]; for bevel pairs, the shaft angle [rad]."""
         return abs(self.path.pitch.R1 + self.path.pitch.R2)
 
     def _driven(self, driver: int, direction: int) -> ConjugateTransmission:
@@ -234,6 +236,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         if self._locks:
             return nan
         found, weights = self._sampled
+        # at a constant ratio and constant load torque, the input power is proportional to 1/efficiency
         return 1 / float(weights @ (1 / found))
 
     def efficiency_minimum(self) -> float:

@@ -1,10 +1,10 @@
 """Conjugate teeth away from their design: displaced flanks, and axles at another centre distance.
 
 A flank that protrudes by n along its normal at the contact turns the driven wheel ahead by n divided by the moment arm
-of the normal, docs/cut-by-hand.md (1). The normal passes the pitch point under the pressure angle psi, so the arm is R2
-cos psi on cylinders and sin R2 cos psi on cones; for an involute it is the base radius. Beyond the ends of the path the
-corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from the law of
-cosines.
+of the normal, docs/cut-by-hand.md (1). The normal passes through the pitch point under the pressure angle psi, so the
+arm is R2 cos psi on cylinders and sin R2 cos psi on cones; for an involute it is the base radius. Beyond the ends of
+the path the corner of a tip still touches the mate's flank. The driven wheel then lags by an angle that follows from
+the law of cosines.
 
 At a centre distance other than the design's, the transmission function follows from the contact of both outlines.
 These are the flanks of the design, each continued straight beneath its last designed contact.
@@ -145,7 +145,7 @@ class DisplacedWheelSizes:
     half_angle: float
     """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in one unit of these lengths, for example 1 if lengths are in modules."""
+    """Number of modules in the length unit of these sizes; 1 if lengths are in modules."""
 
     @property
     def pitch(self) -> float:
@@ -157,9 +157,9 @@ class DisplacedWheelSizes:
 class DisplacedContact:
     """Contact of one tooth pair throughout its engagement, and the effects of displaced flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are the lag of the driven wheel
-    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). Pairs of columns
-    are for the driver and the driven wheel, in this order.
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel
+    (rad) for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs
+    of columns, the first column belongs to the driver, the second to the driven wheel.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -216,7 +216,11 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
         raise RangeError(
-            Problem("these teeth do not reach each other", "displaced flanks need an arc of contact", "use longer arcs")
+            Problem(
+                "these teeth do not reach each other",
+                "their arcs of approach and recess sum to 0 or less",
+                "use longer arcs",
+            )
         )
     # with gear 2 driving, the same contacts occur in reverse order
     sense = 1.0 if driver == 1 else -1.0
@@ -239,6 +243,7 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         across=_for_both(gears, lambda gear: tangent * lean[gear]),
         along=_for_both(gears, lambda gear: radial * up[gear]),
         tilt=_for_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
+        # with a ring, a larger centre distance brings the teeth together
         apart=-radial if ring else radial,
         normal=normal,
         entering=_corner_lag(pair, 3 - driver, driver),
@@ -315,7 +320,7 @@ class OffDesignTransmission(OutlineTransmission):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has a method `transmission` that returns one.
+    geartrain.teeth.Involute : Like every conjugate form, it has a method `transmission` that returns such a function.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
 """Involute wheels cut by a rack: sizes, tooth thickness, working pressure angle of a pair, arcs. Lengths in modules.
 
-The rack is shifted outwards by `shift` modules. A ring gear has the tooth spaces of an external wheel's teeth. Its
-shift also counts outwards, so that it widens the spaces of the ring.
+The rack is shifted outwards by `shift` modules. The tooth spaces of a ring gear have the shape of the teeth of an
+external wheel. A shift of the ring also counts outwards, so that it widens these spaces.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from geartrain.errors import GearTrainError, Problem, RangeError
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_ROUNDING = 1e-12  # modules
+_ROUNDING = 1e-12  # modules: a negative arc of less counts as 0
 
 
 def inv(angle: float) -> float:
@@ -65,6 +65,7 @@ class InvoluteWheel:
 
     def half(self, psi: float) -> float:
         """Return half the angular tooth thickness [rad] on the circle with the pressure angle `psi` [rad]."""
+        # a ring's tooth has the shape of an external wheel's tooth space, with opposite signs of shift and involute
         sign = -1 if self.ring else 1
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
@@ -134,8 +135,8 @@ class InvolutePair:
     def arcs(self) -> tuple[float, float]:
         """Arcs X of approach and recess that the tip circles give [module].
 
-        One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one
-        side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
+        One arc is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on
+        one side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
         """
         pitch, psi = self.pitch, self.psi
         found = []

@@ -1,12 +1,12 @@
 """Sides of the optimal tooth forms: uniform stress, uniform temperature and minimum friction; and the involute.
 
-A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the one
-whose dedendum works: a = A, b = B in recess, exchanged in approach.
+A side is described by the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the pitch
+surface whose dedendum works: a = A, b = B in recess, exchanged in approach.
 
 Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0, where S is 0 at the pitch point. For
 pressure angles below 45 deg exactly one solution is bounded there. Chebyshev collocation finds that solution, because
-polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. Docs/shapes.md,
-section 15, gives the conditions under which these two pieces are optimal.
+polynomials are bounded. Minimum friction is a ray followed by one piece of minimum contact speed. These two
+pieces are optimal under the conditions in docs/shapes.md, section 15.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ if TYPE_CHECKING:
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
 _NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
-FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding
+FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding error
 _UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
 _STEPS = 25  # maximum number of Newton steps
-_ROUGH = 1e-9  # residuals below this are rounding
+_ROUGH = 1e-9  # residuals below this are rounding error
 _CHECKED, _SLACK = 400, 1e-6  # points at which the conditions are checked, and tolerance of their rounding
 _NEAR = 0.05  # of a side: closer to the pitch point slopes are taken from the series
 # 16 nodes give rounding on usual sides; many more for pressure angles near a right angle
@@ -96,7 +96,7 @@ def _piece_over_arc(
 ) -> PathPiece:
     """Solve S v' + f = 0 for the piece that ends at the arc X, by Newton's method for its end d.
 
-    If an end cannot be reached, it is bisected towards the last one that could, whose solution is a better start.
+    If an end cannot be reached, it is bisected towards the last end that was reached, whose solution is a better start.
     """
     piece_maker = piece_maker or _sine_piece
     v: ChebyshevSeries | None = None
@@ -124,7 +124,7 @@ def _end_step(piece: PathPiece, X: float) -> float:
 
 
 def _at_rounding(step: float, last: float, end: float) -> bool:
-    """Return True for a step at rounding, or near it once steps no longer decrease."""
+    """Return True if a step is rounding error, or nearly so once steps no longer decrease; False otherwise."""
     return abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last)
 
 
@@ -278,7 +278,8 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
     """Return the first variation of the piece, docs/shapes.md (13) or (19).
 
-    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi).
+    It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi), with lambda = S / cos psi at the
+    end of the piece. The S in these two terms is replaced by `loss` if friction depends on speed.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2
@@ -305,6 +306,7 @@ def solved(
     The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError`
     if the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
     """
+    # a constant is the involute (v = sin psi) or the cycloid (g = sin psi / S), from which Newton's method converges
     series = near or ChebyshevSeries.through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
         if near and nodes < len(near.coefficients):
@@ -326,7 +328,7 @@ def fitted(
     nodes: int,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """Return the solution of the problem of `solved` with a fixed number of nodes."""
+    """Return the solution of the equation of `solved` with a fixed number of nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
@@ -363,7 +365,7 @@ class _Collocated:
                 if part < 1e-9:
                     raise unreachable_end(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
-            # stop at rounding, or where the residual no longer decreases
+            # stop at rounding error, or where the residual no longer decreases
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
             v = trial
             if done:
@@ -404,7 +406,7 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
     section 15).
     """
     if (np.diff(weight(np.linspace(0.0, piece.end, _CHECKED))) < 0).any():
-        raise other_shape_error("the friction loss of a contact decreases there with increasing sliding velocity")
+        raise other_shape_error("the friction loss decreases with increasing sliding velocity at some contacts")
     each = variation_integrand(pitch, piece, np.linspace(piece.start, piece.end, _CHECKED), weight)
     below = np.cumsum((each[1:] + each[:-1]) / 2)
     if below.max() > _SLACK * np.abs(each).sum():

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # grid points of one piece in the search for a maximum
 _NARROWED, _ACROSS = 5, 33  # number of refinements of its bracket, and grid points of each
-_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding
+_ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding error
 
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
@@ -59,7 +59,7 @@ class PathLosses(Result):
 
     See Also
     --------
-    measure : Computes these quantities.
+    measure : Function that computes these quantities.
     """
 
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
@@ -73,12 +73,12 @@ class PathLosses(Result):
     If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
     """
     stress: float
-    """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite where psi is
-    0.
+    """Maximum Hertzian pressure divided by the square root of the tangential force: sqrt(max H); infinite if psi is 0
+    at a contact.
     """
     off_pitch: float
     """Maximum of the quantity in `stress` over contacts that are more than a tenth of a pitch away from the pitch
-    point.
+    point; 0 without such contacts.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
@@ -106,7 +106,7 @@ class PathMeasures(Result):
 
     See Also
     --------
-    measure : Computes these quantities.
+    measure : Function that computes these quantities.
     """
 
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
@@ -170,6 +170,7 @@ def measure(path: PathOfContact) -> PathMeasures:
     single = [(-path.arcs[0], path.arcs[1], 1)]
     slowest = -maximum(path, lambda c: -np.minimum(c.U1, c.U2))
     if min(path.arcs) >= 0:
+        # the search excludes the pitch point itself, where both contact speeds are sin psi
         slowest = min(slowest, float(path.at(0.0).sin_psi))
     return PathMeasures(
         one_pair=_losses_of(path, ONE_PAIR, single),
@@ -267,11 +268,12 @@ def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end
 
 
 def sliding(path: PathOfContact) -> tuple[float, float]:
-    """Return the maximum sliding speed divided by the pitch-line speed, and by the lower of both contact speeds along
-    the flanks.
+    """Return the maximum of the sliding speed divided by the pitch-line speed, and its maximum divided by the lower of
+    the two contact speeds along the flanks at the same contact.
     """
     pitch = path.pitch
     slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
+    # Q cos psi is sliding speed divided by contact speed; the larger Q belongs to the slower contact
     return slide, maximum(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
 
 
@@ -387,7 +389,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     return 1 / steepest if steepest > 0 else inf
 
 
-# ---------------------------------------------------------------------------- uniform temperature of a given wear depth
+# ------------------------------------------------------------------------- uniform temperature of a given working depth
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:

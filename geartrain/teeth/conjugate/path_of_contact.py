@@ -122,7 +122,7 @@ class SampledPiece(PathPiece):
 class SteadySpeedPiece(SampledPiece):
     """Piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S in closed form.
 
-    Docs/shapes.md (12): eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
+    By docs/shapes.md (12), eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
     pitch surface of the gear whose dedendum works.
     """
 
@@ -196,7 +196,7 @@ class PathSide:
 
     @cached_property
     def _offsets(self) -> dict[int, float]:
-        """Arc X at the start of each piece, by `id` of the piece."""
+        """Arc X at the start of each piece, with the `id` of the piece as key."""
         total, starts = 0.0, {}
         for piece in self.pieces:
             starts[id(piece)] = total
@@ -247,7 +247,7 @@ class PathContact(Shown):
 
     See Also
     --------
-    PathOfContact.at : Evaluates it.
+    PathOfContact.at : Method that computes the contact quantities.
     """
 
     X: Floats
@@ -305,7 +305,7 @@ class PathOfContact(Shown):
 
     See Also
     --------
-    geartrain.teeth.Involute : Every conjugate form has a method `path` that returns one.
+    geartrain.teeth.Involute : Like every conjugate form, it has a method `path` that returns such a path.
 
     Examples
     --------

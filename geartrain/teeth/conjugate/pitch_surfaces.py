@@ -93,6 +93,7 @@ class PitchSurfaces:
 
     def S(self, d: ArrayLike) -> Floats:
         """Return S(d): d on cylinders, sin d on cones; d is the distance from the pitch point."""
+        # with S instead of d, docs/shapes.md (2) to (5) hold for spur and bevel gears
         found: Floats = np.sin(d) if self.bevel else np.asarray(d, dtype=float)
         return found
 

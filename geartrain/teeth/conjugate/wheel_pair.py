@@ -101,7 +101,7 @@ class WheelPair(Shown):
         for z in (self.z1, self.z2):
             if z < FEWEST:
                 raise refused(
-                    f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
+                    f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have conjugate teeth",
                     "with so few teeth, a tooth pair leaves contact before the next one can engage",
                     f"give at least {FEWEST} teeth, or another tooth_form",
                 )

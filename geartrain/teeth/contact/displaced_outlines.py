@@ -1,9 +1,10 @@
 """Effect of displaced flanks on the driven wheel, for any two outlines without a path of contact.
 
-A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes the
-point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n along the
-normal turns the driven wheel ahead by n divided by the moment arm of the normal about the driven axle,
-docs/cut-by-hand.md (1), as for conjugate teeth. Unlike there, the lag of error-free wheels is not constant.
+A single tooth pair is turned through its contact, and the common normal is found at each contact. The normal passes
+through the point that divides the line of centres in the ratio of the instantaneous speeds. A flank that protrudes by n
+along the normal turns the driven wheel ahead by n divided by the moment arm of the normal about the driven axle,
+docs/cut-by-hand.md (1), as for conjugate teeth. Unlike for conjugate teeth, the lag of error-free wheels is not
+constant.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ _NODES = 1025  # of the tables along the contact, with linear interpolation
 _CORNER_NODES = 257  # of the tables beyond its ends
 _SEARCHED = 2001  # samples in the window of a tooth pair, for the ends of its contact
 _FARTHEST = 0.25  # of a driven pitch: with more lag the neighbouring pairs are in contact instead
-_NO_CORNER = 1e-9  # rad of the driver
+_NO_CORNER = 1e-9  # rad of the driver: shorter contact of a tip beyond the flanks is neglected
 _AT_PITCH_POINT = 1e-6  # modules: closer to the pitch point the normal is taken from the flank
-_BLUNT = radians(10)  # lower bound of the half aperture
+_BLUNT = radians(10)  # lower bound of the half aperture, by which errors are divided; it is 0 for parallel sides
 
 
 class ToothPairContact(NamedTuple):
@@ -62,6 +63,7 @@ class ToothPairSearch:
         self.first, self.second = gears.of(driver)
         self.pair = OutlinePair(self.first, self.second, gears.distance, "front")
         self.distance = gears.distance
+        # driven angle at which flanks touch: the sum of half thicknesses as an angle at the pitch radius z2 / 2
         self.offset = 2 * gears.half_teeth / self.second.z
 
     def at(self, x: Floats) -> ToothPairContact:
@@ -88,8 +90,8 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of
-        speeds.
+        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
+        ratio of speeds.
 
         At that point itself the result is the normal of the flank.
         """

@@ -33,8 +33,9 @@ _LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the squ
 class AxlePlacement:
     """Relative position of two axles.
 
-    distance   centre distance; bevel: the shaft angle (rad)
-    ring       number of the wheel that is a ring gear; 0 if neither is
+    distance   centre distance; for bevel wheels, the shaft angle (rad)
+    ring       number of the wheel that is a ring gear; 0 without a ring gear
+
     Azimuths are 0 on the line of centres, on the side where the wheels meet, and increase as both turn forward.
     """
 
@@ -283,7 +284,7 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the touches of each segment to rounding: both ends, and the interior maximum of G if there is one."""
+        """Return the touches of all segments, exact to rounding error: both ends, and any interior maximum of G."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -301,7 +302,7 @@ class FirstTouchSearch:
         step = _ASIDE * (ends_u[1] - ends_u[0])
         stalled = self._stalled(segments)
         for side, way in ((0, 1), (1, -1)):
-            # where a curve is stationary at its end the slope there is 0 up to rounding
+            # where a curve is stationary at its end the slope there is 0 up to rounding error
             which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))
             ends_u[side, which] += way * step[which]
             slopes[side, which] = rising(ends_u[side, which], which)
@@ -326,6 +327,7 @@ class FirstTouchSearch:
         r, rise = value(self.second.radius, piece2, v)
         a, turn = value(self.second.azimuth, piece2, v)
         change, swing = view.moved(dr, da)
+        # differentials for a rotation of the driver, at a fixed point of its tooth
         drift, ahead = view.moved(0.0, 1.0)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = np.where(at_end, swing / change, turn / rise)  # d azimuth / d radius on the smooth side
@@ -334,7 +336,7 @@ class FirstTouchSearch:
             trusted = np.abs(off / np.where(at_end, change, rise)) <= _LEFT
             correction = np.where(trusted, slant * off, 0.0)
             speed = ahead - slant * drift
-        # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding
+        # `correction` removes the residual radius of the inversion, so that the angle is accurate to rounding error
         angle = view.azimuth - a - correction - tooth_pairs.place[segments.tooth_pair]
         radius1 = value_alone(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.tooth_pair)

@@ -31,13 +31,13 @@ class FlankTable:
     azimuth: Floats
     """Coefficients of the azimuth [rad] by powers of u, shape (COUNT, pieces)."""
     corners: Bools
-    """Flags, (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
+    """Flags, shape (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
-    """Flags, (pieces,): True for circular arcs about the axle."""
+    """Flags, shape (pieces,): True for circular arcs about the axle."""
     first: Indices
-    """Index of the first piece of each tooth, (teeth + 1,)."""
+    """Index of the first piece of each tooth, shape (teeth + 1,)."""
     curve: Indices
-    """Number of the curve that each piece belongs to, (pieces,), counted through all teeth."""
+    """Number of the curve to which each piece belongs, shape (pieces,), counted through all teeth."""
     error: tuple[float, float]
     """Maximum differences between pieces and curves: radius [unit of the outline] and azimuth [rad]."""
 
@@ -53,7 +53,9 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Flags, (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row 1)."""
+        """Flags, shape (2, pieces): True if the radius of a piece is stationary in u at its start (row 0) or end (row
+        1).
+        """
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -89,6 +91,7 @@ class FlankTable:
         """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins at the
         node.
         """
+        # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)

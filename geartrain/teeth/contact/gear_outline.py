@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 _MEETS = 1e-9  # of the radius: curves whose ends are closer than this are connected
 _FLAT = 1e-12  # of the radius: a piece that rises less counts as an arc about the axle
-_TURNED = 1e-9  # of the maximum slope: smaller sign changes are rounding
+_TURNED = 1e-9  # of the maximum slope: smaller sign changes are rounding error
 _SMOOTH = 1e-7  # rad: curves that meet at a smaller angle form a smooth joint
 _STILL = 1e-3  # of its second derivative: a smaller slope does not determine the direction
 
@@ -34,7 +34,7 @@ class OutlineCurve(Shown):
 
     See Also
     --------
-    polyline : Straight curves.
+    polyline : Function that returns straight curves.
     """
 
     points: Callable[[Floats], Floats]
@@ -123,6 +123,7 @@ def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
 def _straight(a: Floats, b: Floats) -> OutlineCurve:
     def points(t: Floats) -> Floats:
         found: Floats = a + t[:, None] * (b - a)
+        # the central projection of a chord onto the sphere is a great-circle arc
         return found if len(a) == 2 else found / np.linalg.norm(found, axis=1, keepdims=True)
 
     return OutlineCurve(points)
@@ -149,7 +150,7 @@ class ToothFlanks(Shown):
 
     See Also
     --------
-    solve : An example with such teeth.
+    solve : Contact of two wheels, with an example of such teeth.
     """
 
     ahead: tuple[OutlineCurve, ...]
@@ -173,6 +174,7 @@ class ToothFlanks(Shown):
         ToothFlanks
             Tooth with both flanks.
         """
+        # reflection at azimuth 0 and rotation by twice `middle` are a reflection at `middle`
         turned = _rotation(2 * middle)
         behind = tuple(curve.mapped(lambda p: turned(p * np.array([-1.0, 1.0, 1.0])[: p.shape[1]])) for curve in ahead)
         return cls(tuple(ahead), behind)
@@ -215,11 +217,12 @@ class GearOutline(Shown):
     Raises
     ------
     QuestionError
-        If the number of teeth or pitch deviations is not z, or if the curves of a flank are not connected.
+        If z is below 1, if the number of teeth or pitch deviations is wrong, or if a flank is not a chain of connected
+        curves with finite points off the axle.
 
     See Also
     --------
-    solve : An example with such wheels.
+    solve : Contact of two wheels, with an example of such outlines.
     """
 
     teeth: tuple[ToothFlanks, ...]
@@ -295,7 +298,7 @@ class GearOutline(Shown):
             raise QuestionError(
                 Problem(
                     "a bevel wheel cannot be displaced in its plane",
-                    "its teeth are on a sphere about the apex",
+                    "its teeth are on a sphere about the apex, which a displacement leaves",
                     "give every tooth its own curves instead",
                 )
             )
@@ -315,7 +318,9 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
     """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
     if not side:
         raise QuestionError(
-            Problem("a tooth has a side without curves", "each side needs a curve", "give at least one curve")
+            Problem(
+                "a tooth has a flank without curves", "both flanks can touch a mate", "give at least one curve for each"
+            )
         )
     last = None
     for curve in side:
@@ -324,7 +329,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
             raise QuestionError(
                 Problem(
                     f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth",
-                    "its ends are not finite, are on the axle, or have the same parameter",
+                    "an end is not finite or is on the axle, or both ends have the same parameter",
                     "give two parameters at which the curve has points off the axle",
                 )
             )
@@ -334,7 +339,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
                 Problem(
                     "two curves of a tooth do not meet",
                     f"one ends at {last}, the next begins at {ends[0]}",
-                    "give the curves of a side in order, each from the end of the last one",
+                    "give the curves of a flank in order, each beginning at the end of the previous one",
                 )
             )
         last = ends[1]
@@ -369,8 +374,8 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
 
 
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
-    """Return the polynomial pieces of each curve of a flank, with flags that a piece begins and that it ends at a
-    corner.
+    """Return the polynomial pieces of each curve of a flank, each with two flags: whether the piece begins and whether
+    it ends at a corner.
     """
     found = [
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
@@ -409,6 +414,7 @@ def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[Polyn
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
+    # smaller slopes are rounding of the fit, whose sign would divide the piece without reason
     small = max(_TURNED * float(np.abs(values).max()), _FLAT * float(piece.coefficients[0, 0]))
     marked = np.flatnonzero(np.abs(values) > small)
     turns = [(i, j) for i, j in pairwise(marked.tolist()) if (values[i] > 0) != (values[j] > 0)]

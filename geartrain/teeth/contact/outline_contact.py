@@ -58,6 +58,7 @@ class OutlinePair:
     @property
     def cycle(self) -> int:
         """Number of pitches of the driver after which the contact repeats."""
+        # one wheel with unequal teeth repeats after its revolution, two after a common multiple of both revolutions
         z1, z2 = self.first.z, self.second.z
         if self.first.equal and self.second.equal:
             return 1
@@ -184,8 +185,8 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
         raise RangeError(
             Problem(
                 f"the distance {distance:.6g} between the axles is out of range",
-                "it must be above 0" + (", and a shaft angle below 180 deg" if first.bevel else ""),
-                "give the distance from axle to axle (bevel: the shaft angle in rad)",
+                "it must be finite and above 0" + (", and a shaft angle must be below 180 deg" if first.bevel else ""),
+                "give the distance from axle to axle (for bevel wheels, the shaft angle in rad)",
             )
         )
 
@@ -199,19 +200,20 @@ class FlankContact(Shown):
 
     See Also
     --------
-    contact, solve : Compute it.
+    contact : Function that computes the contact of one flank.
+    solve : Function that computes the contacts of both flanks.
     """
 
     angle: Floats
     """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle."""
+    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN without contact."""
     pair: Indices
-    """Number of the driver's tooth that is in contact. Teeth are counted forward from tooth 0, beyond z after a
-    revolution.
+    """Number of the driver's tooth that is in contact; 0 without contact. Teeth are counted forward from tooth 0,
+    beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`."""
+    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 without contact."""
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -219,7 +221,7 @@ class FlankContact(Shown):
     """Distance of the contact from the driven axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
     sharing: Indices
-    """Number of tooth pairs that are in contact within the tolerance."""
+    """Number of tooth pairs whose gap is within the tolerance."""
     curves: Indices
     """Numbers of the curves in contact on both outlines, counted through all teeth; -1 without contact. Shape (2, ...).
     """
@@ -237,7 +239,7 @@ class TwoFlankContact(Shown):
 
     See Also
     --------
-    solve : Computes it.
+    solve : Function that computes the contacts of both flanks.
     """
 
     front: FlankContact

@@ -39,8 +39,9 @@ class OutlineMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Offset of the driven wheel [pitch]: half a tooth thickness of both wheels, since contact of flanks is the
-        zero position.
+        """Position of a driven tooth past the line of centres at angle 0, where flanks touch [pitch].
+
+        It is the sum of half the tooth thicknesses of both wheels.
         """
         return self.transmission.gears.half_teeth / pi
 

@@ -18,7 +18,8 @@ import numpy as np
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 _GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the fitted polynomials have degree 30
 _NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
-_FLAT = 1e-9  # smaller friction slopes against a contact are rounding, and do not lock
+_FLAT = 1e-9  # smaller friction slopes against a contact are rounding error, and do not lock
 _SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 
 
@@ -42,7 +43,7 @@ class OutlineGears:
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float
-    """Half a tooth thickness of both wheels on the pitch circles [module]: offset from which the driven angle is
+    """Sum of half the tooth thicknesses of both wheels on the pitch circles [module], from which the driven angle is
     counted.
     """
     backlash: float
@@ -83,10 +84,10 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, and backlash at this distance."""
+        """Verdict on whether the pair can run: faults of its teeth, backlash and gaps in contact at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
-        # rad: without backlash the teeth touch on both sides up to rounding
+        # rad: without backlash the teeth touch on both sides up to rounding error
         found = self.gears.faults if backlash >= -1e-12 else (*self.gears.faults, _jam(self.distance, backlash))
         if not np.isfinite(backlashes).all():
             found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(backlashes)))))
@@ -128,6 +129,7 @@ class OutlineTransmission(ToothTransmission):
 
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
+        # reversed motion changes the sign and so exchanges minimum and maximum
         low, high = sorted(float(self._in_direction(each)) for each in self.table.extremes())
         return low, high
 
@@ -137,7 +139,7 @@ class OutlineTransmission(ToothTransmission):
         return _nodes(self.gears, self.driver)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio among 16 angles of each smooth interval and its ends."""
+        """Return the minimum and the maximum speed ratio, among 16 angles and both ends of each smooth interval."""
         ends = self.table.breaks
         # at a kink the speed has two values, one on either side
         found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
@@ -153,8 +155,8 @@ class OutlineTransmission(ToothTransmission):
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency at driver angles S [rad]; NaN without contact or if friction locks the teeth.
 
-        The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the
-        speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
+        The common normal passes through the instantaneous pitch point, which divides the centre distance in the ratio
+        of the speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
         """
         return self._efficiency_of(_friction_terms(self.gears, self.driver, self._forward(S)))
 
@@ -254,7 +256,7 @@ def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[
     middle = forward + (at.pair + 0.25) * first.pitch
     ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
     off = along - R1
-    # closer to the pitch point the root above is rounding and does not determine a normal
+    # closer to the pitch point the root above is rounding error and does not determine a normal
     apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
     return _friction_terms_at(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
 
@@ -296,7 +298,7 @@ def _apart(distance: float, share: float) -> ToothFault:
         nan,
         "the teeth do not reach each other",
         f"at a centre distance of {distance:.6g} modules no teeth touch during {share:.1%} of a pitch",
-        "reduce the centre distance, or use longer arcs",
+        "reduce the centre distance (in a ring, increase it), or use longer arcs",
     )
 
 
@@ -306,6 +308,6 @@ def _jam(distance: float, backlash: float) -> ToothFault:
         0,
         nan,
         "the teeth jam",
-        f"at a centre distance of {distance:.6g} modules they overlap by {-backlash:.4g} rad of the driven wheel",
-        "increase the centre distance, or thin the teeth with `backlash`",
+        f"at a centre distance of {distance:.6g} modules the teeth overlap by {-backlash:.4g} rad of the driven wheel",
+        "increase the centre distance (in a ring, reduce it), or thin the teeth with `backlash`",
     )

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
-_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding
+_JUMP = 1e-6  # of the ratio: smaller steps at a kink are rounding error
 # Chebyshev nodes are interior, so that a stretch is never evaluated beyond its kinks
 _NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)
 # between the nodes, where fits have their largest errors, and inside the ends, beyond which the contact may change
@@ -111,6 +111,7 @@ class PiecewiseTransmission:
         omitted.
         """
         start, before = ends(self.speeds)
+        # the first interval follows the last one in the next period
         after = np.roll(start, -1)
         leaps = after - before > _JUMP * float(self.ratio)
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
@@ -263,7 +264,7 @@ class _Fitter:
     def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
         """Return flags of intervals that are within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
-        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding
+        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
         stuck = (stretches.off > before / 4) & (before < 1e-10)
         good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
         return good
@@ -292,7 +293,7 @@ class _Fitter:
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return the driver angles at which the contact changes in each interval, located to rounding."""
+        """Return the driver angles at which the contact changes in each interval, exact except for rounding error."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -357,7 +358,7 @@ def _too_many_stretches(tolerance: float) -> RangeError:
     return RangeError(
         Problem(
             f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
-            "it has too many kinks",
+            "it has too many kinks between which polynomials would be fitted",
             "pass a larger tolerance, or describe measured teeth with fewer points",
         )
     )

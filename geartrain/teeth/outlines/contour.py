@@ -32,7 +32,7 @@ class Contour(Shown):
     """
 
     points: Floats
-    """Vertices of the contour, shape (n, 2) [mm]; the last vertex is joined to the first."""
+    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]; the last vertex is joined to the first."""
     bulges: Floats
     """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4). It is 0 for a straight edge and
     positive for an edge that turns left.
@@ -40,7 +40,7 @@ class Contour(Shown):
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """Return a contour through vertices with bulges. Edges of zero length are omitted.
+        """Return a contour through vertices with bulges. Edges shorter than 1e-9 are omitted.
 
         Parameters
         ----------
@@ -48,6 +48,7 @@ class Contour(Shown):
             x, y and bulge of each vertex.
         """
         found = np.array(list(vertices), dtype=float)
+        # an arc without a chord would have no centre
         long = np.hypot(*(np.roll(found[:, :2], -1, axis=0) - found[:, :2]).T) > _SAME
         return cls(found[long, :2], found[long, 2])
 
@@ -77,7 +78,7 @@ class Contour(Shown):
 
     @property
     def is_circle(self) -> bool:
-        """True for a contour made by `circle`."""
+        """True if the contour consists of two half circles, as made by `circle`."""
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
     def moments(self) -> tuple[float, float]:
@@ -100,7 +101,8 @@ class Contour(Shown):
     def flattened(self, tolerance: float) -> Floats:
         """Return the vertices of a polygon that deviates from the contour by at most `tolerance`.
 
-        A circle has at most 65 536 points; for radii above some kilometres the deviation is larger.
+        A circle has at most 65 536 points, so that the deviation exceeds `tolerance` at radii above 8.7e8 times
+        `tolerance`.
 
         Parameters
         ----------

@@ -37,7 +37,8 @@ FLANK = radians(30.0)
 ADDENDUM, DEDENDUM = 0.7, 0.9
 """Addendum and dedendum [module].
 
-A tooth must have left its space where the wheel is bent in, two modules from where it is bent out.
+Their sum is below 2 modules: where a wheel with two lobes is bent inwards, its teeth are 2 modules further in than
+where they are fully engaged, and must be out of the tooth spaces.
 """
 WALL = 0.012
 """Wall thickness of the flexible wheel under its teeth divided by the pitch diameter."""
@@ -52,12 +53,13 @@ CUP = 0.25
 def escape_tooth(z: int, sense: int) -> FixedTooth:
     """Return the tooth of an escape wheel of z teeth, 3 or more, with its tip on the pitch circle.
 
-    The middle of its root is on the x axis. Proportions are those of clockmakers, after G. Graham's anchor of about
-    1715: faces undercut by 6 degrees, straight backs.
+    The middle of the tooth's root is on the x axis. The proportions are those of clockmakers, after G. Graham's anchor
+    of about 1715: faces undercut by 6 degrees, straight backs.
 
     sense   direction of rotation and of lean: 1 counter-clockwise, -1 clockwise
     """
     radius, pitch = z / 2, 2 * pi / z
+    # with few teeth, 0.7 of a pitch would exceed half the radius
     depth = min(_DEPTH * pitch, _DEEPEST) * radius
     root = hypot(radius - depth, depth * tan(UNDERCUT))
     face = atan2(depth * tan(UNDERCUT), radius - depth)  # angle of the tip ahead of the foot of its face

@@ -22,7 +22,7 @@ _FEWEST = 8  # minimum number of pieces of a flank
 _FINE = 4e-6  # modules: at smaller tolerances the change of direction is lost in rounding
 _NEAR = 1e-3  # of a flank: points closer than this are merged
 _STRAIGHT = 1e-9  # modules, or rad: pieces with smaller deviation count as straight
-_MEETING = 1e-9  # rad
+_MEETING = 1e-9  # rad: fillets closer to each other meet in the middle of the space
 
 
 Point = tuple[float, float]
@@ -206,7 +206,7 @@ def pin_span(R: float, radius: float) -> Floats:
 class FlankCurve:
     """Flank from its root end to its tip end, lengths in modules.
 
-    Its polyline is always inside the true tooth. Convex parts are approximated by chords and concave ones by tangents,
+    Its polyline is always inside the true tooth. Convex parts are approximated by chords and concave parts by tangents,
     so that teeth in contact without backlash do not overlap.
     """
 

@@ -41,8 +41,8 @@ class MatePassage:
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative for a gap.
 
-    It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a
-    margin is added.
+    The depth is measured along the circle at the flank and the fillet, and along the radius at the root circle. At the
+    fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
     """
     if not mate.radius.size:
         return -inf
@@ -53,11 +53,11 @@ def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
 
 
-CLEARANCE = 0.25  # modules
-_FILLET = 0.38  # modules
+CLEARANCE = 0.25  # modules: bottom clearance of the basic rack of ISO 53 A
+_FILLET = 0.38  # modules: root fillet of the basic rack of ISO 53 A
 _TOLERATED_DEPTHS = (1e-9, 1e-6)  # modules: tolerated interference; flanks computed numerically need the second value
 _RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg by which a root is steeper than the end of its flank
-_MINIMUM_FILLET = 1e-3  # modules
+_MINIMUM_FILLET = 1e-3  # modules: a tooth that does not allow this fillet counts as impossible
 _HALVINGS = 18  # bisections of less than 0.4 modules, to a resolution of 2e-6
 _ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
@@ -118,7 +118,7 @@ class ToothRequirement(WheelRequirement):
         return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel can satisfy both requirements."""
+        """Return True if one wheel can satisfy both requirements, False otherwise."""
         if not isinstance(other, ToothRequirement):
             return False
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
@@ -190,14 +190,16 @@ def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
 
 
 def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` if the wheels of a pair have no plane outline, or have faults."""
+    """Raise `QuestionError` if the wheels of a pair have no plane outline or have faults, or if the path of contact
+    does not reach the pitch point.
+    """
     path = pair.path
     if path.pitch.bevel:
         # the back cone of a crown wheel develops into a rack with infinitely many teeth
         virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
         raise QuestionError(
             Problem(
-                "a bevel wheel has no flat outline",
+                "a bevel wheel has no plane outline",
                 "its teeth are on a sphere and taper towards the apex, where the axes meet",
                 "omit --profile, or draw the equivalent spur pair of its back cones, of "
                 f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
@@ -233,12 +235,13 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     """Return the tooth that suits all pairs of a wheel, and the angle between its root flank and the flank's tangent
     [rad].
 
-    Its flank extends as deep as the tips of all mates need, and its root circle clears them. Its fillet radius is
-    `wanted` [module], or the largest up to 0.38 modules that clears all mates. All flanks must be alike. Raises
-    `QuestionError` if no such tooth exists.
+    The flank extends as deep as the tips of all mates need, and the root circle clears these tips. The fillet radius is
+    the largest up to `wanted` [module], 0.38 by default, with which the tooth clears all mates. All flanks must be
+    alike. Raises `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
+    # the deepest required root circle clears the tips of every mate
     root = min((each.root for each in demands), key=lambda radius: radius * s)
     own = deepest.flank
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
@@ -253,7 +256,7 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     raise QuestionError(
         Problem(
             f"no root of gear {deepest.gear} lets the mate's tips pass",
-            "they would cut the flanks below their active part, or touch teeth outside the path of contact",
+            "the tips would cut the flanks below their active part, or touch teeth outside the path of contact",
             "shorten the arcs, or use more teeth, backlash or clearance",
             "--profile",
         )
@@ -264,7 +267,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
     return QuestionError(
         Problem(
             f"gear {demand.gear} cannot have a root circle",
-            f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
+            f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above that circle",
             "give less clearance, or more backlash, which makes the teeth thinner",
             "--blank clearance",
         )
@@ -290,7 +293,7 @@ def _tooth_builder(
 
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius below `wanted`, by bisection; None if not even a small fillet
+    """Return the tooth with the largest fillet radius up to `wanted`, by bisection; None if not even a small fillet
     fits.
     """
     found = made(_MINIMUM_FILLET)

@@ -33,7 +33,7 @@ class BlankSizes:
 
     See Also
     --------
-    geartrain.teeth.GearMesh.wheel_outline : Takes `BlankSizes`.
+    geartrain.teeth.GearMesh.wheel_outline : Method that cuts a wheel with these sizes.
 
     Examples
     --------
@@ -84,7 +84,7 @@ class WheelOutline(Result):
 
     See Also
     --------
-    geartrain.teeth.GearMesh.wheel_outline : Makes one.
+    geartrain.teeth.GearMesh.wheel_outline : Method that returns the outline of a wheel.
     """
 
     KEYS = (
@@ -259,7 +259,7 @@ def bore(cut: BlankSizes, root: float) -> list[Contour]:
             Problem(
                 f"a bore of {cut.bore:g} mm does not fit",
                 f"the wheel's root circle has a diameter of {2 * root:.4g} mm",
-                f"give less than {most:.4g} mm",
+                f"give a bore below {most:.4g} mm",
                 "--blank bore",
             )
         )

@@ -17,7 +17,9 @@ SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins of a lantern wheel: number of the gear, radius of the pin circle and radius of a pin [module]."""
+    """Round pins of a lantern wheel or of a ring: number of the gear, radius of the pin circle and radius of a pin
+    [module].
+    """
 
     gear: int
     circle: float
@@ -41,7 +43,9 @@ class CutTooth:
 
 
 class WheelRequirement(ABC):
-    """Requirement of one pair on the teeth of one of its wheels."""
+    """Requirement of one pair on the teeth of one of its wheels, compared with other requirements before the wheel is
+    cut.
+    """
 
     @property
     @abstractmethod
@@ -50,7 +54,7 @@ class WheelRequirement(ABC):
 
     @abstractmethod
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel can satisfy both requirements."""
+        """Return True if one wheel can satisfy both requirements, False otherwise."""
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
@@ -87,7 +91,7 @@ class PairRequirement:
 
 
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
-    """Return the reason why one wheel cannot satisfy all its pairs; None if it can."""
+    """Return the problem of a wheel whose pairs require different teeth; None if one wheel can satisfy all pairs."""
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
     return next((_conflict(requested[0], other) for other in odd), None)
 

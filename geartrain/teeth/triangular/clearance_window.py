@@ -108,8 +108,8 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict by the first failed check, in the order: valley, range of contact, overhang, coast flanks, entry,
-        exit.
+        """Verdict: the first failed check in the order valley, range of contact, overhang, coast flanks, entry, exit;
+        "runs" if no check fails.
         """
         sizes = self.sizes
         if not sizes.has_valleys:
@@ -160,11 +160,10 @@ class TriangularContact:
 
     @cached_property
     def overhang(self) -> str:
-        """Text on an overhanging flank that touches, or that would turn the driven wheel back; empty without such a
-        flank.
+        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty without such
+        a flank.
         """
-        # ends of intervals are roots with a smaller error than this
-        # tolerance for the rounding of the limits of contact
+        # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
@@ -218,12 +217,12 @@ class ClearanceWindow(Shown):
     """Range of clearances, from `jam` to `run`, in which a pair of triangular teeth turns. The bounds are values of
     `TriangularSizes.excess`.
 
-    The truth value of a window is False if `run` is below `jam`: the pair then turns at no clearance. If a pair turns
-    in several ranges of clearance, the window is the first range.
+    The truth value of a window is False if `run` is not above `jam`: the pair then turns at no clearance. If a pair
+    turns in several ranges of clearance, the window is the first range.
 
     See Also
     --------
-    find_window : Computes it.
+    find_window : Function that computes the window of a pair.
     """
 
     jam: float
@@ -306,6 +305,7 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
     >>> bool(window), window.jam < window.at(0.5) < window.run < window.reach
     (True, True)
     """
+    # without its excess, the same pair at any clearance is found in the cache
     return _window(sizes.at(0.0))
 
 
@@ -362,20 +362,20 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
     if low >= reach:
         return 0.0, 0.0
     start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
-    # close to the excess at which tips last touch the sign is due to rounding
+    # close to the excess at which tips last touch the sign is due to rounding error
     if start >= reach * (1 - 1e-6):
         return 0.0, 0.0
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
 
 
 def _entry(path: RealPath) -> float:
-    """Return the margin at entry [rad of the driven wheel]: negative if a tooth pair enters below the others."""
+    """Return the margin at entry [rad of the driven wheel]: negative if a tooth pair enters below the other pairs."""
     last = path.pieces[-1]
     return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
-    """Return the margin at exit [rad of the driven wheel]: negative if a pair leaves before another can drive."""
+    """Return the margin at exit [rad of the driven wheel]: negative if a pair leaves before another pair can drive."""
     first = path.pieces[0]
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
@@ -398,7 +398,8 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
     """Return the excess at which the minimum backlash on the second wheel's pitch circle equals `backlash`.
 
-    The root is unique because the backlash increases with the excess.
+    The root is unique because the backlash increases with the excess. Raises `GearTrainError` if no excess gives this
+    backlash; `text` is the backlash as declared, for the message.
     """
 
     def backlash_at(excess: float) -> float:

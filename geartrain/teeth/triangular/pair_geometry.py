@@ -69,7 +69,7 @@ class TriangularSizes(Shown):
 
     See Also
     --------
-    geartrain.teeth.Triangular : Its method `sizes` returns them from a declaration.
+    geartrain.teeth.Triangular : Its method `sizes` returns the sizes of a declared pair.
 
     Examples
     --------
@@ -249,7 +249,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Overhang of the flanks of both wheels: True if they extend beyond the perpendicular where tips meet.
+        """Flag for each wheel: True if its flanks overhang, beyond the perpendicular to the mate's radius where tips
+        meet.
 
         Flanks overhang in wheels with few, deep teeth. They never overhang in an internal pair, because flank and
         driven radius turn in the same sense.

@@ -65,7 +65,8 @@ def sweep(
 ) -> ParameterSweep:
     """Return the results at every combination of one or two parameter ranges.
 
-    A combination without a valid pair has the verdict "none" and results NaN.
+    A combination without a valid pair has the verdict "none" and results NaN. Teeth that never touch have their own
+    verdict and results NaN. `on_point` is called after each combination.
     """
     shape = tuple(len(values) for values in ranges.values())
     grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")
@@ -112,9 +113,9 @@ def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, st
 
 
 def phases_of(transmission: TriangularTransmission) -> str:
-    """Return the phases of the real path, joined from the entry on, such as "approach+recess".
+    """Return the phases of the real path in order from the entry on, joined by "+", such as "approach+recess".
 
-    A phase that passes through the matching position is "astride".
+    Two phases joined by the matching position are replaced by "astride".
     """
     path = transmission.intervals
     through = [matches(path[at - 1], path[at], transmission.period) for at in range(len(path))]
@@ -131,7 +132,9 @@ def phases_of(transmission: TriangularTransmission) -> str:
 
 @dataclass(frozen=True)
 class VerdictChange:
-    """Parameter value at which verdict or phases change from `before` below it to `after` above it."""
+    """Value of a parameter at which the verdict or the phases change: `before` is their label below it, `after` above
+    it.
+    """
 
     value: float
     before: str

@@ -1,10 +1,10 @@
-"""Real path of contact of triangular teeth: the tooth pair that drives at each position, and verdicts on it.
+"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells, clashes.
 
 Every tooth pair k prevents the driven wheel from lagging behind f(t + k p1) - k p2 (`tooth_pair`). The driven wheel
-therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Less the mean
-motion this is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position and
-the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the two
-tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
+therefore follows U(t) = min over k, docs/teeth.md (10), and, with drag, y <- min(y, U(t)) as t decreases. Without the
+mean motion, U is the minimum of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between the matching position
+and the ends of contact g is convex, or concave and then convex (few teeth). On each such piece only its ends, or the
+two tooth pairs next to its minimum, can drive, so the cost does not grow with the number of tooth pairs within range.
 
 The envelope of the tooth pairs decreases with time, but it may be discontinuous. It steps up where a pair leaves
 before the next one can drive (the driven wheel dwells until one reaches it), and down where a pair enters tip against
@@ -28,7 +28,7 @@ from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, RETURN, SLIP
 
 DWELL = "dwell"
 _ROUNDING = 1e-11  # of a pitch: shorter intervals are discarded
-_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding
+_SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding error
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,8 @@ class DriveInterval:
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell."""
+    """Phase of contact: approach, recess or dwell; slip or return in a path that includes contacts that cannot drive.
+    """
     start: float
     """Angle alpha_1 at the start [rad]."""
     end: float
@@ -67,7 +68,7 @@ class DriveInterval:
 
 
 class RealPath:
-    """Contact of all tooth pairs over one pitch of the driver."""
+    """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the pair that drives."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
         """Create the path; with `slips` it includes contacts that limit the driven wheel but cannot drive it."""
@@ -225,7 +226,7 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """Return the lowest branch at t; within rounding the previous one, because branches may coincide over a
+        """Return the lowest branch at t; within rounding error the previous one, because branches may coincide over a
         range.
         """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
@@ -289,7 +290,7 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 class SpeedJump(Result):
     """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
 
-    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the other's.
+    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth.
     """
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
@@ -367,7 +368,8 @@ class _PitchTraversal:
     def append(self, interval: DriveInterval) -> None:
         """Append the next interval of the envelope.
 
-        It joins the last one, follows a dwell until it reaches the driven wheel, or clashes with its tip.
+        The interval joins the last interval, follows a dwell until its tooth reaches the driven wheel, or clashes with
+        a tip.
         """
         last = self.held or self.done[-1]
         y = self._dwell_angle(last, interval)

@@ -59,7 +59,7 @@ class ToothPair:
         cos_psi = self.cos1 * cosine - self.sin1 * sine
         c = (2 * self.R1 * u * (self.cos1 * w - self.sin1 * u) - self.delta * sin_psi) / self.R2
         s = sin_psi + c
-        # a flank tangent to the tip circle has s = 1 up to rounding
+        # a flank tangent to the tip circle has s = 1 up to rounding error
         q = m.sqrt(abs((1 - s) * (1 + s)))
         # sin(alpha_2) = s cos psi - q sin psi as a product with c = s - sin psi: the difference cancels at large z
         return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))

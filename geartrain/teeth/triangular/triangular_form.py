@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from geartrain.errors import Problem
-from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused, twice
+from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length, bad
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -128,9 +128,7 @@ class Triangular(ToothForm):
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the form with defaults for missing parameters: equilateral teeth in the middle of the clearance
-        window.
-        """
+        """Return the parameters, supplemented by defaults: equilateral teeth in the middle of the clearance window."""
         placed = {} if any(name in parameters for name in CLEARANCES) else {"window": "0.5"}
         return {"half_angle": "30 deg", **placed, **parameters}
 
@@ -172,7 +170,8 @@ class Triangular(ToothForm):
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
         """Return the mesh of a pair, with its first wheel driving.
 
-        A contrate wheel is treated as a spur wheel. Raises `GearTrainError` for bevel wheels.
+        A contrate wheel is treated as a spur wheel. Raises `GearTrainError` for all other kinds of wheels, and for a
+        contrate wheel with a ring gear.
         """
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
@@ -195,7 +194,7 @@ class Triangular(ToothForm):
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "their backlash follows from their clearance, and thinner teeth would move differently",
-            "omit --backlash, or declare a larger `clearance_factor`",
+            "omit --backlash, or declare more clearance in the file",
         )
 
     def sizes(
@@ -206,7 +205,7 @@ class Triangular(ToothForm):
         Parameters
         ----------
         z1, z2 : int
-            Tooth numbers of the driver and of the driven wheel, 3 or more.
+            Tooth numbers of the first and of the second wheel, 3 or more. The first wheel drives.
         pitch_distance : float, optional
             Half the module times the sum of the tooth numbers, or times the difference for a ring gear [m]. It becomes
             the centre distance at which a tip touches the bottom of a space.
@@ -226,8 +225,12 @@ class Triangular(ToothForm):
         """
         for z in (z1, z2):
             if z < FEWEST:
-                what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
-                raise refused(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
+                what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have triangular teeth"
+                raise refused(
+                    what,
+                    "flanks of fewer teeth do not meet in valleys",
+                    f"give at least {FEWEST} teeth, or another tooth_form",
+                )
         if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
             what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
             raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
@@ -291,6 +294,7 @@ class Triangular(ToothForm):
         """
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
+        # a fraction minus 1 is exact, so that a factor close to 1 loses no digits
         excess = sizes.side * (self.clearance_factor.value - 1)
         if excess <= 0:
             deepest = "maximum, in a ring" if sizes.ring else "minimum"
@@ -362,8 +366,8 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
     if not window:
         raise refused(
             f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn",
-            f"up to a factor of {window.jam_factor:.6g} there is {window.jam_kind}, and from "
-            f"{window.run_factor:.6g} on {window.run_kind}",
+            f"up to a clearance factor of {window.jam_factor:.6g} the verdict is {window.jam_kind}, and from "
+            f"{window.run_factor:.6g} on it is {window.run_kind}",
             OTHER_SHAPES[bool(sizes.ring)],
         )
     return window

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.meshing_wheels import PairSize
+from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow
@@ -22,7 +22,6 @@ from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump
 
 if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
-    from geartrain.teeth.triangular.triangular_form import Triangular
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 OTHER_SHAPES = (
@@ -45,11 +44,20 @@ _SIZES = (
 )
 
 
+class TriangularDetails(NamedForm, Protocol):
+    """Methods of a triangular tooth form that its mesh uses."""
+
+    def in_metres(self, module: float | None) -> bool:
+        """Return True if lengths are in metres for wheels of the given module [m]."""
+
+
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """Gear pair with triangular teeth."""
+    """Gear pair with triangular teeth in a train, with the clearance window that explains why such a pair does not
+    turn.
+    """
 
-    tooth_form: Triangular
+    tooth_form: TriangularDetails
     transmission: TriangularTransmission
 
     @cached_property
@@ -74,8 +82,8 @@ class TriangularMesh(GearMesh):
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Return the scale and centre distance of the pair.
 
-        The scale follows from the first of these that is known: a wheel with a fixed tip radius, declared lengths,
-        or pitch circles that touch.
+        The scale follows from a wheel whose tip radius is in `tips`, otherwise from declared lengths, otherwise from
+        pitch circles that touch.
         """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
@@ -111,6 +119,7 @@ class TriangularMesh(GearMesh):
         half, tip = pi / (sizes.z1, sizes.z2)[at], sizes.radii[at] * scale
         sign = sizes.signs[at]  # a ring gear has its roots outside
         root, kind = tip - sign * sizes.depths[at] * scale, "ring" if sign < 0 else "external"
+        # the first point equals the last point of the previous tooth and is merged with it
         vertices = ((root, -half), (tip, 0.0), (root, half))
         return FixedTooth(kind, tip, root, tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in vertices))
 
@@ -118,8 +127,8 @@ class TriangularMesh(GearMesh):
     def separation(self) -> float:
         """Mean separating force divided by the tangential force, at constant torque on the driven wheel.
 
-        The normal makes the angle psi with the pitch line and passes both centres at n1 + n2 = D cos(psi), or at the
-        difference with a ring gear: (31) of docs/strength.md.
+        The normal makes the angle psi with the pitch line. The sum of its distances from both centres is n1 + n2 =
+        D cos(psi); with a ring gear, the difference: (31) of docs/strength.md.
         """
         sizes, arms = self.transmission.sizes, self.transmission.contact.path.tooth_pair.normal_arms
         radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0
@@ -173,7 +182,7 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
-    """Sizes in m, or in the unit of the declared radii."""
+    """Sizes of the pair; lengths in m, or in the unit of the declared radii."""
     window: ClearanceWindow | None
     """Clearance window of the pair; None if such teeth do not exist."""
     intervals: tuple[DriveInterval, ...]
@@ -216,7 +225,10 @@ def triangular_figures(
     impacts: Result | None = None,
     losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
-    """Return the results of a pair; `losses` replaces the losses of the transmission function."""
+    """Return the results of a pair with triangular teeth.
+
+    `losses` replaces the efficiency of the transmission function; `impacts` are the energy losses of the impacts.
+    """
     found, moves = transmission.verdict, bool(transmission.intervals)
     return TriangularFigures(
         (transmission.sizes.z1, transmission.sizes.z2),
@@ -241,8 +253,8 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor
     if not window:
         return (
-            f"up to a clearance factor of {jam:.6g} there is {window.jam_kind}, and from "
-            f"{run:.6g} on {window.run_kind}: no clearance works",
+            f"up to a clearance factor of {jam:.6g} the verdict is {window.jam_kind}, and from "
+            f"{run:.6g} on it is {window.run_kind}: the pair turns at no clearance",
             OTHER_SHAPES[bool(transmission.sizes.ring)],
         )
     factor = window.factor(excess)
@@ -250,7 +262,7 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
     return (
         f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
         f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
-        f"give a clearance factor between the two, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
+        f"give a clearance factor between these limits, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
     )
 
 

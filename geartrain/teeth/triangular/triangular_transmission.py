@@ -15,7 +15,8 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
@@ -58,7 +59,7 @@ class TriangularTransmission(ToothTransmission):
 
     See Also
     --------
-    geartrain.teeth.Triangular : Its method `transmission` returns one from a declaration.
+    geartrain.teeth.Triangular : Its method `transmission` returns the function of a declared pair.
 
     Examples
     --------
@@ -79,9 +80,7 @@ class TriangularTransmission(ToothTransmission):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact in which a tooth pair drives, in order of time, over one pitch of the
-        driver.
-        """
+        """Intervals of the real path of contact over one pitch of the driver, in order of time, including dwells."""
         return self.contact.intervals
 
     @property
@@ -188,7 +187,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
-        """Drive intervals of the real path. Raises `RangeError` for a pair without drive intervals."""
+        """Intervals of the real path, including dwells. Raises `RangeError` for teeth that never touch."""
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
             raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
@@ -327,6 +326,7 @@ class TriangularTransmission(ToothTransmission):
         """
         if self.friction >= self.locking_friction:
             return nan
+        # at constant load torque, the output power is proportional to tau and the input power to tau / eta
         work = self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
         return self._contact_mean(self._tau) / work
 
@@ -341,7 +341,9 @@ class TriangularTransmission(ToothTransmission):
         return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum sliding efficiency, from 1001 samples of each smooth interval."""
+        """Return the minimum sliding efficiency, from 1001 samples of each smooth interval; meaningless if friction
+        locks the teeth.
+        """
         minimum = inf
         for interval, high, low in self.stretches:
             if interval.held is None:
@@ -369,8 +371,10 @@ class TriangularTransmission(ToothTransmission):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Return the maximum of d tau / d alpha_1 [1/rad]. As alpha_1 decreases with time, tau decreases where this
-        derivative is positive.
+        """Return the maximum of d tau / d alpha_1 [1/rad], from 101 samples of each smooth interval; 0 if tau never
+        decreases.
+
+        As alpha_1 decreases with time, tau decreases where this derivative is positive.
         """
         tooth_pair = self.contact.path.tooth_pair
         steepest = 0.0

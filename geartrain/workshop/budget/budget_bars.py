@@ -60,7 +60,7 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     Raises
     ------
     QuestionError
-        If no cause of any pointer is known.
+        If no cause of any pointer is known, or all known causes are 0.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def _train_name(found: TrainBudget) -> str:
 
 
 def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
-    """Draw the causes of one pointer's error, the largest at the top, and the causes that are not declared."""
+    """Draw one bar for each cause of one pointer's error, the largest at the top, and a row for each unknown cause."""
     ranked = [*pointer.ranked, *pointer.undeclared]
     figure, axes = bar_panel([cause.name for cause in ranked], 3.6)
     for at, cause in enumerate(ranked):
@@ -127,7 +127,7 @@ def _axis_note(pointers: int, shown: int, erring: int) -> str:
 
 
 def _size(value: float, digits: int) -> str:
-    """Return a value as text with `digits` significant digits; large values as integers, without a power of ten."""
+    """Return a value as a string with `digits` significant digits; large values as integers, without a power of ten."""
     return f"{value:.{digits}g}" if value < 10**digits else f"{value:.0f}"
 
 

@@ -45,7 +45,7 @@ def describe_budget(found: TrainBudget) -> Document:
         f"'{found.driving_link}'. Lost motion: maximum lag of the pointer when the crank turns back. Cutting: central "
         "95 % range over Monte Carlo trials of cutting errors, without the ripple of perfect teeth.",
         "Days are the time in which the pointer turns through this angle at its mean speed. This is the error of the "
-        "date of an eclipse, a conjunction or a station that is read from it.",
+        "date of an eclipse, a conjunction or a station that is read from the pointer.",
         _missing(found),
     ]
     return Document(f"Error budget of each pointer: {name}", summary, list(_sections(found)))
@@ -55,7 +55,7 @@ def _missing(found: TrainBudget) -> str:
     count = len(found.pointers)
     words = [f"{cause} of {of}" for cause, of in found.not_declared.items() if of]
     if not words:
-        return f"Everything is declared for all {count} pointers."
+        return f"All causes are declared for all {count} pointers."
     return f"Not declared, and therefore not included (not counted as 0), of {count} pointers: {', '.join(words)}."
 
 
@@ -76,7 +76,7 @@ def _sections(found: TrainBudget) -> Iterator[Section]:
     yield _jams(found)
     if found.reversing_drivers:
         names = ", ".join(found.reversing_drivers)
-        text = f"These drivers reverse at times, and backlash is not followed there: {names}."
+        text = f"Drivers that reverse temporarily; the effect of a reversal is not included in lost motion: {names}."
         yield Section("Pairs with reversing drivers", (text,))
 
 

@@ -1,6 +1,6 @@
 """Torque and efficiency of the link that drives a train, at mean speeds and over a run.
 
-The run is a year, or a shorter period after which everything repeats. A weight on its drum gives a torque, part of
+The run is a year, or a shorter period after which the motion repeats. A weight on a drum exerts a torque, part of
 which reaches the escape wheel.
 """
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 YEAR = period_table()["year_tropical_J2000"].value  # d
 MOST_PASSAGES = 600_000
-"""Maximum number of tooth passages times pairs evaluated at each passage.
+"""Maximum number of tooth engagements in a run multiplied by the number of pairs evaluated at each engagement.
 
 Longer runs are cut off at this number, which takes about two minutes without compiled kernels.
 """
@@ -36,7 +36,7 @@ SAMPLES = 2_000
 
 
 def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:
-    """Return the torque over the natural run of a train: a year, or a shorter period after which everything repeats.
+    """Return the torque over the natural run of a train, whose length is `natural_turns`.
 
     driving_link   the input
     of             link whose torque is computed, by default the crank
@@ -48,9 +48,9 @@ def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of:
 def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> float:
     """Return the number of turns of the input in the natural run of a train.
 
-    The run is a year, or a period after which everything repeats if that is shorter. If the unit of speeds is not a
+    The run is a year, or the period after which the motion repeats if that is shorter. If the unit of speeds is not a
     time, one unit replaces the year. For a train of constant ratio any run gives the same result, so the run is one
-    unit of time. The run is shorter if more teeth would pass than can be followed.
+    unit of time. A run with more than `MOST_PASSAGES` evaluations is cut off.
     """
     once = abs(train.declaration.case(state).inputs[driving_link]) or 1  # an input of speed 0 has no period
     period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
@@ -92,7 +92,7 @@ class WeightDrive(Result):
     minimum: float | None = None
     """Minimum torque at the escape wheel over the run, driven by the weight only [N m]."""
     efficiency: float | None = None
-    """Energy that reaches the escape wheel divided by the energy of the weight."""
+    """Energy that reaches the escape wheel divided by the energy of the weight; None if it is not computed."""
 
     @property
     def suffices(self) -> bool | None:
@@ -103,7 +103,7 @@ class WeightDrive(Result):
 def find_weight_drive(
     train: GearTrain, state: str | None, link: str, driving_link: str, under_load: TorqueCycle | None
 ) -> WeightDrive | None:
-    """Return the weight that drives a train in one state; None if it is driven otherwise.
+    """Return the torques of the weight that drives a train in one state; None if no weight drives the train.
 
     link           link of the drum; `driving_link`, the input
     under_load     torque over the run under the declared loads; None without loads
@@ -129,6 +129,7 @@ def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> G
 
     speed = train.solve(state)[link]
     way = -1 if speed is not None and speed < 0 else 1
+    # repr keeps all digits of the float
     load = Quantity.parse(f"{way * pull!r} N m", "torque", plain=False)
     return GearTrain(train.declaration.model_copy(update={"loads": {link: load}}))
 
@@ -165,15 +166,16 @@ class CrankLoad(Result):
     Pointers that cannot be driven are omitted. The mapping is empty without friction.
     """
     over_turn: TorqueCycle | None = None
-    """Torque at each position of the natural run of the train; None without loads."""
+    """Torque at each position of the natural run of the train; None without loads, or if the run cannot be computed."""
     weight: WeightDrive | None = None
-    """Results for the weight that drives the train; None if no weight drives it."""
+    """Results for the weight that drives the train; None if no weight drives it, or if the run cannot be computed."""
 
 
 def find_crank_load(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
     """Return the load of the crank at mean speeds and over a run.
 
-    Without declared loads, only the efficiency from the input to the output is computed.
+    Without declared loads, the result contains the efficiency from the input to the output, and the results of a
+    driving weight if one is declared.
 
     links   by pointer, the link that turns
     """
@@ -215,7 +217,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, link
 def _efficiencies(
     train: GearTrain, state: str | None, crank: str, links: Mapping[str, str]
 ) -> Iterator[tuple[str, float]]:
-    """Yield the efficiency from the crank to each pointer that can be driven from it."""
+    """Yield the name of each pointer that the crank can drive, and the efficiency from the crank to this pointer."""
     known: dict[str, float | None] = {}
     for name, link in links.items():
         if link != crank and link not in known:
@@ -230,6 +232,6 @@ def _efficiency(found: Torques) -> float | None:
 
 
 def _has_losses(declared: Train) -> bool:
-    """Return True if any friction or efficiency is declared."""
+    """Return True if any friction (of pairs or bearings) or efficiency is declared."""
     pairs = any(gear.friction is not None or gear.efficiency is not None for gear in declared.gears)
     return declared.friction is not None or pairs or any(link.bearing for link in declared.links.values())

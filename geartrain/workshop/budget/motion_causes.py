@@ -59,7 +59,9 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at given turns of the input, at most `chunk` of them."""
+        """Return the differences of the errors at input positions `turns` [turns of the input], at most `chunk`
+        positions.
+        """
         one, other = self.one.at(turns), self.other.at(turns)
         return error_difference(one, other)
 
@@ -82,7 +84,7 @@ class ToothMotion:
     ripple: Mapping[str, RunningStatistics]
     """Statistics of the error due to the teeth [rad], by output."""
     lost: Mapping[str, tuple[float, float]]
-    """Maximum and rms of the motion lost when the crank reverses [rad], by output."""
+    """Maximum and rms of the lag of each output after a reversal of the crank [rad], by output."""
     pairs: Mapping[str, Mapping[str, float]]
     """Peak-to-peak error due to each single pair [deg], by output and pair."""
     declared: Mapping[str, DeclaredPairs]
@@ -100,7 +102,8 @@ def without_teeth(motion: Motion) -> Motion:
 def find_tooth_motion(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> ToothMotion:
-    """Return ripple and lost motion of every output at `samples` positions within `turns` turns of the input.
+    """Return the ripple and the lost motion of every output, from `samples` positions within `turns` turns of the
+    input.
 
     on_done   callback with the number of positions of each chunk that is done
     """
@@ -139,8 +142,10 @@ def find_tooth_motion(
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return the peak-to-peak error of each pair times its sensitivity [deg] by output, in descending order; without
-    pins.
+    """Return by output the peak-to-peak error that each gear pair causes [deg]: its own error multiplied by its
+    sensitivity.
+
+    Pairs are in descending order of this error. Pins and pairs without influence are omitted.
     """
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.pins}
@@ -172,7 +177,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
-    """Return the pairs that move an output, with the numbers of those with declared teeth and dimensions."""
+    """Return the pairs that move an output, with the numbers of pairs whose teeth or dimensions are declared."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
     sized = {joint.coupling.name for joint in motion._problem.pins}
@@ -207,7 +212,7 @@ def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCaus
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
     lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + backlash)
     if known.real and most < _ROUNDING:  # teeth without backlash lose no motion, which is rarely meant
-        lost = BudgetCause.unknown("lost motion", "its pairs have teeth, but no backlash is declared")
+        lost = BudgetCause.unknown("lost motion", "the pairs that move it have teeth without backlash")
     return _cause("teeth", declared, tally.peak_to_peak, tally.rms, of + worst + more), lost
 
 
@@ -265,7 +270,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """Error of the anomaly of one link against the true motion [rad], or the reason why it is unknown."""
+    """Error of the anomaly of one link relative to the true motion [rad], or the reason why this error is unknown."""
 
     known: bool
     """False if a pin that moves the link has no dimensions, or if several pins move it."""
@@ -279,7 +284,8 @@ def find_bodies(
 ) -> dict[str, Body]:
     """Return the body that each link represents, by link.
 
-    It is found from the name of an output or link and a target near the body's period.
+    The body is given by `named`, or inferred from a word in the name of the output or link and a target within 2 % of
+    the body's period. Outputs that are not relative to the frame are ignored.
 
     named   by output, the body that it represents whatever its name; None for no body
     """
@@ -292,6 +298,7 @@ def find_bodies(
         else:
             body = next((each for each in TRUE_MOTIONS if _represents(output, each, unit_days)), None)
         if body is not None:
+            # the first output of a link decides
             found.setdefault(output.of, body)
     return found
 
@@ -306,7 +313,10 @@ def _represents(output: OutputResult, body: Body, unit_days: float | None) -> bo
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
-    """Return the error of the anomaly of one link with ideal teeth against the true motion of a body."""
+    """Return the error of the anomaly of one link with ideal teeth relative to the true motion of a body.
+
+    The error is unknown if a pin that moves the link has no dimensions, or if several pins move it.
+    """
     from geartrain.dynamics import Motion
 
     motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})
@@ -318,6 +328,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     phase = 2 * pi * np.arange(_POSITIONS) / _POSITIONS
     error = np.zeros(_POSITIONS)
     if used:
+        # `cycles` counts the cycles of the pin in a turn of the input
         error = motion.at(phase / (2 * pi * float(used[0].cycles))).error[0]
     # a link that turns backwards shows the anomaly with the opposite sign
     sense = -1.0 if problem.ratio(link) < 0 else 1.0
@@ -328,7 +339,8 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre [rad], at the phase of minimum sum of squares.
+    """Return an error over one cycle minus the equation of centre [rad], with the phase shift that minimises the sum of
+    squares.
 
     error   error at phases 2 pi k/n, shape (n,) [rad]; the mean of the result is 0
     """
@@ -344,6 +356,7 @@ def minimum_difference(error: Floats, e: float) -> Floats:
         return found
 
     # correlation by FFT finds the best of n phases; it is then refined between its neighbours
+    # the sum of squares is a constant minus twice this correlation
     product = np.fft.irfft(np.conj(np.fft.rfft(error)) * np.fft.rfft(centre), n)
     best, step = float(phase[int(np.argmax(product))]), 2 * pi / n
     found = minimize_scalar(
@@ -355,7 +368,7 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
     """Return one cause that combines the theory errors of a pointer's link and of its reference link.
 
-    Their cycles differ, so peak-to-peak values add, and rms values add as squares.
+    Their cycles differ, so peak-to-peak values are added, and rms values are added in quadrature.
     """
     if not parts:
         return BudgetCause.unknown("theory", "the true motion it shows is not known to geartrain")

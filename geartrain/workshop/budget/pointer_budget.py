@@ -42,7 +42,7 @@ class BudgetCause(Result):
     declared: Declared
     """Completeness of the declared data for this cause: "whole", "part" or "not declared"."""
     degrees: float | None = None
-    """Size of this contribution as defined by `measure` [deg]; None if no data are declared."""
+    """Size of this contribution as defined by `measure` [deg]; None if it is unknown."""
     rms: float | None = None
     """Root mean square of the contribution [deg]. For a drift and for cutting, it is taken of the deviation from the
     mean; for lost motion, of the value itself.
@@ -59,19 +59,20 @@ class BudgetCause(Result):
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause whose size is unknown because no data are declared for it.
+        """Return a cause whose size is unknown, because data are missing or the error cannot be computed.
 
         Parameters
         ----------
         name : str
             Name of the cause.
         note : str
-            Description of the missing data.
+            Reason why the size is unknown.
         """
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """Return the cause with its size also given in days.
+        """Return the cause with its size also given in days; unchanged if its size or the speed of the pointer is
+        unknown.
 
         Parameters
         ----------
@@ -103,7 +104,7 @@ class RatioDrift(Result):
     ppm: float | None
     """Relative error of the pointer's mean speed [parts per million]; None if the target is 0."""
     degrees_per_turn: float | None
-    """Drift per turn of the pointer [deg]; None if the target is 0."""
+    """Drift per turn at the target speed [deg]; None if the target is 0."""
     degrees_per_year: float | None
     """Drift in 365.25 days [deg]; None if the train's unit is not a time."""
     degrees_per_century: float | None
@@ -145,8 +146,8 @@ class PointerBudget(Result):
     causes: tuple[BudgetCause, ...]
     """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift of the pointer relative to each target. The drift relative to the first target is the size of the cause
-    "ratio".
+    """Drift of the pointer relative to each target. The magnitude of the first drift over the span is the size of the
+    cause "ratio".
     """
     pairs: Mapping[str, float] | None = None
     """Mapping from pair to the peak-to-peak pointer error due to the teeth of that pair only [deg], in descending
@@ -174,17 +175,18 @@ class PointerBudget(Result):
 
     @property
     def total(self) -> float:
-        """Sum of the sizes of all known causes [deg], which is an upper bound of their combined error."""
+        """Sum of the sizes of all known causes [deg], without any cancellation between causes."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property
     def overtaken_after_years(self) -> float | None:
         """Time after which the drift is equal to the largest other cause [Julian years]; None without a drift or
-        another cause.
+        another known cause.
         """
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
+        # a drift of 0 never reaches another cause
         return max(others) / abs(yearly) if others and yearly else None
 
 
@@ -210,7 +212,7 @@ class TrainBudget(Tabular, Pictured, Result):
         "cause": "Cause of the error.",
         "degrees": "Error of the pointer from this cause [deg].",
         "rms": "Root mean square of the error [deg].",
-        "days": "The error as time [d].",
+        "days": "Time in which the pointer turns through the error [d].",
     }
 
     PAGE = "workshop.budget.budget_report:describe_budget"
@@ -240,7 +242,8 @@ class TrainBudget(Tabular, Pictured, Result):
     crank: CrankLoad
     """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, for each clearance; empty if no cutting errors are declared."""
+    """Probability that wheels with cutting errors jam, for each clearance; empty for the reason given in `jams_note`.
+    """
     jams_note: str = ""
     """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()
@@ -270,5 +273,5 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def not_declared(self) -> Mapping[str, int]:
-        """Number of pointers for which each cause is not declared."""
+        """Cause -> number of pointers for which the size of the cause is unknown."""
         return {cause: sum(each[cause].degrees is None for each in self.pointers) for cause in CAUSES}

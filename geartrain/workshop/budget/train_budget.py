@@ -89,7 +89,7 @@ class BudgetQuestion:
     jam_trials: int = 64
     """Number of trials at each clearance, from which the probability of jams is estimated."""
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
-    """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors."""
+    """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors above 1."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
     """Mapping from output to the celestial body whose true motion it represents, for outputs whose name does not
     indicate the body; None for no body.
@@ -99,12 +99,12 @@ class BudgetQuestion:
         if not 0 < self.span_days < 1e9:
             what = f"a span of {self.span_days:g} days is out of range"
             raise QuestionError(
-                Problem(what, "it must be above 0 and below 1e9 days", "give for example --span '6940 d'")
+                Problem(what, "a span is above 0 and below 1e9 days", "for example, give --span '6940 d'")
             )
         if self.samples < 2 or not 0 < self.turns <= 1e6:
             what = f"{self.samples} positions in {self.turns:g} turns are out of range"
             why = "the errors of teeth are computed at 2 or more positions in more than 0 and at most 1e6 turns"
-            raise QuestionError(Problem(what, why, "give for example --turns 20 --samples 20000"))
+            raise QuestionError(Problem(what, why, "for example, give --turns 20 --samples 20000"))
 
 
 STAGES = 5
@@ -142,7 +142,7 @@ def find_budget(
     Raises
     ------
     QuestionError
-        If the train does not move, or an output is not declared.
+        If the train does not move, or an output is not declared, or the train has no outputs.
     GearTrainError
         If cutting errors are requested and the train's teeth cannot be cut.
 
@@ -182,6 +182,7 @@ def find_budget(
         drifts = find_drifts(output, days, requested.span_days)
         cutting = BudgetCause.unknown("cutting", uncut) if cut is None else cutting_cause(*cut, name, known)
         if not known.gears and not known.pins:
+            # without pairs the error is known to be 0, and not undeclared
             cutting = BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair is between it and the input")
         found = (ratio_cause(drifts), theory_cause(theories[name]), *tooth_causes(teeth, name), cutting)
         causes = tuple(cause.in_days(rate) for cause in found)
@@ -204,7 +205,10 @@ def find_budget(
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """Return the requested outputs; by default those with a target or a dial, or all outputs if none has one."""
+    """Return the requested outputs; by default all outputs with a target or a dial, or all outputs if none has one.
+
+    Raises `QuestionError` if a requested output does not exist or the train declares no outputs.
+    """
     for name in (*requested.outputs, *requested.bodies):
         check_choice("output", name, tuple(answer.outputs))
     if requested.outputs:
@@ -269,7 +273,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period of the shipped table, not an intention of the makers."""
+    """Return True if a target is an observed period of the shipped table, False if it is intended by the makers."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 
@@ -285,7 +289,7 @@ def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> R
 
 
 def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
-    """Return the cause "ratio": the drift over the span against the first target."""
+    """Return the cause "ratio": magnitude of the drift over the span relative to the first target."""
     if not drifts:
         return BudgetCause.unknown("ratio", "no target is declared for this pointer")
     first = drifts[0]

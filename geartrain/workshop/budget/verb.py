@@ -118,6 +118,7 @@ def _days(text: str) -> float:
     row = period_table().get(text.strip())
     if row is not None and row.kind == "period":
         return float(row.value)
+    # times are read in seconds
     return quantity("--span", text, "time", minimum="above 0") / 86400
 
 

@@ -49,7 +49,7 @@ class CutWheel:
     radius: float
     """Tip radius R of the perfect wheel [any unit of length]; negative for an internal wheel."""
     half_angle: float
-    """Half angle of its teeth [rad]."""
+    """Half angle of the teeth of the perfect wheel [rad]."""
     place: Floats
     """Angle of each tip behind its nominal position [rad]."""
     tip: Floats
@@ -92,7 +92,7 @@ class CutWheel:
 
     @property
     def theta(self) -> Floats:
-        """Polar angle of each tip [rad]."""
+        """Polar angle of each tip behind tooth 0 of the perfect wheel [rad]."""
         return np.arange(self.z) * self.pitch + self.place
 
     @property
@@ -102,7 +102,7 @@ class CutWheel:
 
     @property
     def only_pitch_deviations(self) -> bool:
-        """True if the teeth have only pitch deviations."""
+        """True if no tip height and no flank angle deviates, so that the only possible errors are pitch deviations."""
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def taken(self, part: int | slice | NDArray[np.int64]) -> CutWheel:
@@ -113,7 +113,10 @@ class CutWheel:
     # ------------------------------------------------------------------------------------------------------ with errors
 
     def placed(self, place: ArrayLike) -> CutWheel:
-        """Return the wheel with pitch deviations added: teeth with their flanks rotated backwards by `place` [rad]."""
+        """Return the wheel with pitch deviations added: each tooth is rotated backwards by `place` [rad].
+
+        Raises `RangeError` if a tooth cannot be cut.
+        """
         return replace(self, place=self.place + np.asarray(place)).checked()
 
     def grown(self, tip: ArrayLike) -> CutWheel:
@@ -183,16 +186,15 @@ class CutWheel:
     # ---------------------------------------------------------------------------------------------------------- checks
 
     def checked(self) -> CutWheel:
-        """Return the wheel itself. Raises `RangeError` if an error leaves no tooth or no tooth space."""
+        """Return the wheel itself; raise `RangeError` if an error leaves no tooth or no tooth space."""
         if not self.cuttable.all():
             bad = int(np.size(self.cuttable) - np.count_nonzero(self.cuttable))
             where = np.unravel_index(int(np.argmin(self.cuttable)), np.shape(self.cuttable))
             raise RangeError(
                 Problem(
-                    f"{bad} of {np.size(self.cuttable)} teeth cannot be cut, the first of them tooth {where[-1]}",
+                    f"{bad} of {np.size(self.cuttable)} teeth cannot be cut; the first is tooth {where[-1]}",
                     "facing flanks of two teeth must form a space, and both flanks of a tooth must meet at its tip",
-                    "give smaller errors: pitch deviations within a pitch, and half angles above 0 at which teeth keep "
-                    "their tips",
+                    "give smaller errors, such as pitch deviations below one pitch and flank angles above 0",
                 )
             )
         return self
@@ -206,22 +208,25 @@ class CutWheel:
         at_near = np.arctan2(np.abs(far) * np.sin(gap), near - far * np.cos(gap))
         at_far = np.arctan2(np.abs(near) * np.sin(gap), far - near * np.cos(gap))
         trailing, leading = self.half_angle + self.trailing, self.half_angle + np.roll(self.leading, -1, -1)
+        # the tip angles above are valid only for tips less than half a turn apart
         good = (self.sign * near > 0) & (gap > 0) & (gap < pi) & (trailing > 0) & (leading > 0)
         tipped: NDArray[np.bool_] = good & (trailing < at_near) & (leading < at_far)
         return tipped
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the value of one tooth in each trial; the scalar 0 if all values are 0, which saves an array."""
+    """Return the value of one tooth in each trial.
+
+    The result is the scalar 0 if an array common to all trials contains only zeros, which saves memory.
+    """
     if each.ndim == 1:
         return each[teeth] if each.any() else 0.0
     return each[rows, teeth]
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the radial displacement and the rotation [rad] of points that are shifted, as seen from a fixed centre.
-
-    The formula is exact.
+    """Return the radial displacement [unit of radius] and the rotation [rad], about a fixed centre, of points that are
+    shifted. The formula is exact.
 
     radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift
@@ -270,6 +275,7 @@ class CutToothPairs(ToothPair):
             sizes.beta1 + flanks[0],
             sizes.beta2 + flanks[1],
             sizes.side * (sizes.D + shift),
+            # small terms are added to the nominal overlap, because R1 + R2 - D would lose their digits
             sizes.delta + (tips[0] + tips[1]) - sizes.side * shift,
         )
 
@@ -303,7 +309,10 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the angle within which the teeth of wheel 1 can touch, equation (4)."""
+    """Return the sine of half the maximum angle at which the teeth of wheel 1 can touch, equation (4); 0 if tips do not
+    reach each other.
+    """
+    # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
 
@@ -333,7 +342,7 @@ class CutGearPair:
         return self.sizes.z1, self.sizes.z2
 
     def taken(self, part: slice | Ints) -> CutGearPair:
-        """Return the pairs of selected trials."""
+        """Return the pairs of the selected trials, given by a slice or by indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
@@ -353,7 +362,9 @@ class CutGearPair:
         return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations of both teeth of the tooth pairs k [rad of its own wheel], positive backwards."""
+        """Return the pitch deviations of the driving and the driven teeth of the tooth pairs k [rad], positive
+        backwards.
+        """
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property

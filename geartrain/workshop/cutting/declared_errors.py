@@ -1,6 +1,4 @@
-"""Manufacturing errors that a train declares, as fractions of pitch, depth and half angle, and overrides of these
-errors.
-"""
+"""Manufacturing errors that a train declares, as fractions of pitch, tooth depth and half angle, with overrides."""
 
 from __future__ import annotations
 
@@ -31,7 +29,8 @@ MOST = {
     "centre": 2.0,
     "bearing": 2.0,
 }
-"""Upper limits of errors as fractions of pitch, half angle or depth; a larger error leaves no tooth."""
+"""Exclusive upper limits of errors as fractions of pitch, half angle or depth; an error at the limit leaves no tooth.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +47,8 @@ class ErrorSpecification:
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces the declared one: kind, distribution and amount, for the wheel or pair `of`, or for all if
-    empty.
+    """Error that replaces a declared error: kind, distribution and amount, for the wheel or pair named `of`, or for all
+    wheels or pairs if `of` is empty.
     """
 
     kind: str
@@ -64,7 +63,7 @@ class WheelErrors:
 
     pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
     ring               True for an internal wheel
-    errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, the others in depths
+    errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, lengths in depths
     towards            direction of the eccentricity from the first tooth (rad); None for a random direction
     tables             values measured tooth by tooth, by kind, in the same fractions
     displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
@@ -96,12 +95,12 @@ class WheelErrors:
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """Parse cutting and mounting errors, given as texts, that replace the declared errors of a train.
+    """Parse strings that specify cutting and mounting errors, which replace the declared errors of a train.
 
     Parameters
     ----------
     texts : iterable of str
-        Texts `KIND=SIZE` for all or `NAME.KIND=SIZE` for one wheel or pair: `pitch_deviation=4.13 %`,
+        Strings `KIND=SIZE` for all or `NAME.KIND=SIZE` for one wheel or pair, such as `pitch_deviation=4.13 %` or
         `m2.eccentricity=value 0.2 mm`. SIZE is the standard deviation of a normal distribution, unless it is preceded
         by `value` or `uniform`.
 
@@ -113,7 +112,7 @@ def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
     Raises
     ------
     QuestionError
-        If a text does not contain a kind of error and its size.
+        If a string does not contain a kind of error and its size, or if the size of a random error is negative.
 
     Examples
     --------
@@ -164,9 +163,9 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors of one wheel: its own or those of the train, with overrides applied.
+    """Return the errors declared for one wheel, or for the train if the wheel declares none, with overrides applied.
 
-    Raises `RangeError` if an error is larger than a tooth.
+    Raises `RangeError` if an error is larger than a tooth, or is a length that cannot be converted to a fraction.
     """
     name = even.name
     link, wheel = train.wheels[name]
@@ -203,7 +202,7 @@ def pair_errors(
 
 
 def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """Return the depth of one stroke of the file over the smaller tooth depth; 0 if the pair is not filed."""
+    """Return the depth of one stroke of the file divided by the smaller tooth depth; 0 if the pair is not filed."""
     fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None
     return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0
@@ -231,7 +230,7 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Converter of the declared errors of one wheel or pair to fractions."""
+    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions."""
 
     place: str
     name: str
@@ -244,7 +243,7 @@ class _Reader:
         if scale is None:
             what = f"the {kind} error of '{self.name}' is the length {amount.text}, but its tooth depth is unknown"
             why = "a length is converted to a fraction of the tooth depth, which needs a module with a unit"
-            fix = "declare `module: 0.5 mm` for the wheel, or give the error as a fraction of the depth: 3 %"
+            fix = "declare `module: 0.5 mm` for the wheel, or give the error as a fraction of the depth, such as 3 %"
             raise RangeError(Problem(what, why, fix, self.place))
         return amount.si / scale
 
@@ -264,13 +263,13 @@ class _Reader:
                 of = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}.get(
                     kind, "the depth of its teeth"
                 )
-                what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} of {of}"
+                what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} times {of}"
                 pitch = self.scales["pitch_deviation"] or 0
                 why = (
-                    f"it must be below {MOST[kind]:g}, or the tooth vanishes; the angular pitch is "
+                    f"the factor must be below {MOST[kind]:g}, or the tooth vanishes; the angular pitch is "
                     f"{degrees(pitch):.3g} deg"
                 )
-                raise RangeError(Problem(what, why, f"give a smaller error: {kind}='2 %'", self.place))
+                raise RangeError(Problem(what, why, f"give a smaller error, such as {kind}='2 %'", self.place))
 
     def tables(self, cutting: WheelManufacture | PairMounting | None) -> dict[str, tuple[float, ...]]:
         measured = getattr(cutting, "measured", None)

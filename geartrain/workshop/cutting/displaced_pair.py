@@ -85,6 +85,7 @@ class DisplacedWheel:
         if not np.any(self.e):
             return self.tip
         angle = np.arange(self.z) * (2 * pi / self.z) - np.asarray(self.towards)[..., None]
+        # to first order in the eccentricity, as all displacements of flanks
         found: Floats = self.tip + np.asarray(self.e)[..., None] * np.cos(angle)
         return found
 
@@ -130,17 +131,17 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lag of the tooth pairs on the front or back flanks at one position of the driver within a pitch.
+    """Lags of the tooth pairs on the front or back flanks at one position of the driver within a pitch.
 
-    It is the sum of a term of each wheel, indexed by the number n of pitches passed.
+    The lag is the sum of a term of each wheel, indexed by the number n of pitches passed.
     """
 
     driver: Any
-    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by its own n."""
+    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by the n of the driver."""
     driven: Any
     """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by its own n."""
     pitches: int
-    """Number of pitches by which the driving tooth of this pair came earlier."""
+    """Offset of the tooth numbers: the term n of the driver belongs to its tooth n - `pitches`."""
 
 
 @dataclass(frozen=True)
@@ -171,7 +172,7 @@ class DisplacedPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Return the pair with selected trials."""
+        """Return the pair with the trials of the given indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 
@@ -227,6 +228,7 @@ class DisplacedPair:
             lowered = np.maximum(wheel.leading_low.max(initial=0.0), wheel.trailing_low.max(initial=0.0))
             moved = np.abs(wheel.place).max(initial=0.0) * (1.0 if gear else float(at.ratio))
             tips = at.longer[gear] * np.abs(wheel.tips).max(initial=0.0) * float(at.ratio)
+            # twice, because errors can delay one pair and advance the other; filing only delays
             found += float(2 * (moved + flanks * np.abs(at.tilt[gear]).max() + tips) + lowered * at.normal.max())
         # steepest lag beyond the ends: teeth with pitch deviations meet the ends at other positions
         late = np.abs(self.first.place).max(initial=0.0)
@@ -380,7 +382,7 @@ class DisplacedPair:
         return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged())
 
     def disengaged(self) -> Bools:
-        """Return a mask of shape (trials,): True if no tooth pair can touch at some position."""
+        """Return a mask of losses of contact, shape (trials,): at some position no tooth pair can touch."""
         at = self.contact
         whole = (at.end + at.leaving.most) - (at.start - at.entering.most)
         gap = at.pitches[0] + np.roll(self.first.place, -1, -1) - self.first.place
@@ -438,8 +440,8 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag over all tooth pairs at driver angles S [rad], and its tooth pair; inf without
-        contact.
+        """Return the minimum lag over all tooth pairs at driver angles S [rad], and the number of the tooth pair with
+        this lag; the lag is inf without contact.
         """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
@@ -459,10 +461,13 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 at the nominal centre distance."""
+    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 for conjugate flanks at their nominal
+    centre distance.
+    """
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
+    # without the end of the pitch, which would count the same position twice
     S = np.linspace(0.0, contact.pitches[0], _FINE, endpoint=False)
     return float(pair.minimum_lag(np.zeros(_FINE, np.int64), S)[0].mean())
 

@@ -65,7 +65,7 @@ class MeshingVerdicts:
     dwell: Bools
     """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
-    """Mask of losses of contact: at some position no tooth can touch."""
+    """Mask of losses of contact: at some position no front or no back flanks can touch."""
 
     @property
     def jams(self) -> Bools:
@@ -120,7 +120,7 @@ def batch_verdicts(
         raise RangeError(
             Problem(
                 f"wheels of {first.z} and {second.z} teeth do not match a pair of {sizes.z1} and {sizes.z2} teeth",
-                "the numbers of teeth must be equal, and the driver comes first",
+                "the wheels must have the tooth counts of the pair, and the driver comes first",
                 f"give wheels of {sizes.z1} and {sizes.z2} teeth, in this order",
             )
         )
@@ -249,6 +249,7 @@ class MeshingCycle:
             # fmin ignores NaN of tips with a reach above a quarter turn: such teeth jam at other tooth pairs anyway
             np.fmin.at(backlash, rows, exact)
             open_[rows, columns] = False
+            # the largest observed excess of an estimate over the exact backlash, with a margin of 2
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _candidates(self) -> list[tuple[float, BacklashCandidate]]:
@@ -315,7 +316,9 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return the maximum number of tooth pairs that can touch at once, plus one."""
+        """Return an upper bound of the number of tooth pairs that touch at once; all but two pairs of the cycle if some
+        pair may not touch at all.
+        """
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
@@ -499,7 +502,7 @@ class _EntriesAndExits:
 
     @property
     def disengaged(self) -> Bools:
-        """Mask of shape (trials,): True if at some position no tooth can touch."""
+        """Mask of shape (trials,): True if no tooth pair can touch at some position."""
         gap = self._between(1)[0].max(axis=1) > 2 * self.reach + ROUNDING * self.sizes.p1
         found: Bools = np.broadcast_to(gap, self.pair.trials).copy()
         return found

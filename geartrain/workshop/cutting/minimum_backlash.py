@@ -126,8 +126,8 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum distance between two tooth pairs that can touch at once [tooth pairs]; -1 if no pair can
-    touch.
+    """Return the maximum distance between two tooth pairs that can touch at once, as a number of tooth pairs; -1 if no
+    pair can touch.
     """
     if pair.widest <= 0:
         return -1
@@ -135,7 +135,9 @@ def farthest(pair: CutGearPair) -> int:
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, which occurs when tips meet at entry; 0 if they never meet."""
+    """Return the maximum speed ratio of a tooth pair, which occurs when tips meet at entry; 0 if they never meet, inf
+    if the ratio is undefined there.
+    """
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):

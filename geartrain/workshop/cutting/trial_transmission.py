@@ -59,7 +59,9 @@ class TrialTransmissionFunction(TransmissionFunction):
         return error, speed
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of selected columns."""
+        """Return the transmission functions of the selected columns; errors are still recorded in the shared array
+        `last`.
+        """
         found = copy(self)
         found.rows, found._columns = self.rows[columns], columns
         return found
@@ -169,6 +171,7 @@ class DisplacedTrialTransmission(TrialTransmissionFunction):
         self.pair = pair
 
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
+        # reduced to one meshing cycle, so that the central difference keeps its digits in long runs
         rest = np.mod(S, self.period)
         lag, tooth_pair = self.pair.minimum_lag(rows, rest)
         step = _SLOPE * self.pitches[0]

@@ -65,7 +65,7 @@ def readme(
     """Return the text of the README: readiness for cutting, list of files, parts, assembly, and parts that are missing.
 
     files     paths and descriptions of the files
-    missing   problems of what could not be made
+    missing   problems with parts that could not be made
     parts     True if some of the files show parts
     proof     proof of the train; None if nothing was proved
     """
@@ -537,6 +537,7 @@ class AssemblyPictures:
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)
             at = corner[0] + x - low[0], corner[1] + high[1] - y
+            # labels snap to a grid of lines; a label on an occupied place moves down
             column, row = round(at[0] / letter / 4), round(at[1] / letter)
             while (column, row) in taken:
                 row += 1

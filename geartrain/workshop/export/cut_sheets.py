@@ -33,7 +33,7 @@ class Sheet:
     """Drawing of one shape of flat part, or of a sheet of stock with several parts."""
 
     file: str
-    """Name of its file without suffix, and label of the part on sheets of stock."""
+    """Name of the file without suffix, and label of the part on sheets of stock."""
     drawing: FlatDrawing
     parts: tuple[str, ...]
     """Names of the parts, with one entry for each piece."""
@@ -42,7 +42,9 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield paths without suffixes and drawings, with outlines compensated for the kerf of the process."""
+    """Yield the path (without suffix) and the drawing of each wheel, plate and sheet of stock, compensated for the
+    kerf.
+    """
     kerf, plates = work.process.kerf, plate_sheets(work)
     names = file_names(plate.name for plate in plates)
     flat = [("wheels", each) for each in wheel_sheets(work.blanks.wheels)]
@@ -104,6 +106,7 @@ def file_names(names: Iterable[str]) -> list[str]:
 
 
 def _shape(blank: Blank) -> object:
+    # rounded to 1e-6 mm, so that rounding errors do not distinguish equal wheels
     outline = tuple(contour.points.round(6).tobytes() for contour in blank.contours)
     return blank.form, round(blank.thickness, 6), outline
 
@@ -147,7 +150,7 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Return engraved text moved off the holes of a wheel, in the largest size that fits."""
+    """Return engraved text moved off the holes of a wheel, in the largest size that fits; unchanged if no size fits."""
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
@@ -155,6 +158,7 @@ def _label_off_holes(
         corners = [abs(at + along * complex(x, y)) for x in (-half, 0.0, half) for y in (-tall, tall)]
         if max(corners) > outer or min(corners) < inner:
             return False
+        # holes in the frame of the text, where the text is a rectangle parallel to the axes
         seen = [((middle - at) * along.conjugate(), radius) for middle, radius in holes]
         return all(hypot(max(abs(z.real) - half, 0), max(abs(z.imag) - tall, 0)) > radius + _GAP for z, radius in seen)
 
@@ -218,7 +222,7 @@ def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
     Raises
     ------
     GearTrainError
-        If a hole is narrower than the cut.
+        If a hole or slot is narrower than the cut.
     MissingExtraError
         If shapely is not installed.
     """
@@ -352,6 +356,7 @@ def _stock_sheet(file: str, placed: list[Sheet], size: tuple[float, float], thic
 
 def _box(drawing: FlatDrawing) -> tuple[Floats, Floats]:
     points = drawing.cut[0].flattened(_CHORD)
+    # an arc may extend beyond its chords by this deviation
     return points.min(axis=0) - _CHORD, points.max(axis=0) + _CHORD
 
 
@@ -362,6 +367,7 @@ def _shifted(drawing: FlatDrawing, by: Floats) -> FlatDrawing:
 
 
 def _turned(drawing: FlatDrawing) -> FlatDrawing:
+    # points are rows, so this is the transpose of a rotation by +90 degrees; bulges do not change
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     cut = tuple(Contour(each.points @ turn, each.bulges) for each in drawing.cut)
     marks = tuple(replace(each, at=(-each.at[1], each.at[0]), angle=each.angle + 90) for each in drawing.marks)

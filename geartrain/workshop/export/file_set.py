@@ -205,7 +205,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """Return all files of the requested kinds, small files first, followed by a README that lists them.
+    """Return all files of the requested kinds, followed by a README that lists them.
 
     Parameters
     ----------
@@ -243,7 +243,7 @@ def export_files(
             Problem(
                 f"'{unknown[0]}' is not a kind of export",
                 "each kind is the name of a format",
-                f"use some of {', '.join(KINDS)}",
+                f"use one or more of {', '.join(KINDS)}",
                 "--as",
             )
         )
@@ -276,7 +276,7 @@ def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str],
 
 
 def parts_requested(kinds: Sequence[str]) -> bool:
-    """Return True if some of the kinds of files show parts to make."""
+    """Return True if any of the kinds of files shows parts to make, False otherwise."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
@@ -357,7 +357,7 @@ def kind_of(name: str) -> str:
 
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """Return the tables of a train as CSV text by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    """Return the tables of a train in CSV format by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
     made = {
         "wheels": _wheels,
         "links": _links,
@@ -372,7 +372,7 @@ def to_tables(work: SolidModel) -> Mapping[str, str]:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as exact and as decimal text; two empty texts for None."""
+    """Return a number as an exact and as a decimal string; two empty strings for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 
@@ -384,6 +384,7 @@ def _wheels(work: SolidModel) -> tuple[str, Rows]:
         rows.append(
             (
                 *(name, link, wheel.count, " ".join(map(str, uncertainty.allowed)) if uncertainty else "", wheel.kind),
+                # the normal module, by which gear cutters are named
                 *("yes" if wheel.internal else "", place.axis, place.layer, f"{place.module / wheel.slant:.9g}"),
                 *(f"{place.radius:.9g}", *(f"{each:.9g}" for each in place.centre), wheel.status, wheel.source),
             )

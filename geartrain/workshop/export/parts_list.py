@@ -40,11 +40,11 @@ class ListedPart(Shown):
     material: str
     """Name of the material from which the mass is computed."""
     size: str
-    """Diameter and length of turned parts, or thickness of flat parts [mm], as text."""
+    """Diameter and length of turned parts, or thickness of flat parts [mm], as a string."""
     mass: float
     """Mass of one part [g]."""
     fits: str
-    """Description of the holes or seats, and of the method of joining."""
+    """Description of the holes or seats, and of the method of joining; empty if there is none."""
 
     @property
     def count(self) -> int:
@@ -79,6 +79,7 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
         # volumes to two decimals separate shapes of equal size, but not mirrored shapes that differ by rounding
         volume = _volume(part)
         key = (row.kind, row.size, row.fits, round(volume, 2))
+        # 1 mm3 times 1 kg/m3 is 1e-6 g
         row = replace(row, mass=volume * _density(work, part, row.material) / 1e6)
         known = alike.get(key)
         alike[key] = row if known is None else replace(known, names=(*known.names, part.name))
@@ -121,6 +122,7 @@ def _volume(part: SolidPart) -> float:
         outer, *holes = (abs(contour.moments()[0]) for contour in part.contours)
         return (outer - sum(holes)) * part.height
     corners = part.solid.vertices[part.solid.faces]
+    # divergence theorem: sum of the signed tetrahedra between the origin and each triangle
     return abs(float(np.linalg.det(corners).sum())) / 6
 
 
@@ -155,7 +157,7 @@ def _eccentric_of(work: SolidModel, wheel: str) -> str:
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:
-    """Return the parts list as CSV text, with one row for each shape."""
+    """Return the parts list in CSV format, with one row for each shape."""
     head = ("part", "count", "kind", "material", "size_mm", "mass_g", "fits")
     return csv_text(
         head,

@@ -26,7 +26,8 @@ _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # a fixed date, so that the same trai
 
 
 def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
-    """Return the gear unit of a train as REXS JSON text."""
+    """Return the gear unit of a train in REXS JSON format."""
+    # JSON has no NaN, so an undefined size must raise an error here and not in the reading program
     return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -103,7 +104,7 @@ class _Unit:
         self.relate("assembly", assembly=shaft, part=number)
 
     def angle(self, name: str) -> float:
-        """Return the pressure angle of the first involute pair of a wheel [deg]; 20 without such a pair."""
+        """Return the rack angle of the first pair of a wheel whose tooth form has a rack [deg]; 20 without a rack."""
         forms = (self.declared.form_of(gear) for gear in self.declared.gears if name in gear.pair)
         angles = (form.rack_angle for form in forms if form is not None)
         return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)
@@ -129,7 +130,7 @@ class _Unit:
         self.relate("stage", stage=number, **roles)
 
     def running(self) -> list[dict[str, Any]]:
-        """Return the rotational speeds of shafts that can be given in revolutions per minute."""
+        """Return the REXS data of all shafts whose speed is known, each with its rotational speed [1/min]."""
         found = []
         for (kind, link), number in self.numbers.items():
             speed = as_float(self.speeds[link]) if kind == "link" and link in self.speeds else None
@@ -140,7 +141,10 @@ class _Unit:
 
 
 def _per_minute(work: SolidModel) -> Mapping[str, Fraction]:
-    """Return the speeds of links in turns per minute; speeds that are not per time are taken as turns per minute."""
+    """Return the speeds of links in turns per minute; empty if the train is not solved.
+
+    Speeds that are not per time are taken as turns per minute.
+    """
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration
     factor = Fraction(1) if declared.unit_speed is None else 60 * declared.unit_speed

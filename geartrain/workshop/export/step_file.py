@@ -197,6 +197,7 @@ def _curve(line: Floats, height: float) -> Any:
     points = Points(1, len(line))
     for at, (x, y) in enumerate(line.tolist(), 1):
         points.SetValue(at, gp_Pnt(x, y, height))
+    # half of the tolerance, because the points deviate by up to a quarter of it
     return GeomAPI_PointsToBSpline(points, 3, 5, GeomAbs_C1, FINE / 2).Curve()
 
 

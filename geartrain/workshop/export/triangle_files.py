@@ -129,7 +129,7 @@ class _GlbFile:
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
     """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (default as in
-    `Keyframes`).
+    `Keyframes.of`).
     """
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
@@ -201,7 +201,9 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the index of a mesh of these triangles, which is added if it does not exist."""
+    """Return the index of the mesh with the given triangles and the material of the part; it is added if it does not
+    exist.
+    """
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
@@ -278,7 +280,8 @@ class Keyframes:
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
         """Return the motion of a train over `turns` turns of the driving link; None if nothing turns.
 
-        The default is one period, or ten turns if the period is long.
+        The default is one period. If the period is long, it is ten turns, or the maximum number of turns if that is
+        smaller.
         """
         scene = work.scene
         if scene.movement.kind == "still" or scene.driving_link is None:
@@ -296,8 +299,10 @@ class Keyframes:
             turns = min(turns, Fraction(_MOST) / (fastest * dense))
         elif turns <= 0 or turns * fastest * dense > _MOST:
             most = float(_MOST / (fastest * dense))
-            why = f"the fastest body may have up to {_MOST:,} key frames, which is {most:.4g} turns of the driving link"
-            fix = f"give more than 0 and at most {most:.4g} turns"
+            why = (
+                f"an animation has more than 0 turns and at most {_MOST:,} key frames of a body ({most:.4g} turns here)"
+            )
+            fix = f"give more than 0 and at most {most:.4g} turns of the driving link"
             raise QuestionError(Problem(f"{turns} turns cannot be animated", why, fix, "--turns"))
         seconds = min(max(float(turns * fastest) * _PACE, 1.0), _LONGEST)
         return cls(work, turns, seconds, speeds, ripples)

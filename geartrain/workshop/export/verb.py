@@ -177,6 +177,7 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
 def _sizes(given: Mapping[str, Size], process: str | None, spokes: int | None, sheet: str | None) -> ManufacturingSizes:
     from geartrain.scene import ManufacturingSizes
 
+    # lengths are read in m, but sizes of parts are in mm
     sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
     return ManufacturingSizes(**sizes, process=process, arms=spokes, sheet=None if sheet is None else _sheet(sheet))
 
@@ -186,7 +187,15 @@ def _sheet(text: str) -> tuple[float, float]:
     sides = text.lower().replace("×", "x").split("x")
     unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
-        raise GearTrainError(Problem(f"'{text}' is not the size of a sheet", "", "write it as 300x200mm", "--sheet"))
+        raise GearTrainError(
+            Problem(
+                f"'{text}' is not the size of a sheet",
+                "a size is WIDTHxHEIGHT with a unit",
+                "write it as 300x200mm",
+                "--sheet",
+            )
+        )
+    # a unit after the last side only applies to both sides
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
     return 1000 * _length("sheet", width), 1000 * _length("sheet", height)
 
@@ -205,7 +214,9 @@ def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction |
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
         fix = f"use {', '.join(WHEEL_SUFFIXES)}"
-        raise GearTrainError(Problem(f"a wheel cannot be written as '{suffix or out.name}'", "", fix, "-o"))
+        raise GearTrainError(
+            Problem(f"a wheel cannot be written as '{suffix or out.name}'", "the suffix selects the format", fix, "-o")
+        )
     kind = "" if wheel is not None else kind_of(out.name)
     to = sink(out, force)
     to.write(wheel_file(work, wheel, suffix) if wheel is not None else train_file(work, kind, turns))
@@ -219,7 +230,14 @@ def _write_folder(
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
 
     if wheel is not None:
-        raise GearTrainError(Problem("--wheel applies only to one file", "", "give -o FILE instead of --to", "--wheel"))
+        raise GearTrainError(
+            Problem(
+                "--wheel applies only to one file",
+                "a folder contains all wheels",
+                "give -o FILE instead of --to",
+                "--wheel",
+            )
+        )
     wanted = [kind.strip().lower() for kind in kinds.split(",")] if kinds is not None else list(KINDS)
     missing: list[Problem] = []
     if kinds is None:

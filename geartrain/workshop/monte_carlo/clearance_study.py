@@ -38,7 +38,7 @@ class ClearanceCase(Result):
     clearance: float | None
     """Clearance factor (1 or more), or fraction of each pair's clearance window; None for the declared clearance."""
     scale: float
-    """Factor by which all manufacturing errors are multiplied."""
+    """Factor by which manufacturing errors are multiplied, except errors measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
     """Probability that each event (jam, clash, stops (jam or clash), dwell, disengaged) occurs in at least one pair."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
@@ -51,7 +51,11 @@ class ClearanceCase(Result):
 
 
 def read_clearances(text: str) -> list[float]:
-    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9`; windows are below 1, factors are not."""
+    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9` into equally spaced clearances, ends
+    included.
+
+    Fractions of a window are below 1, and clearance factors are at least 1.
+    """
     name, _, rest = text.partition("=")
     bounds = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0)}.get(name.strip())
     try:
@@ -61,10 +65,10 @@ def read_clearances(text: str) -> list[float]:
         low, high, count = 0.0, 0.0, 0
     if bounds is None or not bounds[0] <= low <= high < bounds[1] or not 1 <= count <= _MOST:
         why = (
-            "a sweep is NAME=FIRST:LAST:COUNT of clearance_factor (1 to 10) or window (0 to 1), with a count up to "
-            f"{_MOST}"
+            "a sweep is NAME=FIRST:LAST:COUNT of ascending values of clearance_factor (1 to 10) or window (0 to 1), "
+            f"with a count of at most {_MOST}"
         )
-        fix = "give --vary clearance_factor=1.005:1.04:8"
+        fix = "for example, give --vary clearance_factor=1.005:1.04:8"
         raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, fix, "--vary"))
     return [float(each) for each in np.linspace(low, high, count)]
 
@@ -77,8 +81,9 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probability of each event at every clearance and every scale of the errors. The same random wheels are
-    used for all of them.
+    """Return the probability of each event at every clearance and every scale of the errors.
+
+    The same random wheels are used in all cases.
 
     Parameters
     ----------
@@ -89,7 +94,7 @@ def jamming_map(
         are fractions of the clearance window of each pair; None is the declared clearance. The clearance varies in the
         outer loop.
     scales : sequence of float
-        Factors by which all errors are multiplied, 0 or more; by default 1.
+        Factors, 0 or more, by which all errors except measured tables are multiplied; by default 1.
     trials : int
         Number of trials of each case, 1 to 10^9; by default 256.
     seed : int
@@ -133,8 +138,9 @@ def jamming_map(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Return the counts of events in some trials of one case: by pair, then for the train, (count, trials) for each
-    event.
+    """Return the numbers of events in some trials of one case: a list for each pair, then a list for the train.
+
+    Each list has a pair [occurrences, trials] for each event, without trials in which a wheel cannot be cut.
     """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)
@@ -143,5 +149,6 @@ def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
     columns = [*marks.T, np.bitwise_or.reduce(marks, axis=1)]
     return [
         [[int(np.count_nonzero(cut & mark)), len(cut)] for mark in EVENTS.values()]
+        # trials with a wheel that cannot be cut are not counted, as in the trials themselves
         for cut in (each[(each & UNCUT) == 0] for each in columns)
     ]

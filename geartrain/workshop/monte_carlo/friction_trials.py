@@ -87,7 +87,9 @@ class FrictionPlan(Shown):
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the friction coefficients, by the train, pair or coupling that declares each of them."""
+        """Distributions of the random friction coefficients, by the train, pair or coupling that declares the
+        coefficient.
+        """
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     def follow(self, drawn: Train) -> tuple[float | None, ...]:
@@ -204,6 +206,7 @@ def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
 
 
 def _is_random(friction: Any) -> bool:
+    # a standard deviation of 0 gives the same coefficient in all trials
     return isinstance(friction, CoulombFriction) and friction.deviation is not None and bool(friction.deviation.value)
 
 
@@ -288,7 +291,7 @@ class FrictionTrials(Result):
     starting: TrialFigure
     """Starting torque of the train, in the trials without locking [N m, or the unit of the loads]."""
     efficiency: TrialFigure
-    """Efficiency over the run: output energy divided by input energy."""
+    """Efficiency over the run: output energy divided by input energy, in the trials in which it is defined."""
     locks: ProbabilityEstimate
     """Probability that friction locks the train at some position of the run."""
 

@@ -103,7 +103,11 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     """
     if picture not in PICTURES:
         raise QuestionError(
-            Problem(f"'{picture}' is not a kind of picture", "the kinds are predefined", f"use {', '.join(PICTURES)}")
+            Problem(
+                f"'{picture}' is not a kind of picture",
+                "each kind shows one study",
+                f"use one of {', '.join(PICTURES)}",
+            )
         )
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
@@ -117,7 +121,7 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
         errors = {each.name: np.degrees(each.kept) for each in trials.pointers}
         return histogram_figure(errors, f"at random positions{note}")
     if picture == "course":
-        why = "the errors along a turn were computed for no pointer"
+        why = "no pointer errors along a turn were computed"
         _require(findings.courses, why, "name the outputs to follow: --of NAME")
         return course_figure(findings.courses, trials.plan.driving_link)
     if picture == "convergence":
@@ -217,7 +221,7 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
 
 
 def _largest_spreads(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
-    """Return the pointers with the largest spread, in the given order, and a note on the others."""
+    """Return the pointers with the largest spread, in the given order, and a note on the omitted pointers."""
     straying = [name for name in what if spread(what[name]) > 0] or list(what)
     names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
     left, still = len(straying) - len(names), [name for name in what if name not in straying]
@@ -323,7 +327,7 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
         raise QuestionError(
             Problem(
                 f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}",
-                "a map needs at least two ascending values on each axis, and a probability from 0 to 1 for each pair",
+                "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)",
                 "give arrays of shapes (n,), (m,) and (n, m)",
             )
         )
@@ -335,8 +339,8 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
 def tornado_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
     """Draw a tornado chart: for each cause a bar of its first-order and total share, with intervals as whiskers.
 
-    Only the `MOST` largest causes are drawn, and the axis label gives the number of the others. Raises `QuestionError`
-    without a cause.
+    Only the `MOST` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
+    `QuestionError` without a cause.
 
     shares   first-order share of the variance by cause, and the total share with all interactions if it is known
     """
@@ -403,6 +407,7 @@ def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figu
 def _slope(axes: Axes, trials: Floats, widths: Floats) -> None:
     """Draw a reference line proportional to the inverse square root of the number of trials."""
     ends = trials[[0, -1]]
+    # geometric mean fit, lowered by 0.6 so that the line does not cover the points
     line = 0.6 * np.exp(np.mean(np.log(widths * np.sqrt(trials)))) / np.sqrt(ends)
     axes.plot(ends, line, color=GREY, linewidth=1.0, linestyle=":", gid="slope")
     beside: dict[str, Any] = {

@@ -73,7 +73,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a probability in percent with its interval as text: `1.2 % (0.9..1.6)`."""
+    """Return a string of a probability in percent with its interval, such as `1.2 % (0.9..1.6)`; "-" without trials."""
     if not each.of:
         return "-"
     low, high = each.interval
@@ -81,19 +81,19 @@ def share_text(each: ProbabilityEstimate) -> str:
 
 
 def _percent(value: float) -> str:
-    """Return a probability in percent as text, with two digits, or above 10 % with one decimal."""
+    """Return a string of a probability in percent, with two significant digits below 10 % and one decimal above."""
     percent = 100 * value
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
 
 def angle_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return an angle [rad] in degrees with its interval as text: `2.04 (1.9..2.2)`."""
+    """Return a string of an angle [rad] converted to degrees, with its interval, such as `2.04 (1.9..2.2)`."""
     value, low, high = (f"{degrees(each):.{digits}g}" for each in (figure.value, figure.low, figure.high))
     return f"{value} ({low}..{high})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return a number with its interval as text: `12.4 (11.8..13)`."""
+    """Return a string of a number with its interval, such as `12.4 (11.8..13)`."""
     return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 
@@ -127,6 +127,7 @@ def _filing(found: MonteCarloResult) -> Section:
 
 
 def _pair_row(pair: PairEventRates) -> tuple[str, ...]:
+    # NaN, which is not equal to itself, marks an unknown value
     backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
     events = (share_text(pair.events[name]) for name in _EVENTS)
     return (pair.name, backlash, *events, bound)

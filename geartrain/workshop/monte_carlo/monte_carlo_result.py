@@ -172,7 +172,7 @@ _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declare
 
 @dataclass(frozen=True)
 class TrialStudies:
-    """Studies requested in addition to the trials."""
+    """Studies requested in addition to the trials: other clearances, errors along a turn, Sobol indices."""
 
     clearances: Sequence[float] = ()
     """Clearance factors, or fractions of clearance windows, at which the trials are repeated."""

@@ -65,7 +65,8 @@ def draw_wheel(
     """Return one wheel drawn in some trials of a block, and a mask of the trials in which it can be cut.
 
     Drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1, internal ones -1.
-    Wheels that cannot be cut are returned without errors, so that later code never meets teeth without tips.
+    In trials in which a wheel cannot be cut, its teeth are returned without errors (displaced flanks: without pitch
+    deviations), so that later code never meets teeth without tips.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start

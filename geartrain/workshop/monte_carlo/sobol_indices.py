@@ -126,8 +126,8 @@ def find_sobol_indices(
     check_trials(trials)
     means, names = means or Execution(), [name for name, _ in error_groups(plan, output, by)]
     if len(names) < 2:
-        what = f"no wheel with errors moves '{plan.outputs[output]}'"
-        why = "Sobol indices are shares of a variance, and the variance of this output is 0"
+        what = f"no wheel or pair with errors moves '{plan.outputs[output]}'"
+        why = "Sobol indices are shares of a variance, and manufacturing errors do not vary this output"
         raise QuestionError(Problem(what, why, "name another output: --of NAME"))
     rows: list[Any] = []
     # no journal: its tasks are identified by block and trials, and would be confused with those of the trials
@@ -162,6 +162,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 def _saltelli(values: Floats) -> Floats:
     """Return first-order and total indices, shape (2, d)."""
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
+    # A and B have the same distribution, so their pooled variance is the better estimate
     variance = np.var(values[:, [0, -1]])
     if not variance:
         return np.zeros((2, mixed.shape[1]))
@@ -190,8 +191,8 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function of some base samples: errors of the output [rad], shape (trials, inputs + 2), columns A, AB(i),
-    B.
+    """Task function that returns the errors of the output in some base samples [rad], shape (trials, inputs + 2), with
+    the columns A, AB(i), B.
     """
 
     plan: TrialPlan

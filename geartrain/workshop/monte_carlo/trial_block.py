@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""Bit masks: STOPS marks a pair that cannot turn through its cycle while it drags; LOST excludes it from averages."""
+"""Bit masks: STOPS marks a pair that cannot turn through its cycle while its driven wheel drags; LOST excludes a pair
+from averages.
+"""
 
 
 @dataclass(frozen=True)
@@ -51,7 +53,10 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return one pair of drawn wheels; `widest` 1 or -1 selects the maximum or minimum distance of its bearings."""
+        """Return one pair of drawn wheels.
+
+        widest   1 or -1 for the maximum or minimum distance within the bearing clearance, 0 for the drawn distance
+        """
         pair = self.plan.pairs[at]
         if not pair.stroke:
             return pair.cut(self.wheels, self._shift(pair, at, widest))
@@ -67,7 +72,9 @@ class TrialWheels:
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return the numbers of file strokes and of filed teeth of each pair, shape (trials, 2 pairs)."""
+        """Return the numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 *
+        pairs).
+        """
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -97,7 +104,7 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 
 def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
     """Return event flags and minimum backlash [pitch of the driven wheel] of the pairs in every trial, shape (trials,
-    pairs).
+    pairs); no flag and infinite backlash for pairs that are not in `pairs`.
     """
     wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
     marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
@@ -149,7 +156,10 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the same errors to first order [rad]: each pair at its mean angle, each pin at its mean ratio."""
+        """Return the deviations as in `errors`, but to first order [rad]: each pair at its mean angle, each pin at its
+        mean ratio.
+        """
+        # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 
 

@@ -61,7 +61,7 @@ _MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """Gear pair of a plan.
+    """Gear pair of a plan, with any tooth form.
 
     `first` and `second` are the indices of driver and driven wheel; `mirrored` marks wheels that turn against the
     numbering of their teeth.
@@ -76,7 +76,7 @@ class TrialPair(ABC):
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
     """Errors of the axes by kind, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
-    """Depth of one stroke of the file over the same tooth depth; 0 if the pair is not filed."""
+    """Depth of one stroke of the file divided by the same tooth depth; 0 if the pair is not filed."""
 
     @property
     @abstractmethod
@@ -118,7 +118,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair at another clearance."""
+        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the probability of a jam for normal pitch deviations `sigma` [pitch]; NaN without a
@@ -183,7 +183,9 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
+        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
+        limit.
+        """
         whole = _with_trial_axis(pair, pair.trials[0] if pair.trials else 1)
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(whole, tight_place, self.stroke * self.depth, limit)
@@ -261,7 +263,9 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
+        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
+        limit.
+        """
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
@@ -299,7 +303,7 @@ class TrialPlan(Shown):
     name: str
     """Name of the train."""
     wheels: tuple[WheelErrors, ...]
-    """Wheels with cutting errors."""
+    """Sizes and cutting errors of the wheels in the pairs of the trials."""
     pairs: tuple[TrialPair, ...]
     """Gear pairs of the wheels with cutting errors, with the sizes and mounting errors of each pair."""
     composition: ErrorComposition
@@ -332,7 +336,7 @@ class TrialPlan(Shown):
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """Return a copy of the plan with all cutting and mounting errors multiplied by a factor.
+        """Return a copy of the plan with all errors multiplied by a factor; tables of measured errors are not scaled.
 
         Parameters
         ----------
@@ -343,6 +347,7 @@ class TrialPlan(Shown):
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
             return {each: off.times(factor) for each, off in errors.items()}
 
+        # measured tables describe one real wheel and keep their values
         wheels = tuple(replace(each, errors=times(each.errors)) for each in self.wheels)
         pairs = tuple(replace(each, fitting=times(each.fitting)) for each in self.pairs)
         return replace(self, wheels=wheels, pairs=pairs)
@@ -359,8 +364,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return the upper bound of the jam probability of a pair; NaN unless its wheels have only normal pitch
-        deviations.
+        """Return the upper bound of the jam probability of a pair; NaN if the pair is filed or has other errors than
+        normal pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------
@@ -411,7 +416,7 @@ def find_trial_plan(
         Train with triangular or conjugate teeth. It must declare `cutting` or `fitting` errors unless `settings`
         contains errors.
     settings : sequence of ErrorOverride
-        Errors that replace the declared errors; `read_error_overrides` parses them from text.
+        Errors that replace the declared errors; `read_error_overrides` parses them from strings.
     outputs : sequence of str
         Names of outputs or links, by default all outputs.
     state : str, optional
@@ -457,7 +462,7 @@ def find_trial_plan(
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no manufacturing errors"
         why = "without them all trials are identical"
-        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting pitch_deviation='2 %'"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting 'pitch_deviation=2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
@@ -519,6 +524,7 @@ def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
 
 def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> tuple[int, ...]:
     alone = ErrorComposition(composition.spread, composition.sources, (composition.outputs[output],))
+    # `used` omits pairs without influence on this output
     used = {source.id for source in alone.used}
     return tuple(at for at, name in enumerate(names) if name in used)
 

@@ -51,7 +51,7 @@ class TrialResults(Tabular):
         "trial": "Number of the trial, from 0.",
         "turns": "Position of the input [turn].",
         "* error (deg)": "Pointer error of the output [deg].",
-        "* events": "Sum of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not to be cut.",
+        "* events": "Bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.",
     }
 
     plan: TrialPlan
@@ -76,7 +76,7 @@ class TrialResults(Tabular):
     wheel].
     """
     filing: Floats
-    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs)."""
+    """Numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 * pairs)."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
@@ -112,7 +112,9 @@ class TrialResults(Tabular):
 
     @cached_property
     def bounds(self) -> Mapping[str, float]:
-        """Upper bound of the jam probability, 0 to 1, for each pair whose wheels have only normal pitch deviations."""
+        """Pair -> upper bound of the jam probability, 0 to 1. Pairs without a bound, such as pairs with other errors
+        than normal pitch deviations, are omitted.
+        """
         found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
         return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -200,6 +202,7 @@ class TrialResults(Tabular):
         }
         whole = sum(parts.values(), np.zeros(np.count_nonzero(runs)))
         total = float(np.var(whole)) if len(whole) else 0.0
+        # covariances instead of variances, because pairs with a common wheel are correlated
         return {name: float(np.mean(part * (whole - whole.mean()))) / total for name, part in parts.items() if total}
 
     @property
@@ -243,7 +246,7 @@ class TrialResults(Tabular):
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
     """Return a mask, shape (trials,), of the trials in which the given pairs transmit motion.
 
-    In these trials no given pair jams, disengages or has a wheel that cannot be cut; clashes are allowed.
+    A trial is excluded if a given pair jams, disengages or has a wheel that cannot be cut; clashes are allowed.
     """
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
@@ -335,7 +338,7 @@ class ConvergenceStep:
     trials: int
     """Number of trials used, from the first one."""
     share: ProbabilityEstimate
-    """Probability estimated from these trials."""
+    """Probability estimated from the first `trials` trials."""
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
@@ -391,7 +394,7 @@ class PointerErrorStatistics(Result):
     """Root mean square of the error from first-order superposition, and root mean square of the pointer error [rad]."""
     shares: Mapping[str, float]
     """Share of each pair in the variance of the pointer error, from first-order superposition; the sum of the shares
-    is 1.
+    is 1. Empty if the variance is 0.
     """
 
     @property
@@ -408,7 +411,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def of_all(self) -> bool:
-        """True if the output can turn in fewer than 30 trials. The statistics are then computed from all trials."""
+        """True if the output can turn in fewer than 30 trials. The statistics are then computed from `all`."""
         return len(self.errors) < FEWEST
 
     @property
@@ -423,7 +426,9 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error over all trials in which teeth touch [rad]."""
+        """Standard deviation of the pointer error over all trials in which teeth touch [rad], with its confidence
+        interval.
+        """
         return deviation_of(self.all)
 
     @property
@@ -449,7 +454,8 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer error of one output over one revolution of the output, for each trial.
+    """Pointer error of one output over one revolution of the output (of the input if the output is fixed), for each
+    trial.
 
     See Also
     --------

@@ -76,7 +76,7 @@ def check_trials(trials: int) -> None:
     """
     if not 1 <= trials <= _MOST:
         what = f"{trials if trials < 1 else f'{trials:.3g}'} is not a valid number of trials"
-        raise QuestionError(Problem(what, f"it must be from 1 to {_MOST:.0e}", "give for example --trials 1000"))
+        raise QuestionError(Problem(what, f"a run has from 1 to {_MOST:,} trials", "for example, give --trials 1000"))
 
 
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
@@ -128,8 +128,6 @@ def run_trials(
 
     Raises
     ------
-    MissingExtraError
-        If the compiled kernel is requested and numba is not installed.
     QuestionError
         If the number of trials is out of range.
     RangeError
@@ -220,6 +218,7 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
 
 def _pack(array: NDArray[Any]) -> str:
     file = BytesIO()
+    # exact bytes instead of decimals, so that a resumed run gives the same results
     np.save(file, array, allow_pickle=False)
     return b64encode(file.getvalue()).decode()
 

@@ -139,7 +139,7 @@ def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
 
 
 class _StoppedError(Exception):
-    """Interruption of the trials by the user."""
+    """Interruption of the trials by the user, raised to leave the table marked as partial."""
 
 
 def _trials(

@@ -233,7 +233,7 @@ class OutlineAgreement(Result):
 
     See Also
     --------
-    find_tooth_sizes : Verifies its result in this way.
+    find_tooth_sizes : Verify the best design by this comparison.
     """
 
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")

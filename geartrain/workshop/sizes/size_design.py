@@ -38,6 +38,7 @@ def impact_of(transmission: TransmissionFunction) -> float:
     This ratio is the energy that inelastic impacts dissipate in a pitch, docs/motion.md (7), divided by the kinetic
     energy of the driven side.
     """
+    # energies are proportional to the square of a speed, and the mass cancels
     return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2
 
 
@@ -115,11 +116,12 @@ class ToothSizes(Result):
     @cached_property
     def _unplaced(self) -> TriangularSizes:
         z1, z2 = self.teeth
+        # tip radius 1, because no property depends on the absolute size
         return TriangularSizes(z1, z2, 1.0, self.radii * z2 / z1, *self.half_angles, 0.0, self.ring)
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
-        """Clearance window of the pair; None if teeth with these sizes do not exist."""
+        """Clearance window of the pair; None if no teeth with these half angles and radii exist."""
         try:
             return find_window(self._unplaced) if self._unplaced.has_valleys else None
         except GearTrainError:
@@ -206,7 +208,7 @@ class ToothSizes(Result):
         return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
-        """Return the value of an objective to be minimised; infinite if the pair does not turn.
+        """Return the value of an objective to be minimised; infinite if it is undefined or the pair does not turn.
 
         Parameters
         ----------
@@ -283,5 +285,5 @@ def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
 
 
 def rounded(sizes: ToothSizes) -> ToothSizes:
-    """Return the design with its sizes rounded to the digits of a declaration."""
+    """Return the design with its radii and window rounded to the digits of a declaration."""
     return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})

@@ -69,16 +69,16 @@ class SizeSearch:
 
     @property
     def bounds(self) -> tuple[Range, ...]:
-        """Bounds of the free parameters, in their order."""
+        """Bounds of the free parameters, in the order of `free`."""
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return True if a design turns and satisfies all limits, including those in `more`."""
+        """Return True if a design turns and satisfies all limits of the search and of `more`, False otherwise."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective function of a point; designs that do not turn or violate a limit have values above all
-        others.
+        """Return the objective as a function of a point; designs that do not turn or violate a limit have larger values
+        than all feasible designs.
         """
 
         def figure(at: Point) -> float:
@@ -129,6 +129,7 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
     second.
     """
     found: list[ToothSizes] = []
+    # in this order a design is dominated unless it improves the second objective
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
         if not found or each.merit(second) < found[-1].merit(second):
             found.append(each)
@@ -146,6 +147,7 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
 
 
 def _limit(aim: str, merit: float) -> SizeLimit:
+    # the merit of `jam` is minus the margin, because merits are minimised
     return SizeLimit(aim, -merit if aim == "jam" else merit)
 
 
@@ -162,7 +164,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
             why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
-            fix = f"use some of {', '.join(PARAMETERS)}"
+            fix = f"use one or more of {', '.join(PARAMETERS)}"
             raise QuestionError(
                 Problem(
                     what, why if name in _CLEARANCES else "other sizes follow from these parameters or are fixed", fix
@@ -176,7 +178,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
                 Problem(
                     what,
                     "the lower bound must be below the upper bound, and both must be in the permitted range",
-                    f"give bounds from {minimum:g} to {most:g}",
+                    f"give bounds from {minimum:g} to {most:g} (angles in rad)",
                 )
             )
         found[name] = (float(low), float(high))
@@ -185,7 +187,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             Problem(
                 "no parameter is free",
                 "a search needs at least one free parameter",
-                f"free some of {', '.join(PARAMETERS)}",
+                f"free one or more of {', '.join(PARAMETERS)}",
             )
         )
     return found
@@ -201,7 +203,7 @@ class ProbabilityLimit:
 
     See Also
     --------
-    find_tooth_sizes : Evaluates the limit for few designs, the best first.
+    find_tooth_sizes : Evaluate the limit for few designs, the best first.
     """
 
     bound: float
@@ -229,7 +231,7 @@ class PairTrials:
     """
 
     errors: Sequence[ErrorOverride]
-    """Cutting and mounting errors; `read_error_overrides` parses them from text."""
+    """Cutting and mounting errors; `read_error_overrides` parses them from strings."""
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
@@ -265,7 +267,7 @@ class PairTrials:
 def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
     """Return the best design within a probability limit, and its probability.
 
-    Designs are evaluated in the order of their objective; those near a rejected design are omitted.
+    Designs are evaluated in the order of their objective; designs near a rejected design are omitted.
     """
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
@@ -279,7 +281,9 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
         refused.append(at)
     what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
     why = "the cutting errors are too large for such teeth"
-    raise QuestionError(Problem(what, why, "raise the limit (--within stops=), or give smaller errors (--cutting)"))
+    raise QuestionError(
+        Problem(what, why, "raise the limit, such as --within stops=10%, or give smaller errors (--cutting)")
+    )
 
 
 def _bisect_to_limit(
@@ -292,6 +296,7 @@ def _bisect_to_limit(
     beyond = min(refused, key=lambda other: distance(at, other, search.bounds))
     for _ in range(_HALVINGS):
         middle = tuple((a + b) / 2 for a, b in zip(at, beyond, strict=True))
+        # the objective comes first, because the probability needs Monte Carlo trials
         better = value(middle) < value(at) and (found := limit.probability(search.design(middle))) <= limit.bound
         at, beyond, probability = (middle, beyond, found) if better else (at, middle, probability)
     return search.design(at), probability
@@ -341,10 +346,10 @@ def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) ->
 
 
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
-    """Minimise `value` in a box and return all samples; the best sample is the minimum found.
+    """Minimise `value` in a box and return all samples; the best sample is the minimum.
 
     bounds   bounds of each variable, low < high
-    starts   further points to evaluate; the result is never worse than the best of these
+    starts   further points to evaluate; the result is never worse than the best start
     """
     sampled = SampledFunction(value, bounds)
     for start in starts:
@@ -352,6 +357,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
     lows, highs = zip(*bounds, strict=True)
     # only the number of samples ends the search, not the volume or the side of a cell
     number = _DIVISIONS[min(len(bounds), len(_DIVISIONS)) - 1]
+    # the original DIRECT: the locally biased variant suits functions with few local minima
     direct(sampled, Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
     if len(bounds) == 1:
         for end in bounds[0]:  # neither DIRECT nor Brent's method evaluates an end

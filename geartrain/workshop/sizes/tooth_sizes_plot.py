@@ -135,7 +135,7 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Return the objective of the train before and after as text: `pennestri-2002-teeth to 19: loss (%) 46.9 as
+    """Return a string of the objective of the train before and after: `pennestri-2002-teeth to 19: loss (%) 46.9 as
     declared, 15.7 optimised`.
     """
     before, after = (
@@ -194,6 +194,7 @@ def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
     """
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
+    # designs far worse than the best would compress all other designs into a line
     low, high = min(values[0], *marked), max((*marked, min(values[-1], _WORST * max(values[0], 1e-12))))
     rim = _MARGIN * (high - low)
     return low - rim, high + rim

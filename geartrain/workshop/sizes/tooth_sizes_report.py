@@ -160,7 +160,7 @@ def _size(name: str, value: float) -> str:
 
 
 def figure_text(figure: str, value: float) -> str:
-    """Return a property of a design as text with its unit."""
+    """Return a string of a property of a design with its unit."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
     if figure in ("error", "backlash", "half_angle"):
@@ -169,7 +169,7 @@ def figure_text(figure: str, value: float) -> str:
 
 
 def sizes_text(sizes: ToothSizes) -> str:
-    """Return the sizes as text, as in a declaration."""
+    """Return a sentence that gives the sizes as a tooth form of a declaration."""
     angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
     angle = angles if "," not in angles else f"[{angles}]"
     return (
@@ -178,7 +178,7 @@ def sizes_text(sizes: ToothSizes) -> str:
 
 
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
-    """Return the free parameters with their bounds as text."""
+    """Return a string of the free parameters with their bounds."""
     parts = []
     for name, (low, high) in free.items():
         unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")
@@ -235,7 +235,7 @@ def _front(found: BestToothSizes) -> Section:
     rows = [_row(str(at + 1), each) for at, each in enumerate(chosen)]
     first, second = found.aims
     text = (
-        f"Designs that no other design found surpasses in both {first} and {second}. {len(rows)} of {len(front)} are "
-        "shown."
+        f"Designs that no other evaluated design surpasses in both {first} and {second}. {len(rows)} of {len(front)} "
+        "are shown."
     )
     return Section("Pareto front", (text,), (Table(_HEADER, rows),))

@@ -31,7 +31,7 @@ from geartrain.workshop.sizes.size_search import Range, SizeSearch, checked_rang
 
 OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
-"""Turns of the input and number of positions for the error of a pointer. The positions do not affect its extremes."""
+"""Turns of the input and number of positions for the error of a pointer. Its extremes are refined between positions."""
 
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
 _TRIES = 8  # maximum evaluations of the train in one step of the descent
@@ -186,8 +186,9 @@ class TrainSizeSearch:
 
     @cached_property
     def _common_angle_groups(self) -> tuple[tuple[str, ...], ...]:
-        """Groups of pairs with common wheels, which have one common half angle, if it is free and all of them are
-        sized.
+        """Groups of pairs with common wheels, which share one half angle; empty if the half angle is not free.
+
+        A group is omitted if some of its pairs are not optimised.
         """
         if "half_angle" not in self.free:
             return ()
@@ -195,8 +196,8 @@ class TrainSizeSearch:
         return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the free parameters of one pair with their bounds; the half angle is not free if a wheel has a second
-        mate.
+        """Return the free parameters of one pair with their bounds; the half angle is not free if another pair shares a
+        wheel.
         """
         return {
             size: each
@@ -216,10 +217,11 @@ class TrainSizeSearch:
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
-        """Return the objective of the train, to be minimised; infinite if the train does not run."""
+        """Return the objective of the train, which is minimised; infinite if the train does not run."""
         self._on_step()
         if not self._is_joint:
             each = [sizes[name].merit(self.aim) for name in self._requested]
+            # the smallest margin decides on a jam, and impacts add up
             return max(each) if self.aim == "jam" else sum(each)
         try:
             return self._loss(self._resized(sizes)) if self.aim == "loss" else self._error(self._resized(sizes))
@@ -229,6 +231,7 @@ class TrainSizeSearch:
     def _loss(self, train: GearTrain) -> float:
         found = train.driven(self.link, self.source, self.state)
         efficiency = found.efficiency if found.verdict else None
+        # an efficiency of 0 or less means that the train is self-locking
         return inf if efficiency is None or efficiency <= 0 else 1 - float(efficiency)
 
     def _error(self, train: GearTrain) -> float:
@@ -242,6 +245,7 @@ class TrainSizeSearch:
         """Optimise the sizes of the pairs, first separately and then together."""
         before = {name: self._starts[name] for name in self._requested}
         runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._requested}
+        # the train itself, because the sizes in `before` would be rounded to the digits of a declaration
         first = self.figure({}) if all(runs.values()) and self._is_joint else self.figure(before)
         apart = self._separate_optima()
         alone = self.figure(apart)
@@ -249,7 +253,7 @@ class TrainSizeSearch:
         best, together = (first, before) if first < alone and self._is_joint else (alone, apart)
         if best == inf:
             what = f"'{self.train.name}' cannot drive '{self.output}' with any sizes of its teeth"
-            why = "the train does not run with any sizes in the ranges"
+            why = "with all evaluated sizes, friction locks the train, or it cannot turn"
             raise QuestionError(Problem(what, why, f"see `geartrain torques {self.train.name}` for the cause"))
         if self._is_joint:
             best, together = self._descend(best, dict(together))
@@ -343,7 +347,7 @@ class TrainSizeSearch:
     # ------------------------------------------------------------------------------------------------------ declaration
 
     def _declaration(self, sizes: Mapping[str, ToothSizes]) -> dict[str, Any]:
-        """Return the declaration of the train with these sizes; it extends the given train."""
+        """Return a declaration that extends the given train and contains the given sizes."""
         gears = []
         for gear in self.train.declaration.gears:
             if gear.name in sizes:
@@ -366,7 +370,7 @@ class PairSizes(Result):
 
     See Also
     --------
-    find_train_sizes : Find these sizes.
+    find_train_sizes : Find the sizes.
     """
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
@@ -493,6 +497,7 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
         sizes = sizes.swapped()
     place = 0.5
     if window and mesh.verdict.kind == "runs":
+        # rounding can put a clearance at an end of the window outside it
         place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
     radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
     # friction that depends on speed is replaced by its mean coefficient at the speed of the pair

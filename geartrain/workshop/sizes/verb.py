@@ -40,7 +40,8 @@ if TYPE_CHECKING:
 
 _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
-"""Approximate number of designs evaluated per objective, by the number of free parameters."""
+"""Approximate number of designs evaluated for each objective, by number of free parameters; used by the progress bar.
+"""
 
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 """Dimensions of limits; other limits are dimensionless."""
@@ -90,6 +91,7 @@ def run(
     check_distinct_outputs(to, picture)
     ranges, limits = read_free(free or ()), read_limits(within or ())
     train = load(file)
+    # an estimate: the number of evaluations is unknown before the search
     with progress("optimise", 10 * len(train.declaration.gears), patience=2) as bar:
         found = find_train_sizes(train, output, best, ranges, limits, state, bar.advance)
     if plot is not None:
@@ -126,15 +128,19 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Reject options that need `--objective`, and options that cannot be combined with it."""
+        """Reject options that apply only with `--objective` if it is missing, and options that it excludes."""
         if self.best is None:
             for option, given in (("--free", self.free), ("--within", self.within), ("--cutting", self.errors)):
                 if given:
-                    raise option_error(option, "the objective is missing", "give --objective too")
+                    raise option_error(
+                        option, "the option applies only to a search with --objective", "give --objective too"
+                    )
             return
         for option, other in others.items():
             if other:
-                raise option_error(option, "it cannot be combined with --objective", "omit one of them")
+                raise option_error(
+                    option, "the option cannot be combined with --objective", "omit one of the two options"
+                )
 
     def answer(self, pair: PairRequest, to: Sink, picture: Sink, json: bool) -> NoReturn:
         """Write the best sizes as report, data and plot, and exit."""
@@ -170,6 +176,7 @@ class SizeQuestion:
         from geartrain.workshop.cutting.declared_errors import read_error_overrides
         from geartrain.workshop.sizes.size_search import PairTrials
 
+        # the strictest of several limits applies
         bound = min(quantity("--within", text, "fraction", plain=True, minimum="0") for text in given)
         return ProbabilityLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
 
@@ -207,7 +214,7 @@ def _start(pair: PairRequest) -> ToothSizes:
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
-    """Parse texts NAME or NAME=LOW:HIGH to a mapping from name to bounds; without texts, the radii are free."""
+    """Parse strings NAME or NAME=LOW:HIGH to a mapping from name to bounds; without strings, the radii are free."""
     found: dict[str, tuple[float, float] | None] = {}
     for text in given or ("radii",):
         name, equals, rest = text.partition("=")
@@ -226,7 +233,7 @@ def _bound(name: str, text: str) -> float:
 
 
 def read_limits(given: Sequence[str]) -> list[SizeLimit]:
-    """Parse texts NAME=LIMIT; each limit is a maximum or a minimum, depending on the quantity."""
+    """Parse strings NAME=LIMIT; each limit is a maximum or a minimum, depending on the quantity."""
     from geartrain.workshop.sizes.size_design import SizeLimit
 
     found = []

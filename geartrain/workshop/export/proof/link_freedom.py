@@ -41,12 +41,14 @@ class LinkFreedom(Result):
     link: str
     """Name of the link."""
     backlash: float | None
-    """Total range of the angle, the backlash of all meshes up to the link [rad]; None if the teeth do not limit it."""
+    """Total range of the angle [rad], due to the backlash of all meshes up to the link; None if the teeth do not limit
+    it.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class FreedomProof:
-    """Freedom of all links except the frame, and findings where it contradicts the result of `solve`."""
+    """Freedom of all links except the frame and the inputs, and findings where it contradicts the result of `solve`."""
 
     links: tuple[LinkFreedom, ...]
     findings: tuple[BuildFinding, ...] = ()
@@ -102,8 +104,8 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes at a pose, and by pair the distance of wheels outside their backlash
-        [mm].
+        """Return the constraints of all meshes at a pose, and by pair the distance by which a wheel is outside its
+        backlash [mm].
         """
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
@@ -127,6 +129,7 @@ class _Motion:
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
             weights[at] += count * self.scene.bodies[at].sense
+        # tooth counts as coefficients would scale a linear programme badly
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
@@ -167,6 +170,7 @@ class _Motion:
         weights[second] += s2
         weights[first] -= ratio * s1
         weights[held] += sk * (ratio - 1)
+        # the limits are NaN if the second wheel is nowhere free
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
@@ -240,6 +244,7 @@ class _Motion:
             b_eq=np.zeros(len(still)),
             bounds=(None, None),
         )
+        # an unbounded programme means that the teeth do not stop the link
         return -way * float(found.fun or 0.0) if found.status == 0 else way * inf
 
     # --------------------------------------------------------------------------------------------------------- findings
@@ -270,7 +275,7 @@ class _Motion:
     def _out_of_step(self, pair: str, mm: float, pose: Fraction) -> BuildFinding:
         where = f" after {pose} turns" if pose else ""
         what = f"pair '{pair}': its wheels overlap{where}" + ("" if mm == inf else f" by {mm:.3g} mm")
-        why = "at the solved angles of all links, a tooth meets a tooth"
+        why = "at the solved angles of all links, a tooth of one wheel meets a tooth of the other"
         return _finding("error", what, why, "fix a wheel to its arbor at another angle, or change tooth numbers")
 
 

@@ -149,7 +149,9 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
     """Return the measured values of a mesh that is turned, with findings on the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
+    # arc length on the pitch circle of the second wheel, as the declared backlash
     room = (found.high - found.low) * R
+    # NaN at positions in which the second wheel is nowhere free
     measured = room[~np.isnan(room)]
     blocked = bool((found.overlap > NOTHING).any())
     tips = zip(turned.materials, turned.reaches, turned.counts, strict=True)
@@ -187,6 +189,7 @@ def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
     if material.geom_type != "Polygon":
         return abs(tip - root)
     radius = tip - (tip - root) * _LAND
+    # 64 chords for each tooth
     circle = shapely.Point(0.0, 0.0).buffer(radius, quad_segs=max(64, 16 * teeth)).exterior
     return float(shapely.length(shapely.intersection(circle, material))) / teeth
 
@@ -225,7 +228,9 @@ def _findings(
         )
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
-        yield BuildFinding("T4", "note", Problem(what, "such narrow tips burn or break", "shorten the addendum"))
+        yield BuildFinding(
+            "T4", "note", Problem(what, "tips narrower than 0.2 modules burn or break", "shorten the addendum")
+        )
 
 
 _STUCK = "overlapping teeth cannot turn"

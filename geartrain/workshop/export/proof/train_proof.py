@@ -58,18 +58,18 @@ class TrainProof(Result):
     meshes: tuple[MeshProof, ...]
     """Measured values of every pair of wheels whose teeth are cut."""
     links: tuple[LinkFreedom, ...]
-    """Measured freedom of motion of every link that turns."""
+    """Freedom of every link except the frame and the inputs, while the inputs are held."""
     findings: tuple[BuildFinding, ...]
     """Findings of the check: errors, then notes on parts that are risky or could not be checked."""
 
     @property
     def is_ready(self) -> bool:
-        """True if no finding is an error."""
+        """True if the findings contain no error."""
         return not build_errors(self.findings)
 
     @property
     def verdict(self) -> str:
-        """Verdict as one sentence."""
+        """Verdict in one sentence: "ready to cut", or the first error and the number of further errors."""
         errors = build_errors(self.findings)
         if not errors:
             return "ready to cut"
@@ -132,7 +132,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
 
 
 def proof_is_installed() -> bool:
-    """Return True if shapely and manifold3d are installed."""
+    """Return True if shapely and manifold3d are installed, False otherwise."""
     try:
         return all(find_spec(name) is not None for name in ("shapely", "manifold3d"))
     except (ImportError, ValueError):
@@ -154,7 +154,7 @@ def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings on axes that the plates cannot bear and on obstacles of arbors."""
+    """Yield findings on axes that the plates cannot bear, on obstacles of arbors, and on cups of flexible wheels."""
     if work.frame is None:
         return
     for cup in work.frame.plan.stack.cups:
@@ -268,7 +268,9 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
                         f"{area:.3g} mm2"
                     )
                     why = "overlapping teeth cannot turn"
-                    yield BuildFinding("T5", "error", Problem(what, why, "give more backlash: --backlash 0.1mm"))
+                    yield BuildFinding(
+                        "T5", "error", Problem(what, why, "give more backlash, such as --backlash 0.1mm")
+                    )
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
@@ -282,6 +284,7 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
     pitch, z = 2 * np.pi / counts, blank.teeth
     middle = wave.radius + wave.wave.wall / 2
     line = _divided(np.asarray(thin.exterior.coords)[:-1])
+    # over this range the wheel turns back by one of its pitches, after which the positions repeat
     for turn in np.arange(_POSITIONS) * pitch / _POSITIONS * counts / (counts - z):
         own = -turn * (counts - z) / z
         bent = shapely.Polygon(bent_line(line, middle, (wave.wave.rise, wave.wave.lobes), (own, turn)))

@@ -1,4 +1,5 @@
-"""Two written outlines turned against each other: their overlap, and the range of angles in which the second is free.
+"""Two written outlines turned against each other: their overlap, and the range of angles in which the second one is
+free.
 
 Wheel 1 is at the origin. Wheel 2 is at the distance between the axes on the positive x axis, or on the negative one if
 it is internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
@@ -52,13 +53,13 @@ class FreeTurn:
     turned: Floats
     """Angles of wheel 1 from the position with a tooth on the line of centres [rad]."""
     low: Floats
-    """Minimum lag at which wheel 2 is free [rad]; NaN if it is nowhere free."""
+    """Minimum lag at which wheel 2 is free [rad]; NaN at positions without a free lag."""
     high: Floats
-    """Maximum lag at which wheel 2 is free [rad]; NaN if it is nowhere free."""
+    """Maximum lag at which wheel 2 is free [rad]; NaN at positions without a free lag."""
     overlap: Floats
     """Minimum common area over all lags [mm2]; 0 if wheel 2 is free."""
     place: tuple[float, float] | None
-    """Position of the largest overlap, relative to the axis of wheel 1 [mm]; None without overlap."""
+    """Position of the largest overlap [mm], relative to the axis of wheel 1; None without overlap."""
 
 
 @dataclass(frozen=True)
@@ -210,6 +211,7 @@ class TurnedPair:
         a = self.distance
         if not a:
             return pi, pi
+        # law of cosines in the triangle of both axes and an intersection of the tip circles
         one = (other**2 - tip**2 - a**2) / (2 * a * tip) * (1 if self.ring else -1)
         two = (a**2 + other**2 - tip**2) / (2 * a * other)
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
@@ -288,7 +290,7 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
     """Return for each tooth the index of the first equal tooth: all 0 if a rotation by a pitch does not change the
-    wheel.
+    wheel, otherwise the index of the tooth itself.
     """
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
@@ -300,7 +302,7 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """Return the sector about a direction, with margins above and below the teeth."""
+    """Return the sector of half angle `half` [rad] about a direction [rad], with margins above and below the teeth."""
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
     steps = np.linspace(-half, half, 9)
@@ -336,8 +338,8 @@ def plane_geometry() -> Any:
 def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) -> Geometry:
     """Return the material that remains when the CUT path of a drawing is cut [mm], y upwards; for a lantern its pins.
 
-    The largest line is the rim, the others are holes. Raises `GearTrainError` for a drawing that cannot be cut: a line
-    that crosses itself, or a hole that leaves the part.
+    The largest line is the rim, all other lines are holes. Raises `GearTrainError` for a drawing that cannot be cut: a
+    line that crosses itself, or a hole that leaves the part.
     """
     shapely = plane_geometry()
     rings = [shapely.Polygon(line) for line in cut_lines(svg, tolerance)]
@@ -403,4 +405,6 @@ def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tole
 
 
 def _uncuttable(what: str, why: str) -> GearTrainError:
-    return GearTrainError(Problem(f"the drawing cannot be cut: {what}", why, "change its teeth, its bore or its rim"))
+    return GearTrainError(
+        Problem(f"the drawing cannot be cut: {what}", why, "change the teeth, the bore or the rim of the wheel")
+    )

@@ -35,7 +35,7 @@ from geartrain.numerics.results import imported_function
 
 
 class SearchGroup(LazyGroup):
-    """Group of commands that search for tooth counts."""
+    """Group of the commands of `geartrain teeth`, one for each kind of search."""
 
     verbs = Verbs(
         {

@@ -111,7 +111,7 @@ class AlternativeRows(Generic[Node]):
 
 
 class WeightedAlternatives(Generic[Node]):
-    """Weighted derivations from a root node.
+    """Weighted derivations from a root node, with their total weight, marginals and random samples.
 
     Parameters
     ----------

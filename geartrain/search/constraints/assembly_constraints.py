@@ -503,10 +503,11 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
 def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
     """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), >= 0 if tip 2 does not interfere with wheel 1.
 
-    The tip circle of 2 must intersect the line of action before its point of contact with the base circle of 1:
-    r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares of z2
-    cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1 it gives
-    the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15 with 45).
+    The tip circle of 2 must intersect the line of action before the point where this line touches the base circle of
+    1: r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares
+    of z2 cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1
+    it gives the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15
+    with 45).
     """
     return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
 
@@ -516,8 +517,9 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
     interfere.
 
     h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
-    independently: the ring's tip circle must intersect the line of action beyond its point of contact with the base
-    circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
+    independently: the ring's tip circle must intersect the line of action beyond the point where this line touches
+    the base circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 -
+    z1)/2.
     """
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 

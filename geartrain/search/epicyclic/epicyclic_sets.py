@@ -26,7 +26,9 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set."""
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its contribution to the
+    ratios.
+    """
 
     link: str
     """Name of the link that the wheel belongs to."""

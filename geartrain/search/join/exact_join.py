@@ -80,7 +80,7 @@ AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """Error of a join that exceeds its maximum number of steps."""
+    """Signal that a join has exceeded its maximum number of steps."""
 
 
 @dataclass

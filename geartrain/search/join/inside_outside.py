@@ -158,7 +158,7 @@ _Table = RecordedNode | RecordedItem | ProductStep
 
 
 class AssignmentSums:
-    """Weighted sums over the assignments of a recorded join.
+    """Calculator of weighted sums over all assignments of a recorded join, for different weights of tooth counts.
 
     graded   True if the weight of an assignment, the product of the weights of its counts, is multiplied by
              exp(-misfit / 2)

@@ -48,7 +48,9 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery, with its period and wheels."""
+    """Arbor of an orrery, with its period, its sense of rotation, its wheels, and whether it shows a requested
+    period.
+    """
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 

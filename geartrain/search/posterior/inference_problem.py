@@ -175,7 +175,7 @@ def _check(
         raise QuestionError(
             Problem(
                 f"the factor {scale} of tolerances is negative",
-                "it would make tolerances negative",
+                "a negative factor would make tolerances negative",
                 "give a factor >= 0",
             )
         )
@@ -393,7 +393,9 @@ class Observation:
 
 @dataclass(frozen=True, slots=True)
 class ObservedOutput:
-    """Output with at least one observation."""
+    """Output with its speed as a function of uncertain tooth counts, and with observations of this speed as
+    evidence.
+    """
 
     name: str
     """Name of the output, or "state: output" if several states are used at once."""

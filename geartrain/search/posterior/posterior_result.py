@@ -57,7 +57,7 @@ class CountProbability(Result):
 
 @dataclass(frozen=True, slots=True)
 class WheelPosterior(Result):
-    """Posterior of the tooth count of one wheel.
+    """Posterior of the tooth count of one wheel, with its prior and the information gained.
 
     See Also
     --------

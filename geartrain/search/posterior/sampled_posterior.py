@@ -104,7 +104,7 @@ def _is_admitted(value: Fraction | None, one: IntervalConstraint) -> bool:
 
 
 class PosteriorTally:
-    """Sums over the combinations of a sample.
+    """Sums of likelihoods over the combinations of a sample, from which the posterior is estimated.
 
     examined  number of combinations
     turning   number of combinations with which the train turns

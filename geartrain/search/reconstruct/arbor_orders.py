@@ -322,7 +322,7 @@ class _ChainState:
 
 
 class _BranchingState(NamedTuple):
-    """Branching, and pairs of wheels that must mesh below it."""
+    """State of the dynamic programme at a branching, with the pairs of wheels that must mesh below it."""
 
     branching: NamedBranching
     pairs: _Pairs

@@ -182,7 +182,7 @@ class TopologyArbor(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class NamedChain:
-    """Chain of named arbors, with its end."""
+    """Chain of arbors in a topology, with names for its surviving and added arbors, and its end."""
 
     chain: Chain
     """Chain without names."""
@@ -207,7 +207,7 @@ class NamedChain:
 
 @dataclass(frozen=True, eq=False)
 class NamedBranching:
-    """Named arbor at which paths end or separate."""
+    """Arbor of a topology at which paths to dials end or separate, with names for the arbor and its wheels."""
 
     arbor: TopologyArbor
     """Arbor with its driven wheel."""

@@ -59,7 +59,7 @@ distance  the radii of meshing wheels fit the distance of their axes
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """Rule of the problem that a candidate breaks."""
+    """Rule of the problem that a candidate breaks, with the change of the evidence that would admit the candidate."""
 
     KEYS = ("rule", "subject", "what", "change")
 

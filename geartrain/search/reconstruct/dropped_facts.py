@@ -186,7 +186,9 @@ class LoneDial(Result):
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Reasons why a problem has no explanation."""
+    """Reasons why a problem has no explanation: the result for each dial by itself, and the changes that would
+    help.
+    """
 
     dials: tuple[LoneDial, ...]
     """Results for each dial by itself."""

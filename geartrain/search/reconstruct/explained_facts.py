@@ -53,7 +53,9 @@ _MOST_FACTS = 200
 
 
 class Fact(NamedTuple):
-    """Property with one answer in each candidate."""
+    """Property of the candidates that has one answer in each candidate, such as the arbor that drives a given
+    arbor.
+    """
 
     kind: FactKind
     """Kind of the fact."""
@@ -63,7 +65,7 @@ class Fact(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class FactAnswer(Result):
-    """Answer to a fact, with its probability."""
+    """Answer to a fact, with its posterior probability and its number of candidates."""
 
     KEYS = ("answer", Key("weight", "share", float), "solutions")
 
@@ -439,7 +441,9 @@ def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
 
 @dataclass(frozen=True, slots=True)
 class CandidateFindings(Result):
-    """Facts derived from the candidates, in addition to their numbers."""
+    """Facts derived from the candidates: marginals, facts to observe next, family tree, and sensitivity to
+    assumptions.
+    """
 
     listed: int = 0
     """Number of candidates in the family tree."""

@@ -68,7 +68,7 @@ class TellingFact(Result):
 
 @dataclass(frozen=True, slots=True)
 class TellingFacts(Result):
-    """Facts that distinguish one train from all other explanations."""
+    """Facts that distinguish one train from all other explanations, singly and in the smallest sets."""
 
     facts: tuple[TellingFact, ...]
     """All distinguishing facts, in ascending order of the number of trains that share them."""

@@ -135,7 +135,7 @@ class _Budget(NamedTuple):
 
 
 class PathTrees:
-    """Enumeration of the topologies that have given paths.
+    """Enumeration of the topologies that have one given path for each dial.
 
     lists   list of the paths to each dial, sorted by the name of the dial
     """

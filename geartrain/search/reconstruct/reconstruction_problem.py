@@ -292,7 +292,7 @@ class ReconstructionProblem(Shown):
 
 @dataclass(frozen=True)
 class PlacedWheel:
-    """Wheel of a candidate reconstruction.
+    """Wheel of a candidate reconstruction: a surviving wheel by its name, or an added wheel, with its tooth count.
 
     See Also
     --------
@@ -370,7 +370,9 @@ class Arbor(Shown):
 
 @dataclass(frozen=True, slots=True)
 class RequestedQuestion(Result):
-    """Size of a reconstruction problem."""
+    """Size of a reconstruction problem: numbers of surviving parts, dials and added wheels, as reported before the
+    search.
+    """
 
     arbors: int
     """Number of surviving arbors, including the input."""

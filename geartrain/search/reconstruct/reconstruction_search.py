@@ -41,7 +41,7 @@ _NONE: _Wheel = ("", 0)
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """Number of explanations with a given number of added wheels.
+    """Number of explanations with a given number of added wheels: of trains, and of equivalence classes of trains.
 
     See Also
     --------

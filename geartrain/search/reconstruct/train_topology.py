@@ -109,7 +109,7 @@ Dials = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Branching:
-    """Arbor at which paths to dials end or separate."""
+    """Arbor at which paths to dials end or separate, with the chains of arbors that its wheels drive."""
 
     name: str | None
     """Name of the surviving arbor; None for an added arbor."""

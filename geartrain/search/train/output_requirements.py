@@ -117,7 +117,7 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """Output with all requirements on its speed."""
+    """Output of a train with its speed as a function of tooth counts, and all requirements on this speed."""
 
     name: str
     """Name of the output; "state: output" if several states are searched at once."""

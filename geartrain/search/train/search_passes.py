@@ -90,7 +90,7 @@ def _digits(number: int, chain: Sequence[tuple[int, int]]) -> list[list[int]]:
 
 @dataclass(frozen=True, slots=True)
 class PassWork:
-    """Data that all tasks of one pass share."""
+    """Data that all tasks of one pass share: the join problem, the order of solutions, and the limit of the list."""
 
     question: JoinProblem
     """Join problem of the pass."""
@@ -282,7 +282,9 @@ class _Section:
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """Result of one pass of a search."""
+    """Result of one pass of a search: the counts, the best assignments, and the fraction of the assignments
+    searched.
+    """
 
     share: Fraction | None
     """Common relative tolerance of the pass; None without a common tolerance."""
@@ -407,7 +409,9 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
 
 @dataclass(frozen=True, slots=True)
 class AssignmentOrder:
-    """Total order of the assignments of tooth counts."""
+    """Total order of the assignments of tooth counts, by a criterion and then by error, total, largest count and
+    counts.
+    """
 
     by: By
     """Primary criterion; ties are broken by error, total, largest count, and the counts in the order of the wheels."""

@@ -158,7 +158,8 @@ class Standing(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Tabular, Result):
-    """Results of a search for the tooth counts of a train.
+    """Results of a search for the tooth counts of a train: the solutions of each independent part, and their
+    numbers.
 
     See Also
     --------

@@ -423,7 +423,7 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Function that ranks assignments, by counting the assignments with smaller errors."""
+    """Calculator of the rank of an assignment, by counting the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 

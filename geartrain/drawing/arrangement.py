@@ -2,7 +2,7 @@
 
 Nodes of a graph are ordered so that lines are short (`arrange`), spread along a line (`spread`), or placed at about
 given distances (`settle`: stress majorization). Text is placed in the free rectangles that `LabelSpace` finds. Callouts
-are placed in two columns next to a picture, with lines to what they name.
+are placed in two columns next to a picture, with lines to the points that they name.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def neighbours(items: Sequence[str], pairs: Pairs) -> dict[str, list[str]]:
-    """Return a dictionary from each item to its partners, in the order of the pairs."""
+    """Return a dictionary from each item to the items with which it is paired, in the order of the pairs."""
     mates: dict[str, list[str]] = {item: [] for item in items}
     for one, other in pairs:
         if one in mates and other in mates and one != other:
@@ -83,8 +83,9 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
 
 
 def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
-    """Return the sequence with one item at its best position, and its length; unchanged unless another position is
-    better.
+    """Return the sequence with one item at its best position, and the sum of distances within pairs.
+
+    The sequence is unchanged unless another position is better.
     """
     rest = [other for other in sequence if other != item]
     found = sequence
@@ -97,13 +98,16 @@ def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:
-    """Return centres of boxes that do not overlap, in the order of the wanted centres and as close to them as possible.
+    """Return centres of boxes in a row that do not overlap, in the order of the wanted centres and close to them.
+
+    The sum of the squared distances from the wanted centres is minimised.
 
     needs    width of each box
     bounds   interval that contains the boxes as far as there is space
     """
     if not len(wanted):
         return []
+    # stable, so that boxes with equal centres keep the given order
     order = np.argsort(wanted, kind="stable")
     wide = np.asarray(needs)[order]
     steps = np.concatenate([[0.0], np.cumsum(wide[1:] + wide[:-1]) / 2])  # distances from the first box, without gaps
@@ -144,7 +148,9 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths of shortest paths (n, n) by the Floyd-Warshall algorithm; 0 between separate components."""
+    """Return the lengths of shortest paths between items (n, n), by the Floyd-Warshall algorithm; 0 between separate
+    components.
+    """
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -160,7 +166,7 @@ def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, s
 
 
 Box = tuple[float, float, float, float]
-"""Centre x, centre y, width and height [in]."""
+"""Box on a page: centre x, centre y, width and height [in]."""
 
 _PATHS = TextToPath()
 _LINE = 1.25  # height of a line over its font size
@@ -170,7 +176,7 @@ PITCH = _LINE * FINE / 72 + 0.02
 
 @cache
 def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
-    """Return the width [in] of a line of text in the font of the figures."""
+    """Return the width of a line of text in the font of the figures [in]; 0 for an empty string."""
     font = FontProperties(size=size, weight=weight)
     shown = printable(text)  # the text as drawn, with control characters written out
     return float(_PATHS.get_text_width_height_descent(shown, font, ismath=False)[0]) / 72 if text else 0.0
@@ -184,7 +190,7 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Occupied boxes (n, 4) on a page."""
+    """Occupied boxes (n, 4) on a page [in], used to place labels without overlap."""
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 
@@ -219,27 +225,27 @@ _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 @dataclass(frozen=True, slots=True)
 class Callout:
-    """Callout: one or more lines of text, with the point of the picture that they name [in]."""
+    """One or more lines of text next to a picture, with the point of the picture that they name [in]."""
 
     words: Sequence[tuple[str, str]]
-    """Lines of text, each as (identifier of the text in a vector file, text)."""
+    """Lines of text, each as (identifier of the text in a vector file, string)."""
     anchor: Spot
 
     @property
     def height(self) -> float:
-        """Height within its column [in]."""
+        """Height of the callout within its column [in]."""
         return PITCH * len(self.words) + (_APART if len(self.words) > 1 else 0.0)
 
     @property
     def width(self) -> float:
-        """Width of its longest line [in]."""
+        """Width of the longest line [in]."""
         return max(text_width(words) for _, words in self.words)
 
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Positions of callouts next to a picture: the y of each, on the left and the right, and the inner edges of the
-    columns.
+    """Positions of callouts in two columns next to a picture: the y of each callout on the left and on the right, and
+    the inner edges of the columns [in].
     """
 
     left: Sequence[tuple[Callout, float]]
@@ -260,17 +266,17 @@ class CalloutMargin:
 
     @property
     def lines(self) -> list[Floats]:
-        """Both ends (2, 2) of every line."""
+        """Both ends (2, 2) of the leader line of every callout [in]."""
         sides = zip((self.left, self.right), self.edges, strict=True)
         return [np.array([(edge, y), each.anchor]) for side, edge in sides for each, y in side]
 
     @property
     def has_lists(self) -> bool:
-        """True if a line leads to several names."""
+        """True if a callout has several lines of text."""
         return any(len(each.words) > 1 for side in (self.left, self.right) for each, _ in side)
 
     def moved(self, x: float, y: float) -> CalloutMargin:
-        """Return a copy that is translated on the page."""
+        """Return a copy that is translated on the page by (x, y) [in]."""
         left, right = (
             [(Callout(c.words, (c.anchor[0] + x, c.anchor[1] + y)), at + y) for c, at in side]
             for side in (self.left, self.right)
@@ -310,8 +316,9 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return callouts and their heights in a column, close to the points that they label. Callouts with crossing leader
-    lines are swapped, and the order with the fewest crossings found is returned.
+    """Return callouts and their y [in] in a column, close to the points that they name.
+
+    Callouts with crossing leader lines are swapped, and the tried order with the fewest crossings is returned.
     """
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
@@ -330,7 +337,7 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
 def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
     """Return the callouts from bottom to top in the order of minimum total line length (linear assignment).
 
-    If all callouts were equally high, no two lines of this order would cross.
+    If all callouts had equal heights, no two lines of this order would cross.
     """
     if not callouts:
         return []
@@ -341,7 +348,7 @@ def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[floa
 
 
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with heights as close to their anchors as their order permits (isotonic regression)."""
+    """Return the callouts with their y [in], as close to their anchors as their order permits (isotonic regression)."""
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 

@@ -43,13 +43,13 @@ _SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a plain hand for the key, and
 
 @dataclass(frozen=True, slots=True)
 class PointerReading:
-    """Position of a pointer after some turns of the driving link."""
+    """Reading of a pointer after a number of turns of the driving link, with the shape of its hand."""
 
     output: str
     turned: Fraction | None
     """Mean turns since the zero pose, clockwise as read positive, exact; None if undetermined."""
     error: float
-    """Contribution of the starting angle, teeth and pins [turn], clockwise as read positive."""
+    """Contribution of the starting angle, teeth and pins to the reading [turns], clockwise as read positive."""
     reach: float = 1.0
     """Length of the hand divided by the radius of its scale.
 
@@ -59,23 +59,24 @@ class PointerReading:
 
     @property
     def at(self) -> Fraction:
-        """Turns from the zero mark, clockwise as read.
+        """Position of the pointer from the zero mark [turns], clockwise as read; from the zero mark if it is
+        undetermined.
 
-        They are exact except for the error, which is rounded. A hand on a line is read in the cell after the line, and
-        an error of -1e-17 turns would put it in the cell before.
+        The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
+        and an error of -1e-17 turns would put it in the cell before.
         """
         return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """Face with the pointers that are read on it; `name` is empty for a plain face of one output."""
+    """Face to be drawn, with the indices of the pointers that are read on it; `name` is empty for a plain face."""
 
     name: str
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
-    """Text above the face if it differs from the name, because one dial may surround several axes."""
+    """Text above the face; empty if it is the name."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
@@ -85,6 +86,7 @@ def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
     for pointer in scene.pointers:
         body, base = scene.bodies[pointer.body], scene.bodies[pointer.base]
         known = pointer.speed is not None
+        # about the axis of the output: the product of the senses is -1 if the axis of its base is opposite
         start = (body.start - base.start * body.sense * base.sense) / (2 * pi)
         swing = float(error[pointer.body] - error[pointer.base] * body.sense * base.sense) / (2 * pi) + start
         turned = turns_of(pointer.speed, turns) * pointer.sense if known else None
@@ -96,13 +98,13 @@ def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
 def dials_figure(
     scene: Scene, turns: Fraction = Fraction(0), outputs: Sequence[str] = (), labels: bool = True
 ) -> Figure:
-    """Draw the dials of a scene after `turns` of its driving link.
+    """Return a figure with the dials of a scene after `turns` of its driving link.
 
     Outputs without a dial get a plain face if they are named or if no output has a dial.
 
-    outputs   outputs to draw, by default all that are read on a dial
+    outputs   names of the outputs to draw, by default all outputs that are read on a dial
 
-    Raise `QuestionError` for unknown outputs and for trains without outputs.
+    Raise `QuestionError` for unknown outputs, for trains without outputs, and for more faces than fit on a page.
     """
     faces = find_faces(scene, outputs)
     readings = pointer_readings(scene, turns)
@@ -131,8 +133,9 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, without any face, or for too many
-    faces.
+    """Return the faces to be drawn.
+
+    Raise `QuestionError` for an unknown output, without any face, or for more than 60 faces.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
@@ -162,7 +165,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             Problem(
                 f"{len(faces)} dial faces do not fit on a page",
                 f"a page has space for {_MOST}",
-                "select outputs with --of",
+                "select fewer outputs with --of",
             )
         )
     return faces
@@ -182,6 +185,7 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
     outer = _OUTER
     _draw_scale(axes, face, centre, outer)
     for order, at in enumerate(face.pointers):
+        # hands of one dial differ in length, so that a hand does not hide another with the same reading
         share = 1.0 if face.scale.turns > 1 else (readings[at].reach or 0.97) - 0.07 * (order % 10)
         _draw_pointer(axes, face, readings[at], centre, outer * share, order)
     axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
@@ -209,7 +213,7 @@ def _sample_length(face: DialPicture) -> float:
 
 
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
-    """Draw the engraving of a face: the line along which cells lie, their borders, and letters."""
+    """Draw the engraving of a face: the line along which cells are arranged, the borders of cells, and letters."""
     for part in engrave(face.scale):
         points = [point for line in part.lines for point in (*line, (np.nan, np.nan))]
         colour = BLACK if part.kind in ("rim", "letters") else GREY
@@ -226,7 +230,9 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre; on a spiral it ends at the turn of the spiral that it has reached."""
+    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn of the
+    spiral.
+    """
     if reading.turned is None:
         return
     scale = face.scale
@@ -253,7 +259,7 @@ def _fill_hand(
 
 
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
-    """Return the name of an output, its position, its reading and the sense in which it turns."""
+    """Return the name of an output, the position of its pointer, its reading and its sense of rotation, as a string."""
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     scale = face.scale

@@ -2,7 +2,7 @@
 
 SVG: one user unit is a millimetre, and y points downwards as SVG requires, so that the part is not mirrored.
 
-DXF: millimetres, one layer for each use, closed polylines with arcs.
+DXF: units are millimetres; each use has a layer, and contours are closed polylines with arcs.
 
 Outlines of single wheels are written as SVG, DXF or CSV, in mm.
 """
@@ -26,7 +26,7 @@ _STRAIGHT = 1e-9  # bulge below which an arc is drawn as a line
 
 
 def to_svg(drawing: FlatDrawing) -> str:
-    """Return a drawing as SVG, with one path to cut and a group for each layer that is not cut."""
+    """Return a drawing as an SVG string, with one path to cut and a group for each layer that is not cut."""
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
     lines = [
@@ -55,6 +55,7 @@ def _path(contour: Contour) -> str:
         if abs(bulge) < _STRAIGHT:
             parts.append(f"L {to}")
         else:
+            # a bulge is tan(angle / 4), so that above 1 the arc exceeds a semicircle; sweep flag 0 is counter-clockwise
             radius, large, turn = arc_radius(start, end, bulge), int(abs(bulge) > 1), int(bulge < 0)
             parts.append(f"A {radius:.6f} {radius:.6f} 0 {large} {turn} {to}")
     return " ".join([*parts, "Z"])
@@ -79,8 +80,9 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as DXF R2010, with its title as a custom property. Raise `MissingExtraError` if ezdxf is not
-    installed.
+    """Return a drawing as a DXF R2010 string, with its title as a custom property.
+
+    Raise `MissingExtraError` if ezdxf is not installed.
     """
     try:
         from ezdxf import units
@@ -150,7 +152,7 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
     MissingExtraError
         If the library that writes DXF is not installed.
     GearTrainError
-        If the suffix is not one of these.
+        If the suffix is not supported.
 
     Examples
     --------
@@ -167,13 +169,15 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
     if suffix == ".csv":
         return _csv(wheel)
     what = f"an outline cannot be written as {suffix or 'a file without suffix'}"
-    raise GearTrainError(Problem(what, "", f"use one of {', '.join(OUTLINES)}", "--profile"))
+    raise GearTrainError(
+        Problem(what, "the suffix determines the format", f"use one of {', '.join(OUTLINES)}", "--profile")
+    )
 
 
 def _csv(wheel: WheelOutline) -> str:
     """Return the points of the contours as CSV rows.
 
-    Each contour ends where it began. Arcs are approximated by chords within the wheel's tolerance.
+    Each contour ends at its first point. Arcs are approximated by chords within the wheel's tolerance.
     """
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):

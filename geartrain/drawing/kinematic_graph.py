@@ -74,7 +74,10 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links, of kind revolute, gear or coupling; its label is the axis or the name of the pair."""
+    """Edge between two links: a turning pair, a gear pair or a coupling.
+
+    Its `kind` is revolute, gear or coupling; its `label` is the axis of a turning pair, or the name of another pair.
+    """
 
     ends: tuple[str, str]
     kind: str
@@ -83,7 +86,10 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return all edges in the declared order; `broken` names the gear pairs and couplings to be marked."""
+    """Return all edges of the kinematic graph: turning pairs, gear pairs and couplings, each in the order declared.
+
+    broken   names of the gear pairs and couplings to be marked
+    """
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -96,7 +102,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Draw links, turning pairs, gear pairs and couplings; pairs of a loop that does not close are red.
+    """Return a figure of the kinematic graph of a train; pairs of a loop that does not close are red.
 
     Raise `QuestionError` for more links than fit on a page.
     """
@@ -143,7 +149,9 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of the links [in], and every edge with its curve (3, 2): ends and middle control point."""
+    """Return the positions of the links [in], and every edge with its curve (3, 2): start, middle control point and
+    end.
+    """
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
@@ -165,6 +173,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
     }
     places = settle(links, pairs, lengths)
     middle = places - places.mean(0)
+    # principal axes; the signs of singular vectors are arbitrary and are fixed below
     _, _, turned = np.linalg.svd(middle, full_matrices=False)
     flat = middle @ turned.T if len(links) > 2 else middle
     signs = np.where(flat[np.abs(flat).argmax(0), [0, 1]] < 0, -1.0, 1.0) if len(links) > 2 else 1.0
@@ -182,7 +191,7 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return the ends and the middle control point (3, 2) of an edge.
+    """Return the start, the middle control point and the end (3, 2) of an edge.
 
     The bend minimises its own size plus a penalty for passing close to other vertices.
     """
@@ -231,7 +240,9 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Sampled points (edge, point, 2) of all edges, and the ink per point of each edge [in times pt of width]."""
+    """Sampled points (edge, point, 2) of all edges, and the ink per point of each edge [in pt]: length times line
+    width.
+    """
 
     points: Floats
     ink: Floats
@@ -305,8 +316,9 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw the name of a link next to its vertex, where it hides little ink, on the side where the fewest
-    edges leave.
+    """Draw the name of a link next to its vertex, at the position where it hides the minimum amount of ink.
+
+    Of equal positions, the position on the side with the fewest edges is used.
     """
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
@@ -323,7 +335,7 @@ def _name_vertex(
 def _free_sides(
     link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]
 ) -> list[tuple[float, float]]:
-    """Return sixteen unit directions in descending order of distance from the edges of a vertex."""
+    """Return sixteen unit directions from a vertex, in descending order of distance from its edges."""
     here = np.array(at[link])
     mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
     if not mates:

@@ -33,7 +33,9 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, brakes and clutches that are closed at each member, and speed or None."""
+    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if
+    undetermined).
+    """
 
     x: Fraction
     links: list[str]
@@ -42,7 +44,7 @@ class Point(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """Names of the members, each with the brakes and clutches that are closed at it."""
+        """Names of the members, each with its closed brakes and clutches in brackets."""
         return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
 
 
@@ -56,7 +58,9 @@ _LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Draw a panel for each epicyclic set and each state (or the named one): sets in rows, states below each other.
+    """Return a figure with a panel for each epicyclic set and each state: sets in rows, states below each other.
+
+    state   state to be drawn; by default all states
 
     Raise `QuestionError` if the train has no epicyclic set, or for more panels than fit on a page.
     """
@@ -109,11 +113,13 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the panels in rows of at most the page width, with the minimum number of rows and rows as equal as
-    possible.
+    """Return the panels in rows of at most the page width.
+
+    The number of rows is the minimum, and the longest row is as short as possible.
     """
     rows = len(_packed_rows(wide, _PAGE))
     ends = range(len(wide))
+    # the width of the longest row is the width of some run of panels, so only these widths are tried
     widths = sorted(
         {sum(wide[first : last + 1]) + _GAP * (last + 1 - first) for last in ends for first in ends[: last + 1]}
     )
@@ -121,7 +127,7 @@ def _even_rows(wide: Sequence[float]) -> list[list[int]]:
 
 
 def _packed_rows(wide: Sequence[float], page: float) -> list[list[int]]:
-    """Return the panels in rows, filled in order (next-fit packing)."""
+    """Return the panels in rows that are filled in order up to a width [in] (next-fit packing)."""
     bands: list[list[int]] = [[]]
     left = 0.0
     for at, each in enumerate(wide):
@@ -134,7 +140,7 @@ def _packed_rows(wide: Sequence[float], page: float) -> list[list[int]]:
 
 
 def _widened(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
-    """Return the widths of the panels, widened if they do not fill a page of the minimum width."""
+    """Return the widths of the panels [in], widened if they do not fill a page of the minimum width."""
     most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
     room = _NARROW - _EDGE - _GAP * len(most)
     return [each * max(room / sum(wide[at] for at in most), 1.0) for each in wide]
@@ -196,7 +202,10 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever from left to right, with speeds about the carrier's axis."""
+    """Return the points of a lever from left to right, with speeds about the carrier's reference direction.
+
+    The carrier and the members at its abscissa are separate points.
+    """
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
@@ -223,8 +232,9 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Write members with their speeds above and abscissae below, moved apart where vertical lines are close
-    together.
+    """Write the names and speeds of members above a panel, and their abscissae below it.
+
+    They are moved apart where vertical lines are close together.
     """
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)

@@ -51,8 +51,10 @@ _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the pane
 
 
 class _Trace(NamedTuple):
-    """Motion of one output against the turns of the input: angle [turn], deviation [rad], and speed divided by the mean
-    (or input) speed.
+    """Motion of one output against the turns of the input.
+
+    The angle and its mean are in turns and the deviation in rad. The speed is divided by the mean speed of the output,
+    or by the input speed if the mean is 0.
     """
 
     name: str
@@ -62,7 +64,7 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     kind: str
-    """Name of the deviation: transmission error with real teeth, otherwise anomaly."""
+    """Name of the deviation on the axis: transmission error with real teeth, otherwise anomaly."""
     first: tuple[Floats, Floats, Floats]
     """Turns, deviation and speed at each of the first positions."""
 
@@ -76,12 +78,12 @@ _Drawer = Callable[[Any, _Trace], None]
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """Draw the angle, deviation from mean motion, and speed of outputs over a run; backward motion is drawn in
-    red.
+    """Return a figure of the angle, the deviation from mean motion and the speed of outputs over a run.
 
-    For each output that deviates from uniform motion, panels show its deviation and its speed. A run of few turns also
-    has a panel with the angle, and a run of many turns a panel with any backward motion. Outputs that move uniformly
-    are drawn only if all outputs move uniformly, each in one panel: the angle for few turns, otherwise the speed.
+    For each output that deviates from uniform motion, panels show its deviation and its speed; backward motion is red.
+    A run of few turns also has a panel with the angle, and a run of many turns a panel with any backward motion.
+    Outputs that move uniformly are drawn only if all outputs move uniformly, each in one panel: the angle for few
+    turns, otherwise the speed.
 
     Parameters
     ----------
@@ -123,9 +125,9 @@ def _omitted(erring: int, exact: int) -> Iterator[str]:
         yield "every output moves uniformly"
     less = (erring or exact) - _OUTPUTS
     if less == 1:
-        yield f"1 output{' with a smaller deviation' if erring else ''} is left out: select it with --of"
+        yield f"1 output{' with a smaller deviation' if erring else ''} is omitted: select it with --of"
     elif less > 1:
-        yield f"{less} outputs{' with smaller deviations' if erring else ''} are left out: select them with --of"
+        yield f"{less} outputs{' with smaller deviations' if erring else ''} are omitted: select them with --of"
     if erring and exact:
         moves = "1 output that moves uniformly is" if exact == 1 else f"{exact} outputs that move uniformly are"
         yield f"{moves} not drawn"
@@ -155,7 +157,7 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
 def _drawers(trace: _Trace) -> list[_Drawer]:
     """Return the functions that draw the panels of an output.
 
-    Over few turns of the pointer its whole angle is drawn, over many only its backward motion.
+    If its pointer makes few turns, the whole angle is drawn; if it makes many, only backward motion.
     """
     if not trace.errs:
         return [_angle] if np.ptp(trace.mean) <= _MAX_TURNS else [_speed]
@@ -189,7 +191,7 @@ def _traces(run: MotionRun, on_done: Callable[[int], None]) -> list[_Trace]:
 
 
 def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, Floats, Floats]]:
-    """Return turns, deviation and speed of each output at the first positions, without reduction."""
+    """Return turns, deviation [rad] and relative speed of each output at the first positions, without reduction."""
     columns = zip(passage.error[:, :_MOST], passage.rate[:, :_MOST], means, strict=True)
     return [(passage.turns[:_MOST], error, (mean + rate) / (mean or 1.0)) for error, rate, mean in columns]
 
@@ -197,7 +199,7 @@ def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
     """Return the indices of the positions to draw.
 
-    They are the first position of each bin, its extremes of deviation and speed, and every reversal.
+    These are the first position of each bin, the extremes of deviation and speed in each bin, and every reversal.
     """
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_MOST]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
@@ -279,7 +281,7 @@ _OTHERS = 9  # series of the remaining parts, whose fill in print is used by no 
 
 
 class _Loss(NamedTuple):
-    """Power lost (n,) over the turns by a pair, pin or bearing, or by all parts that are not shown separately."""
+    """Power lost (n,) over the turns by a pair, pin or bearing, or by all parts that are not drawn separately."""
 
     name: str
     power: Floats
@@ -287,8 +289,9 @@ class _Loss(NamedTuple):
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    r"""Draw the requested torque over a run with its mean and extremes, and the losses of gear pairs, couplings and
-    bearings in a panel below the torque.
+    r"""Return a figure of the requested torque over a run, with its mean and extremes.
+
+    A panel below the torque shows the losses of gear pairs, couplings and bearings, if there are any.
 
     Parameters
     ----------
@@ -382,17 +385,21 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Return the turns of the link per turn of the input; 0 if the link returns to its initial angle."""
+    """Return the absolute turns of the link per turn of the input.
+
+    It is 0 if the link returns to its initial angle, and 1 if its speed is not among the results.
+    """
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
     speed = np.asarray(found.speeds.values)[found.speeds.labels[0].index(found.link)]
     forth, most = np.trapezoid(speed, found.turns), np.trapezoid(abs(speed), found.turns)
+    # the mean speed of a link that swings is only a rounding error
     return float(abs(forth) / found.span) if abs(forth) > _MINIMUM * most else 0.0
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:
-    """Return the losses in descending order. The parts beyond the number of colours are added."""
+    """Return the losses of parts in descending order; the parts that are not drawn separately are one loss."""
     if found.losses is None:
         return []
     names, values = found.losses.labels[0], np.asarray(found.losses.values)
@@ -412,16 +419,19 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
 
 
 def _bounds(turns: Floats, values: Floats) -> tuple[float, float]:
-    """Return the range of an unbounded curve that is drawn."""
+    """Return the axis limits of an unbounded curve, from its 2 % and 98 % quantiles; they include 0."""
     even = np.interp(np.linspace(turns[0], turns[-1], _MOST_POSITIONS), turns, values)
     low, high = np.nanquantile(even, (0.02, 0.98))
     return _CUT * min(low, 0.0), _CUT * max(high, 0.0)
 
 
 def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
-    """Return turns and losses unchanged, or averaged over equal intervals of the run; powers (part, position)."""
+    """Return turns and losses (part, position), averaged over equal intervals of the run if there are many
+    positions.
+    """
     if len(turns) <= 2 * _BINS:
         return turns, powers
+    # averages of the integral conserve the energy, whatever the spacing of positions
     work = cumulative_trapezoid(powers, turns, initial=0)
     edges = np.linspace(turns[0], turns[-1], _BINS + 1)
     at_edges = np.array([np.interp(edges, turns, row) for row in work])

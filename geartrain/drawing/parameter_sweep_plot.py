@@ -80,12 +80,11 @@ def sweep_figure(
     title: str = "",
     units: Mapping[str, str] | None = None,
 ) -> Figure:
-    """Draw the results of a sweep over one or two parameters of a pair with triangular teeth; points with NaN
-    values are omitted.
+    """Return a figure of the results of a sweep over one or two parameters of a pair with triangular teeth.
 
     For one parameter, panels show mean efficiency, transmission error and speed ratios against the parameter, with a
     background band for each verdict. For two parameters, a map shows the mean efficiency; the map is blank where the
-    pair does not turn, and faults are hatched. The colour scale covers the pairs that run.
+    pair does not turn, and faults are hatched. Points with NaN values are omitted.
 
     Parameters
     ----------
@@ -97,11 +96,11 @@ def sweep_figure(
         all columns if none of these is given.
     verdicts : array of str
         Verdicts of the same shape: "jam", "clash", "dwell", "overhang", "no valley", "apart" or "none" for a pair that
-        does not run; any other text, such as its phases, for a pair that runs.
+        does not run; any other string, such as the phases of the pair, for a pair that runs.
     title : str
         Title above the figure.
     units : mapping of str to str, optional
-        Units of parameters whose values have one.
+        Unit of each parameter that has one.
 
     Returns
     -------
@@ -111,7 +110,7 @@ def sweep_figure(
     Raises
     ------
     QuestionError
-        If arrays have different shapes or contain no data.
+        If arrays have different shapes or contain no data, or if there are not one or two parameters.
 
     Examples
     --------
@@ -143,7 +142,7 @@ def sweep_figure(
 
 
 def parameter_label(name: str, unit: str = "") -> str:
-    """Return the axis label of a parameter with its unit.
+    """Return the axis label of a parameter with its unit, by default the unit of triangular teeth.
 
     Examples
     --------
@@ -184,7 +183,10 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel; minimum and maximum of one quantity share a panel."""
+    """Return the columns of each panel. Minimum and maximum of one quantity share a panel.
+
+    If columns with a default panel are among them, all other columns are omitted.
+    """
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
         stem, _, end = name.rpartition("_")
@@ -260,7 +262,7 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Draw the regions of faults with hatching, and name and bound the regions where the pair runs."""
+    """Draw hatching in the regions of faults; name and bound the regions where the pair runs, if there are several."""
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)
@@ -281,7 +283,7 @@ def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
 
 
 def _name(axes: Axes, x: Floats, y: Floats, here: NDArray[np.bool_], kind: str) -> None:
-    """Write the name of a region at the cell of the region that is closest to its centroid."""
+    """Write the name of a region at its cell closest to its centroid, unless the region is very small."""
     rows, cells = np.nonzero(here)
     if len(rows) < _MIN_SHARE * here.size:
         return

@@ -66,7 +66,7 @@ _CHORD, _COARSE = 0.002, 0.02  # maximum deviation of a simplified outline, in i
 
 
 def from_below(projected: ProjectedScene) -> list[SceneWheel]:
-    """Return the wheels in drawing order: the lowest first, and the largest first at equal heights."""
+    """Return the wheels in drawing order: the lowest first, and at equal heights the largest first."""
     return sorted(
         projected.scene.wheels, key=lambda wheel: (float(projected.seen(projected.centre(wheel))[2]), -wheel.radius)
     )
@@ -191,15 +191,15 @@ _HUB, _LINE = 0.12, 0.04  # inches kept free around a hub or a point of an arm, 
 
 @dataclass(frozen=True, slots=True)
 class PlanNames:
-    """Candidate positions [in] of the names of the wheels that face the reader, the nearest wheel first."""
+    """Names of the wheels that face the reader, the nearest wheel first, with their candidate positions [in]."""
 
     wheels: Sequence[SceneWheel]
     centres: Floats
-    """Centres of the wheels (n, 2)."""
+    """Centres of the wheels (n, 2) [in]."""
     reach: Floats
-    """Radius of the disc that each wheel hides (n,); 0 for a ring, which is open."""
+    """Radius of the disc that each wheel hides (n,) [in]; 0 for a ring, which is open."""
     arms: Floats
-    """Points (m, 2) that keep names away from arms, slots, and pins in holes."""
+    """Points (m, 2) on arms, slots and pins in holes, which names must not cover [in]."""
     scale: float
     """Inches per millimetre."""
 
@@ -207,7 +207,7 @@ class PlanNames:
     def of(
         cls, projected: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
     ) -> PlanNames:
-        """Return candidate label positions [in] of the given wheels; `at` converts view coordinates to inches."""
+        """Return the names of the given wheels; `at` converts view coordinates to inches."""
         centres = np.array([at(projected.seen(projected.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
         ends = [at(projected.seen(np.array([start, end]))) for _, start, end in arms_of(projected)]
@@ -215,9 +215,9 @@ class PlanNames:
         return cls(wheels, centres, reach, _points_along([*ends, *pins]), scale)
 
     def place(self) -> tuple[list[tuple[SceneWheel, Box]], list[Callout]]:
-        """Return the names placed on their wheels, and callouts for the others.
+        """Return the names that fit on their wheels, and callouts for the names that do not fit.
 
-        All wheels of one axis share a callout that lists them from the smallest to the largest.
+        Wheels of one axis whose names do not fit share a callout, which lists them from the smallest to the largest.
         """
         room, written, rest = self._room(()), [], []
         for order in sorted(range(len(self.wheels)), key=lambda order: self.wheels[order].radius):
@@ -231,7 +231,10 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved away from the callout lines (2, 2) where there is space."""
+        """Return the names on wheels, moved away from the callout lines (2, 2) where there is space.
+
+        A name without space keeps its position.
+        """
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -251,7 +254,7 @@ class PlanNames:
         return room
 
     def _on_face(self, order: int) -> Iterator[Box]:
-        """Yield boxes for a name within the visible part of its wheel's face."""
+        """Yield boxes for a name within the visible part of its wheel's face; none for a ring."""
         wheel, centre = self.wheels[order], self.centres[order]
         if wheel.kind == "ring":
             return
@@ -262,12 +265,13 @@ class PlanNames:
         corners = spots[:, None] + np.array([(i * wide / 2, j * high / 2) for i in (-1, 0, 1) for j in (-1, 0, 1)])
         apart = corners - centre
         within = np.hypot(apart[..., 0], apart[..., 1]).max(1) < wheel.root * self.scale
+        # wheels are listed from the nearest, so that only earlier wheels can hide this one
         above = self.centres[:order], self.reach[:order]
         hidden = points_in_discs(corners.reshape(-1, 2), *above).reshape(len(spots), -1).any(1)
         yield from ((x, y, wide, high) for x, y in spots[within & ~hidden].tolist())
 
     def _callouts(self, rest: Sequence[int]) -> list[Callout]:
-        """Return one callout for each axis with wheels whose names do not fit on them."""
+        """Return one callout for each axis with wheels whose names do not fit on their faces."""
         middle = float(self.centres[:, 0].mean()) if len(self.centres) else 0.0
         axes: dict[tuple[float, ...], list[int]] = {}
         for order in rest:
@@ -281,7 +285,7 @@ class PlanNames:
         return callouts
 
     def _anchor(self, order: int, middle: float) -> tuple[float, float]:
-        """Return the outermost visible point of a wheel; if the wheel is hidden, a point of its rim."""
+        """Return the outermost visible point of a wheel [in]; if the wheel is hidden, a point of its rim."""
         wheel = self.wheels[order]
         shares = (1.05,) if wheel.kind == "ring" else _POINTS
         angles = 2 * pi / _ROUND * (np.arange(_ROUND) + 0.5)
@@ -304,7 +308,7 @@ def _points_along(lines: Sequence[Floats]) -> Floats:
 
 
 def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Return True for each point (n, 2) that is in one of the discs (m, 2)."""
+    """Return True for each of the points (n, 2) that is in one of the discs (m, 2), False for the other points."""
     if not len(points) or not len(centres):
         return np.zeros(len(points), dtype=bool)
     middle = points.mean(axis=0)
@@ -321,7 +325,8 @@ _NOTE_SIZE = 8.5  # points: text above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
-    """Draw the scene to scale after `turns` of its driving link; trains that are not planar are drawn obliquely.
+    """Return a figure of the scene to scale after `turns` of its driving link; a train that is not planar is drawn
+    obliquely.
 
     Pairs in a loop that does not close are red. The verdict on a train that does not turn is written above the plan.
     """
@@ -374,7 +379,7 @@ class _PlanSize:
     low: Floats
     """Lower left corner (2,), relative to the origin of the train."""
     size: Floats
-    """Width and height (2,)."""
+    """Width and height of the plan (2,)."""
     bottom: float
     """Height of the lowest layer towards the reader [mm]."""
     depth: float
@@ -409,7 +414,7 @@ class _PlanSize:
 def _names(
     projected: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
-    """Return the names on wheels, and those next to the plan, in inches relative to the origin of the train."""
+    """Return the names on wheels, and the names next to the plan, in inches relative to the origin of the train."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     facing = [wheel for wheel in from_below(projected)[::-1] if projected.faces(wheel)] if projected.flat else []
@@ -437,7 +442,7 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
 
 
 def _verdict(scene: Scene, width: float) -> str:
-    """Return the verdict on a train that does not turn, wrapped to a width; empty for a train that turns."""
+    """Return the verdict, wrapped to a width [in] and at most four lines; empty for a determined train."""
     if scene.verdict["kind"] == "determined":
         return ""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
@@ -446,7 +451,7 @@ def _verdict(scene: Scene, width: float) -> str:
 
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
-    """Return lines of the closed and then of the open brakes and clutches, with their colours."""
+    """Return lines that list the closed, then the open brakes and clutches, each with its colour."""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
@@ -463,7 +468,7 @@ def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
-    """Write one line at the bottom on elements that could not be placed or have no space."""
+    """Write the first notice of the scene and the number of further notices in one line at the bottom."""
     found = [notice["what"] for notice in scene.notices[:1]]
     if len(scene.notices) > 1:
         found.insert(1, f"and {len(scene.notices) - 1} more")
@@ -472,7 +477,7 @@ def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
 
 
 def _scale_bar(axes: Axes, scale: float) -> None:
-    """Draw a scale bar of a round number of millimetres, about one inch long."""
+    """Draw a scale bar of a round number of millimetres, at most 1.1 inches long."""
     raw = 1.1 / scale
     power = 10.0 ** floor(log10(raw))
     length = max(step * power for step in (1, 2, 5) if step * power <= raw * 1.0001)

@@ -42,7 +42,7 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Draw the power flow as a Sankey diagram, in which bands of recirculating power return above the other bands.
+    """Return a Sankey diagram of the power flow, in which bands of recirculating power return above the other bands.
 
     Parameters
     ----------
@@ -78,12 +78,20 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     if not flow.streams or not flow.power_in:
         raise GearTrainError(
             Problem(
-                "no power flows through the train", "no load acts on a link that turns", "declare `loads` on such links"
+                "no power flows through the train",
+                "no load acts on a link that turns",
+                "declare `loads` on links that turn",
             )
         )
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
-        raise GearTrainError(Problem(what, f"the maximum is {_MOST}", "declare a part of the train, and draw it"))
+        raise GearTrainError(
+            Problem(
+                what,
+                f"at most {_MOST} are legible in a picture",
+                "declare only a part of the train, and draw that part",
+            )
+        )
     words = _NodeLabels(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
@@ -108,7 +116,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
 
 
 class _NodeLabels:
-    """Labels of nodes, with powers as fractions of the power input."""
+    """Labels of the nodes of a diagram, with powers as fractions of the power input."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
         self.whole, self.watts = flow.power_in, watts
@@ -124,7 +132,7 @@ class _NodeLabels:
         return node.name, amount
 
     def width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width [in] of the longer line of a label."""
+        """Return the width of the longer line of a node's label [in]."""
         return max(map(len, self.lines(node, power))) * SMALL * LETTER
 
     def loss(self, node: PowerNode, power: Fraction) -> str:
@@ -132,7 +140,7 @@ class _NodeLabels:
         return f"{'teeth' if node.kind == 'pair' else 'bearing'} {percent_text(power / self.whole, 3)}"
 
     def loss_width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width [in] of the label of a loss."""
+        """Return the width of the label of a node's loss [in]."""
         return len(self.loss(node, power)) * SMALL * LETTER
 
 
@@ -150,9 +158,9 @@ def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegm
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """Draw a part of a band from its first column to its last.
+    """Draw a strip of a band from its first column to its last.
 
-    The band has a notch where power enters the train and a tip where power leaves it.
+    The strip has a notch where power enters the train and a tip where power leaves it.
     """
     upper: list[tuple[float, float]] = []
     codes: list[int] = []

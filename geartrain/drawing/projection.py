@@ -1,7 +1,7 @@
 """Projection of a scene onto the page: plan, view from the side, oblique view.
 
-A train whose wheels lie in parallel planes has a plan, with wheels as bars in their layers seen from the side. Other
-trains are drawn obliquely, near faces over far ones (painter's algorithm).
+A train whose wheels are in parallel planes has a plan, and a side view in which its wheels are bars in their layers.
+Other trains are drawn obliquely, near faces over far faces (painter's algorithm).
 """
 
 from __future__ import annotations
@@ -51,7 +51,9 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose, with the directions right, up and towards the reader as rows of `screen` (3, 3)."""
+    """Scene in a pose as a reader sees it; the rows of `screen` (3, 3) are the directions right, up and towards the
+    reader.
+    """
 
     scene: Scene
     pose: ScenePose
@@ -59,11 +61,11 @@ class ProjectedScene:
 
     @property
     def flat(self) -> bool:
-        """True if most wheels face the reader."""
+        """True if at least 70 % of the wheels face the reader."""
         return sum(map(self.faces, self.scene.wheels)) >= _MOST * len(self.scene.wheels)
 
     def faces(self, wheel: SceneWheel) -> bool:
-        """Return True if a wheel is viewed along its axis."""
+        """Return True if a wheel is viewed along its axis, from either side."""
         # the cosine is flat at 0: a deficit of 1e-9 is 0.0026 deg, less than any declared tilt and more than rounding
         return abs(float(self.axis(wheel) @ self.screen[2])) > 1 - 1e-9
 
@@ -76,11 +78,13 @@ class ProjectedScene:
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
-        """Return the centre of the pitch circle of a wheel."""
+        """Return the centre of the pitch circle of a wheel in the pose [mm]."""
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
         """Return the tooth outline of a wheel (points, 3), scaled, and moved by `height` [mm] along axis and helix.
+
+        It is the tip circle for a lantern pinion, and for a wheel whose teeth are too many to be seen.
 
         chord   maximum distance [mm] of omitted points from the line
         """
@@ -92,6 +96,7 @@ class ProjectedScene:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
         steps = 2 * np.pi / wheel.teeth * np.arange(wheel.teeth)
+        # a helix rotates by tan(helix) / radius per mm along the axis
         first = wheel.turn + (0.0 if wheel.cone else height * np.tan(wheel.helix) / wheel.radius)
         angle = first + (steps[:, None] + tooth[None, :-1, 1]).ravel()
         if wave := self.wave(wheel):
@@ -99,16 +104,16 @@ class ProjectedScene:
         return self._around(wheel, radius, angle, height)
 
     def wave(self, wheel: SceneWheel) -> SceneWave | None:
-        """Return the wave generator that bends a wheel, or None."""
+        """Return the strain wave that bends a wheel; None for a rigid wheel."""
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the bore line of a thin wheel, which its wave generator touches (points, 3)."""
+        """Return the line of a thin wheel's bore (points, 3), which its wave generator touches."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) of the middle plane of a thin wheel as deformed by its wave generator.
+        """Return points (n, 3) of the middle plane of a thin wheel, as its wave generator deforms it.
 
         radius, angle   (n,) in the undeformed wheel, from its reference direction
         """
@@ -136,7 +141,7 @@ class ProjectedScene:
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 
     def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
-        """Yield the outline (points, 3) of each pin of a lantern; other wheels yield nothing."""
+        """Yield the outline (points, 3) of each pin of a lantern pinion; none for other wheels."""
         profile = self.scene.profiles[wheel.profile]
         if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
@@ -151,8 +156,9 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return the height along the axis [mm] and the scale of both ends of a wheel; the wide end of a bevel wheel
-        first.
+        """Return the height along the axis [mm] and the scale of both ends of a wheel.
+
+        The wide end of a bevel wheel is first.
         """
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
@@ -162,16 +168,16 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after some turns of its driving link, from the front if most axes are parallel, otherwise
-    obliquely.
-    """
+    """Return a scene after `turns` of its driving link: from the front if most wheels face it, otherwise obliquely."""
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
     return front if front.flat else ProjectedScene(scene, posed, screen_of(np.array(_OBLIQUE)))
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return the directions right, up and towards the reader as rows (3, 3), from the direction towards the reader."""
+    """Return the directions right, up and towards the reader as rows (3, 3), from the direction `view` towards the
+    reader.
+    """
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -181,21 +187,23 @@ def screen_of(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Axes in inches, on which millimetres are drawn.
+    """Page with axes in inches, on which millimetres are drawn to scale.
 
-    foot   height of the text below the side view
+    foot   height of the text below the side view [in]
     """
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
 
     def at(self, seen: Floats) -> Floats:
-        """Return inches (..., 2) of view coordinates (..., 3)."""
+        """Return positions on the page (..., 2) [in] of view coordinates (..., 3) [mm]."""
         return np.asarray(seen[..., :2] * self.scale + self.shift)
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield for every arm of a carrier the body, a point of its own axis and a point of the carried axis."""
+    """Yield for every arm of a carrier the index of its body, a point of the carrier's axis and a point of the carried
+    axis.
+    """
     scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -213,7 +221,8 @@ def coupling_spans(
 ) -> list[Floats]:
     """Return lines (2, 2) [in] across the area of a coupling: along its slot, or two diameters of each of its holes.
 
-    at, scale   conversion of view coordinates (..., 3) to inches (..., 2), and inches per millimetre
+    at      conversion of view coordinates (..., 3) to inches (..., 2)
+    scale   inches per millimetre
     """
     pose, half = projected.pose, coupling.hole / 2 * scale
     if coupling.hole:
@@ -229,7 +238,9 @@ def coupling_spans(
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Return the wheels of the pairs in a loop that does not close."""
+    """Return the names of the wheels of broken pairs, which are in a loop that does not close or whose teeth cannot
+    run.
+    """
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 
@@ -250,7 +261,8 @@ class _Face:
 
 
 def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw every wheel by its two ends and the surface between them, with a colour for each body, and arms above all.
+    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, and arms above
+    all.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -262,7 +274,7 @@ def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
-    """Return a callout for each wheel, anchored where its face is not hidden by a nearer wheel."""
+    """Return a callout for each wheel, anchored where possible at a point of its faces that no nearer wheel hides."""
     ends = {wheel.id: _ends(projected, wheel) for wheel in projected.scene.wheels if wheels}
     seen = {name: place(np.concatenate([face.points for face in both])) for name, both in ends.items()}
     outlines = {name: Path(points[ConvexHull(points).vertices]) for name, points in seen.items()}
@@ -281,7 +293,7 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
 
 
 def _inner_points(rim: Floats, place: Place) -> Floats:
-    """Return points (n, 2) within a face, from its rim inwards."""
+    """Return points (n, 2) within a face, from its rim inwards [in]."""
     middle = rim.mean(0)
     return place(np.concatenate([middle + share * (rim[::4] - middle) for share in (0.85, 0.6, 0.35, 0.1)]))
 
@@ -297,7 +309,7 @@ def draw_across(
 def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
-    """Draw faces in order, the last one on top."""
+    """Draw faces in order, the last face on top; wheels whose name is in `red` have red edges."""
     tints = [_tint(wheel, face.light) for wheel, face in faces]
     edges = [
         (RED if wheel.id in red else BLACK)
@@ -319,13 +331,16 @@ def _draw_faces(
 
 
 def _tint(wheel: SceneWheel, light: float) -> Floats:
-    """Return the colour of a body, lighter where more light is incident on the face."""
+    """Return the colour (3,) of a wheel's body, lighter for faces that are turned to the reader."""
     own = np.array(to_rgb(series_colour(wheel.body)))
     return np.asarray(own + (1 - own) * (0.3 + 0.6 * light))
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield strips of the surface between both ends, then the far end and the near end; for a worm, its thread."""
+    """Yield strips of the surface between both ends of a wheel, then its far end and its near end.
+
+    For a worm, yield the tiles of its thread and its near end.
+    """
     far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
         yield from _thread(projected, wheel)
@@ -365,6 +380,7 @@ def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
     up = projected.seen(projected.axis(wheel)) * np.sign(high - low)
     near, light = (first, float(up[2])) if up[2] > 0 else (last, -float(up[2]))
     far = last if near is first else first
+    # 1 mm deeper than its deepest point, so that the hidden end does not cover the strips of its own wheel
     back = _Face(far, float(far[:, 2].min()) - 1.0, 0.3, 0.5)
     return back, _Face(near, float(near[:, 2].mean()), 0.45 + 0.4 * light, 0.8)
 
@@ -385,13 +401,13 @@ _FACE = (np.array(to_rgb(SHADE)) + np.array(to_rgb(FILL))) / 2  # colour of a ba
 
 
 class SideScale:
-    """Conversion of heights towards the reader [mm] to inches across the side view; the reader is on the right."""
+    """Conversion of heights towards the reader of the plan [mm] to abscissae of the side view [in]."""
 
     def __init__(self, left: float, width: float, low: float, size: float) -> None:
         self.left, self.scale, self.low = left, width / size, low
 
     def at(self, height: Any) -> Any:
-        """Return inches from the left for a height or heights [mm]."""
+        """Return the abscissa on the page [in] of a height or of an array of heights [mm]."""
         return self.left + (height - self.low) * self.scale
 
 

@@ -1,7 +1,7 @@
 """Layout of a Sankey diagram of power flow: columns from the power input, with bands between them.
 
-Lengths are in inches, x to the right and y down. A band is a stream, and its width is its power. Bands that close a
-loop run back above everything else.
+Lengths are in inches, x to the right and y down. A band is a stream, and its width is proportional to its power. Bands
+that close a loop return above all other parts.
 """
 
 from __future__ import annotations
@@ -29,41 +29,42 @@ class SankeySpot:
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """Power that passes through the node; `shed` is the width of its loss [in]."""
+    """Power that passes through the node; `shed` is the width of the node's loss [in]."""
     shed: float = 0.0
     left: float = 0.0
-    """Space for text to the left of its centre [in]."""
+    """Space for text to the left of the node's centre [in]."""
     right: float = 0.0
-    """Space for text to the right of its centre [in]."""
+    """Space for text to the right of the node's centre [in]."""
     top: float = 0.0
     before: list[BandSegment] = field(default_factory=list)
     after: list[BandSegment] = field(default_factory=list)
 
     @property
     def above(self) -> float:
-        """Space for the name [in]."""
+        """Space above the box: for the name of a node, or between passing bands [in]."""
         return NAME if self.node else _BETWEEN
 
     @property
     def below(self) -> float:
-        """Space for the loss [in]."""
+        """Space below the box: for the loss of a node, or to the next spot [in]."""
         return DROP + self.head + 0.24 if self.shed else _BETWEEN
 
     @property
     def head(self) -> float:
-        """Length of the arrow head of its loss [in]."""
+        """Length of the arrow head of the node's loss [in]."""
         return min(max(0.3 * self.shed, 0.08), 0.2)
 
     @property
     def width(self) -> float:
-        """Width of its box [in]."""
+        """Width of the node's box [in]; 0 for inputs, outputs and passing bands."""
         return _WIDTHS[self.node.kind] if self.node else 0.0
 
 
 @dataclass(eq=False)
 class BandSegment:
-    """Band between two spots in neighbouring columns, or a return band; `start` and `end` are the tops of the band at
-    the spots.
+    """Segment of a band between two spots, which are in neighbouring columns unless the band is a return band.
+
+    `start` and `end` are the y of the upper edge of the band at the two spots [in].
     """
 
     source: SankeySpot
@@ -82,7 +83,9 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Return band: distances from its source and its target at which it turns, and the top of its lane."""
+    """Return band, with the distances from its source and its target at which it turns, and the top of its lane
+    [in].
+    """
 
     piece: BandSegment
     right: float
@@ -92,18 +95,18 @@ class ReturnBand:
 
 @dataclass(frozen=True)
 class SankeyLayout:
-    """Positions and sizes of all parts of a Sankey diagram."""
+    """Positions and sizes of all parts of a Sankey diagram [in]."""
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
-    """Forward bands, each as its pieces from column to column; `turns` are the return bands."""
+    """Forward bands, each as a sequence of segments from column to column; `turns` are the return bands."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
-    """Centre of each column."""
+    """Abscissa of the centre of each column."""
     scale: float
     """Inches per unit of power."""
     sheds: Mapping[PowerNode, Fraction]
-    """Power lost by node."""
+    """Power lost at each node with a loss."""
     low: float
     """Minimum y of all parts."""
     width: float
@@ -117,8 +120,9 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, the shortest innermost, and the space that they require right and left of
-    each column.
+    """Return the return bands, the shortest innermost, and the space that they require on either side of columns [in].
+
+    The keys of the space are (column, True) for the right side and (column, False) for the left side.
     """
     taken: dict[tuple[int, bool], float] = {}
     turns: list[ReturnBand] = []
@@ -141,7 +145,10 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the column centres, far enough apart for names and return bands, and spread to the minimum width."""
+    """Return the abscissae of the column centres [in].
+
+    They leave space for names and return bands, and are spread to the minimum width.
+    """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -149,6 +156,7 @@ def abscissae(
         names = right[at] + left[at + 1] + 0.12
         behind, before = room.get((at, True), 0.0), room.get((at + 1, False), 0.0)
         turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
+        # beside a return band the text of the neighbouring column needs its whole width
         gaps.append(max(names, _MINIMUM_GAP, turning + 0.2))
     edges = left[0] + right[-1] + 0.2
     x = [left[0] + 0.1]
@@ -158,7 +166,7 @@ def abscissae(
 
 
 def _widened(gaps: Sequence[float], whole: float) -> list[float]:
-    """Return the gaps with the narrowest ones raised to a common width, so that the sum is the given total."""
+    """Return the gaps with the narrowest gaps raised to a common width, so that the sum is at least the given total."""
     ranked = sorted(gaps)
     for count in range(len(gaps), 0, -1):
         level = (whole - sum(ranked[count:])) / count
@@ -172,7 +180,10 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return losses by node, and streams. A bearing that is fed by only one shaft becomes a loss of that shaft."""
+    """Return losses by node, and the streams between nodes.
+
+    A bearing that is fed by only one shaft becomes a loss of that shaft.
+    """
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -188,7 +199,10 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return forward and return streams: in each loop, one stream of purely circulating power returns."""
+    """Return forward streams and return streams.
+
+    In each loop one stream of purely circulating power is a return stream, so that the forward streams have no loop.
+    """
     ahead = [stream for stream in streams if stream.circling < stream.power]
     back: list[PowerStream] = []
     for stream in _depth_first(streams):
@@ -229,8 +243,9 @@ def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the column of each node, one after all nodes that feed it (longest path); outputs are in the
-    last column.
+    """Return the column of each node, which is after the columns of all nodes that feed it (longest path).
+
+    Outputs are in the last column.
     """
     columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
     moved = True
@@ -247,7 +262,7 @@ def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
 def find_scale(
     columns: Mapping[PowerNode, int], through: Mapping[PowerNode, Fraction], back: Sequence[PowerStream]
 ) -> float:
-    """Return the scale in inches per unit of power."""
+    """Return the scale [inches per unit of power], limited by the fullest column and by the return bands."""
     sums = [Fraction(0)] * (max(columns.values()) + 1)
     for node, at in columns.items():
         sums[at] += through[node]
@@ -259,7 +274,7 @@ def find_scale(
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and the spots at which they pass columns."""
+    """Return streams as bands of segments, and the spots at which bands pass columns."""
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):
@@ -300,12 +315,12 @@ def order_columns(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
-    """Return a column with circulating power above through power."""
+    """Return a column with the spots in descending order of the circulating power that leaves them."""
     return sorted(column, key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
 
 
 def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
-    """Reduce crossings by barycentre sweeps in both directions, then by swapping spots."""
+    """Reduce crossings by sorting columns in place, by barycentre sweeps in both directions, then by swapping spots."""
     whole = range(len(table))
     best, minimum = [list(column) for column in table], _crossing_cost(table, whole)
     for sweep in range(_SWEEPS):
@@ -324,7 +339,7 @@ def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
-    """Swap spots of one column if that reduces crossings; return True if spots were swapped."""
+    """Swap spots of one column in place where that reduces crossings; return True if spots were swapped."""
     column, swapped = table[at], False
     near = range(max(0, at - 1), min(len(table), at + 2))
     tangle = _crossing_cost(table, near)
@@ -345,7 +360,9 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of the neighbours on one side, weighted by width (barycentre)."""
+    """Return the mean position of the neighbours of a spot on one side, weighted by band width; without any, its own
+    position.
+    """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
         return places[spot]
@@ -379,7 +396,7 @@ _HEIGHT_SWEEPS = 24
 
 
 def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
-    """Set the tops of all spots and of their bands, so that bands are level where possible."""
+    """Set the tops of all spots and of their bands in place, so that bands are level where possible."""
     for column in table:
         y = 0.0
         for spot in column:
@@ -401,8 +418,9 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top at which a spot's bands are level, and its weight. Bands that pass a column have the maximum
-    weight.
+    """Return the top [in] at which a spot's bands are level, and the weight of that top.
+
+    Bands that pass a column have the maximum weight.
     """
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
@@ -430,8 +448,9 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set the tops of bands at both ends, in the order of the spots that they connect to, with return bands
-    uppermost.
+    """Set the tops of bands at both ends in place.
+
+    Bands are in the order of the spots at their other ends, with return bands uppermost.
     """
     for column in table:
         for spot in column:
@@ -451,9 +470,9 @@ Width = Callable[[PowerNode, Fraction], float]
 
 
 def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, minimum: float) -> SankeyLayout:
-    """Return the positions of all parts of a power flow.
+    """Return the positions and sizes of all parts of a power flow [in].
 
-    name      function that returns the width of the text above a node, given the power that passes it
+    name      function that returns the width of the text above a node, given the power that passes through the node
     loss      function that returns the width of the text below a node, given the power lost there
     minimum   minimum width of the layout
     """

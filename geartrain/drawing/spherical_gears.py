@@ -1,4 +1,4 @@
-"""Picture of gears on a sphere in orthographic projection: near gears over far ones, teeth at their angles."""
+"""Picture of gears on a sphere in orthographic projection: near gears over far gears, teeth at their angles."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
 def sphere_figure(
     configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
-    """Draw all gears of a set on their common sphere, in orthographic projection.
+    """Return a figure of all gears of a set on their common sphere, in orthographic projection.
 
     Parameters
     ----------
@@ -64,6 +64,7 @@ def sphere_figure(
     kinds = list(dict.fromkeys(configuration.kinds))
     towards = configuration.axes @ screen[2]
     axes.add_patch(Circle((0.0, 0.0), 1.0, fill=False, edgecolor=GREY, linewidth=0.8))
+    # painter's algorithm, by the height of the plane of each pitch circle towards the reader
     for i in np.argsort(towards * np.cos(cones)):
         near = towards[i] > 0
         face = _face(kinds.index(configuration.kinds[i])) if near else (*to_rgb(PALE), 0.5)
@@ -85,7 +86,7 @@ def _face(kind: int) -> tuple[float, float, float, float]:
 
 
 def _outline(configuration: Configuration, i: int, cone: float, phase: float) -> Floats:
-    """Return the outline of a wheel with its teeth as points of the unit sphere (points, 3)."""
+    """Return the outline of a gear with its teeth as points (n, 3) of the unit sphere."""
     count = configuration.teeth[configuration.kinds[i]]
     module = 2 * np.sin(cone) / count
     polar = cone + module * np.tile([_FOOT, _TIP, _TIP, _FOOT], count)

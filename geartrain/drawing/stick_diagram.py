@@ -54,7 +54,7 @@ _ELEMENT_NAME = 8.0  # points: font size of an element's name
 
 
 def width_of(train: GearTrain) -> float:
-    """Return the width [in] of all brakes and clutches; 0 without shift elements."""
+    """Return the width of all brakes and clutches of a train [in]; 0 without brakes and clutches."""
     count, letters = len(train.declaration.clutches), _letters(train)
     return count * max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1) + 0.2 if count else 0.0
 
@@ -62,7 +62,7 @@ def width_of(train: GearTrain) -> float:
 def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
     """Draw each brake or clutch as a pair of plates between a link and the frame, or between two links.
 
-    The plates of elements that are closed in the state touch.
+    The plates of brakes and clutches that are closed in the state are drawn in contact.
 
     left     left end of the first element [in]
     middle   height of all plates [in]
@@ -90,7 +90,7 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
 
 
 def _letters(train: GearTrain) -> int:
-    """Return the number of letters of the longest label, which sets the width of an element's column.
+    """Return the number of letters of the longest label, from which the width of an element's column is computed.
 
     Labels are the names of links below and above the plates. The name of an element next to the plates counts twice.
     """
@@ -109,7 +109,7 @@ _FAR = 24  # steps that a name may be moved beyond its vertical line
 
 @dataclass(frozen=True, slots=True)
 class _Label:
-    """A label and its candidate positions, the best first."""
+    """Text to be written, with its candidate positions from the best to the worst."""
 
     text: str
     color: str
@@ -119,7 +119,7 @@ class _Label:
 
 @dataclass(slots=True)
 class StickLabels:
-    """All labels of a diagram; links are placed first, then wheels, then axes."""
+    """All labels of a diagram, which are placed in the order of links, wheels and axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
     links: list[_Label] = field(default_factory=list)
@@ -127,13 +127,16 @@ class StickLabels:
     axes: list[_Label] = field(default_factory=list)
 
     def keep_off(self, xs: tuple[float, float], ys: tuple[float, float]) -> None:
-        """Mark a line or a box as occupied, so that no label covers it."""
+        """Mark the box between two abscissae and two heights [in] as occupied, so that labels avoid it."""
         (left, right), (low, high) = sorted(xs), sorted(ys)
         wide, tall = max(right - left, 0.03), max(high - low, 0.03)
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link: before its shaft, or above, behind or below the shaft."""
+        """Add the name of a link: before its shaft, or above, behind or below the shaft.
+
+        left, right, y   ends and height of the shaft [in]
+        """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
         before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second is next to a bearing
@@ -145,12 +148,12 @@ class StickLabels:
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add a label along a vertical line, on its right or left, from its middle outwards."""
+        """Add a label along a vertical line, on the right or left of the line, from the middle outwards."""
         places = tuple(_along(text, x, ends))
         self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Add the name of an axis: behind its end, or before the end above or below the line."""
+        """Add the name of an axis: behind its right end, or before the end above or below its line."""
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
@@ -160,8 +163,10 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels, those with the fewest free positions first; without a free position, at the best
-        one.
+        """Place and write all labels. Within links and within wheels, labels with the fewest positions are placed
+        first.
+
+        A label without a free position is written at its best position.
         """
         links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
         for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
@@ -189,22 +194,24 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """A gear pair or coupling in its column, between two rows; `ring` is the name of its ring wheel, or empty."""
+    """Gear pair or coupling in its column, between two rows; `ring` is the name of its ring wheel, or empty."""
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, with the link on the lower row first; `wheels` are their wheels (for a coupling, the links again)."""
+    """Links, with the link on the lower row first; `wheels` are the wheels of these links (for a coupling, the links
+    again).
+    """
     wheels: tuple[str, str]
     ring: str
     x: float
-    """Abscissa of the column. The vertical line of a ring is one column further to the right."""
+    """Abscissa of the column [in]. The vertical line of a ring is one column further to the right."""
     low: float
     """Lower end of the part of the mesh in the column [in]."""
     high: float
     """Upper end of the part of the mesh in the column [in]."""
     meet: float
-    """Height at which the wheels touch."""
+    """Height at which the wheels touch [in]."""
 
 
 _Arrangement = tuple[
@@ -219,15 +226,15 @@ _Arrangement = tuple[
 
 @dataclass(frozen=True, slots=True)
 class StickSkeleton:
-    """Positions of all parts of a diagram, in inches from the lower left corner."""
+    """Positions of all parts of a diagram [in], from the lower left corner."""
 
     rows: dict[str, tuple[float, float]]
-    """Dictionary from each axis to the heights of its lowest and highest shaft."""
+    """Axis -> heights of its lowest and highest shaft."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     cranks: list[StickCrank]
     lone: list[tuple[str, float]]
-    """Wheels that have no mate, with their column."""
+    """Wheels that have no mate, each with the abscissa of its column."""
     width: float
     height: float
 
@@ -254,6 +261,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
         tries.append((_overlaps(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
         if not tries[-1][0]:
             break
+    # the iteration may alternate between arrangements, so the one with the fewest overlaps is used
     shafts, columns, cranks, lone, width, levels = min(tries)[2]
     rows, height = _set_heights(levels, shafts)
     meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
@@ -261,7 +269,7 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
 
 
 def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
-    """Return the number of pairs of vertical lines that overlap."""
+    """Return the number of pairs of vertical lines that overlap in one column."""
     known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
     return sum(
         x == at and low < top and bottom < high
@@ -271,7 +279,7 @@ def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> i
 
 
 def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
-    """Extend the shaft of each carrier to its cranks, and the nearest shaft on each carried axis."""
+    """Extend the shaft of each carrier to its cranks, and one shaft on each carried axis to its crank, in place."""
     for crank in cranks:
         shafts[crank.carrier].xs.append(crank.x)
         borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
@@ -298,9 +306,9 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Set the heights of shafts, and return the rows of axes and the total height.
+    """Set the heights of shafts in place, and return the rows of axes and the total height [in].
 
-    Shafts of one axis that overlap are drawn above each other, the longest lowest.
+    Shafts of one axis that overlap are drawn above each other, with the longest shaft lowest.
     """
     rows: dict[str, tuple[float, float]] = {}
     y = 0.45
@@ -325,7 +333,7 @@ def _set_heights(
 
 
 def _fit_side_by_side(one: StickShaft, other: StickShaft) -> bool:
-    """Return True if two shafts, with a name before each, do not overlap."""
+    """Return True if two shafts, each with a name before it, do not overlap."""
     room = 0.35 + 0.07 * max(len(one.link), len(other.link))
     return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
 
@@ -356,7 +364,10 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """Return the lower wheel's share of the height, in proportion to its teeth if the labels of both wheels fit."""
+    """Return the lower wheel's share of the height between two axes.
+
+    It is proportional to the tooth count of the wheel, within limits in which the labels of both wheels fit.
+    """
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
     return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
@@ -373,11 +384,12 @@ _HEAD, _FOOT = 0.7, 0.7
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
-    """Draw axes, shafts, wheels with tooth counts, cranks of carriers, the hatched frame, and brakes and clutches.
+    """Return a figure with axes, shafts, wheels and tooth counts, cranks of carriers, the hatched frame, brakes and
+    clutches.
 
     state   state whose brakes and clutches are drawn closed, by default the first
 
-    Raise `QuestionError` for more pairs than fit on a page.
+    Raise `QuestionError` for more pairs than fit on a page, or if the state does not exist.
     """
     too_many(train, len(train.circuits), _MOST, "pairs")
     declared = train.declaration
@@ -450,9 +462,7 @@ class _Drawing:
         self.words.name_link(shaft.link, left, right, shaft.y)
 
     def draw_mesh(self, mesh: StickMesh) -> None:
-        """Draw two wheels up to the point where they touch, a pin in its slot or hole, or two links that remain
-        parallel.
-        """
+        """Draw two wheels up to the point where they touch, or the coupling of two links."""
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
@@ -472,7 +482,7 @@ class _Drawing:
         return self.skeleton.rows[self.skeleton.shafts[carrier].axis][0] - 0.22
 
     def _draw_ring(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw the planet beyond its axis, and the ring across its end and next to it."""
+        """Draw the planet beyond its axis, and the ring across the planet's end and next to the planet."""
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
@@ -484,7 +494,7 @@ class _Drawing:
         self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw a pin in its slot; for links that remain parallel, two bars side by side."""
+        """Draw a pin in its slot; for links that a coupling keeps parallel, two bars side by side."""
         coupling = self.couplings[mesh.name]
         parallel = coupling.kind == "parallel"
         for link, foot, side in zip(mesh.ends, (low, high), (-1, 1), strict=True):
@@ -502,7 +512,7 @@ class _Drawing:
         self.words.name_upright(mesh.name, mesh.x, (low, high), PURPLE)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel from its shaft to its mate, connected to its earlier occurrence if there is one."""
+        """Draw a wheel from its shaft to its mate, connected to an earlier line of the same wheel if there is one."""
         self._line([x, x], [foot, end], BLUE, _WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -523,7 +533,7 @@ class _Drawing:
         self._tick(x, y + _LONE, "spur")
 
     def draw_crank(self, crank: StickCrank) -> None:
-        """Draw a carrier's arm, which ends in a bearing about the axis that it carries."""
+        """Draw a carrier's arm, which ends in a bearing on the axis that the carrier carries."""
         y = self.skeleton.shafts[crank.carrier].y
         far = self.skeleton.rows[crank.axis][0]
         self._line([crank.x, crank.x], [y, far], ORANGE, _CARRIER, zorder=3, gid=f"crank {crank.carrier}")
@@ -534,7 +544,9 @@ class _Drawing:
             )
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw the mark of teeth at the end of a wheel: level, slanted if bevel or contrate, long for a worm."""
+        """Draw the mark of teeth at the end of a wheel: level, slanted if bevel or contrate, long and dashed for a
+        worm.
+        """
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -18,7 +18,7 @@ _NEAREST = 9  # levels tried for an axis
 
 @dataclass(slots=True)
 class StickShaft:
-    """Link on its axis: height, and abscissae of its parts; the frame has no shaft."""
+    """Shaft of a link on its axis, with its height and the abscissae of its parts [in]; the frame has no shaft."""
 
     link: str
     axis: str
@@ -29,10 +29,10 @@ class StickShaft:
 def find_levels(
     order: Sequence[str], shafts: dict[str, StickShaft], spans: Sequence[tuple[str, str, float]]
 ) -> list[list[str]]:
-    """Return axes on common levels, from below, where they do not overlap.
+    """Return the axes of each level, from the lowest level. Axes that do not overlap may share a level.
 
-    The axes are placed one after another (greedy search), each on a level near the axes it is joined to, with the
-    minimum number of crossings.
+    The axes are placed one after another (greedy search), each on a level near the axes with which it is paired, with
+    the minimum cost of line lengths and crossings.
 
     spans   vertical lines between two axes, with the abscissa of their column
     """
@@ -54,7 +54,7 @@ def find_levels(
 
 
 def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
-    """Return the interval that an axis occupies on its level, with the names before and after it."""
+    """Return the interval that an axis occupies on its level [in], including the names before and after it."""
     own = [shaft for shaft in shafts.values() if shaft.axis == axis]
     left = min(min(shaft.xs) - 0.25 - 0.085 * len(shaft.link) for shaft in own)
     return left, max(max(shaft.xs) for shaft in own) + 0.35 + 0.065 * len(axis)
@@ -93,7 +93,7 @@ _CRANK = 0.3  # inches for a carrier's crank before a group
 
 @dataclass(frozen=True, slots=True)
 class StickCrank:
-    """Carrier's arm at `x`, from its own shaft to the axis that it carries."""
+    """Carrier's arm at the abscissa `x` [in], from the carrier's shaft to the axis that it carries."""
 
     carrier: str
     axis: str
@@ -142,9 +142,10 @@ def find_columns(
     axis_of: dict[str, str],
     shafts: dict[str, StickShaft],
 ) -> tuple[list[tuple[Circuit, float]], list[StickCrank], list[tuple[str, float]], float]:
-    """Return the columns of all meshes, the cranks, the columns of wheels without a mesh, and the total width.
+    """Return the columns of all meshes, the cranks, the columns of wheels without a mesh, and the total width [in].
 
-    A crank is placed before the first group in which its borne axis meshes.
+    A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in
+    place.
     """
     columns: list[tuple[Circuit, float]] = []
     cranks: list[StickCrank] = []
@@ -181,7 +182,7 @@ def find_columns(
 
 
 def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
-    """Return the moving link that carries an axis, or None."""
+    """Return the moving link that carries an axis; None for an axis of the frame."""
     tops = (
         train.kinematics.tree.top[link]
         for link, own in axis_of.items()
@@ -191,7 +192,7 @@ def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
 
 
 def ring_of(train: GearTrain, circuit: Circuit) -> str:
-    """Return the ring wheel of a pair, or an empty string."""
+    """Return the name of the ring wheel of a gear pair; empty for a pair without a ring and for a coupling."""
     if circuit.kind != "gear":
         return ""
     return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
@@ -204,7 +205,10 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column of a group in which a mesh hides no other mesh; a ring also takes the next column."""
+    """Return the first column of a group in which a mesh hides no other mesh, and add the mesh to `taken` in place.
+
+    A ring also takes the next column.
+    """
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

@@ -107,7 +107,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     Raises
     ------
     GearTrainError
-        If the suffix is not one of these.
+        If the suffix is not supported.
 
     Examples
     --------
@@ -138,7 +138,9 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield all texts of an artist except those of hidden axes, whose ticks would be created only for this query."""
+    """Yield all texts of an artist, except the texts of hidden axes, whose ticks would be created only for this
+    query.
+    """
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -166,7 +168,7 @@ def series_look(at: int) -> dict[str, Any]:
 
 
 def plain(axes: Axes) -> None:
-    """Set text of uniform size, a light grid, and no frame at the top and right."""
+    """Set the style of a panel: text of uniform size, a light grid, and no frame at the top and right."""
     axes.tick_params(labelsize=SMALL)
     axes.grid(True, color=PALE, linewidth=0.5, alpha=0.6)
     axes.set_axisbelow(True)
@@ -201,8 +203,9 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
-    """Return a figure and its panel for horizontal bars and intervals, one for each name, the first on top; sizes in
-    inches.
+    """Return a figure with one panel for horizontal bars and intervals, one for each name, the first on top.
+
+    height, width   size of the figure [in]
     """
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.add_subplot()
@@ -214,13 +217,13 @@ def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tupl
 
 
 def draw_interval(axes: Axes, at: float, ends: tuple[float, float] | None) -> None:
-    """Draw a whisker at a bar; draw nothing if the interval is None."""
+    """Draw an interval as a whisker at the position of a bar; draw nothing if the interval is None."""
     if ends is not None:
         axes.plot(ends, [at, at], color=BLACK, linewidth=1.2, marker="|", markersize=7, gid="within")
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
-    """Draw the colour scale next to a map, with tick labels of one size on both."""
+    """Draw the colour scale next to a map; tick labels of the map and the scale have the same size."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, **how)
     bar.set_label(name, fontsize=TEXT)
     for each in (axes, bar.ax):
@@ -234,7 +237,7 @@ def legend_below(
     side: Literal["center", "left"] = "center",
     **how: Any,
 ) -> None:
-    """Draw a legend below all panels, by default of their labelled artists."""
+    """Draw a legend of the given handles below all panels; by default of all labelled artists."""
     how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
     if handles is not None:
         how["handles"] = handles
@@ -242,7 +245,7 @@ def legend_below(
 
 
 def legend_above(axes: Axes, columns: int) -> None:
-    """Draw a legend at the right between a panel and the text above it."""
+    """Draw a legend of a panel above it, at the right."""
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1, 1),
@@ -260,7 +263,7 @@ def short(name: str, letters: int = 20) -> str:
 
 
 def kept_extremes(values: Floats, most: int) -> Ints:
-    """Return indices of a curve that is thinned without losing extremes.
+    """Return the indices of the kept positions of a curve that is thinned without losing extremes.
 
     Each of about `most` / 3 intervals keeps its first position, its minimum and its maximum. All positions are kept if
     there are at most `most`.
@@ -286,14 +289,19 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
 
 
 def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **how: Any) -> None:
-    """Write text at an offset [pt] from a point of a panel, with a halo; to its left if the offset is negative."""
+    """Write text with a halo at an offset [pt] from a point of a panel.
+
+    The text is to the right of the point if the horizontal offset is positive, otherwise to the left.
+    """
     how = {"ha": "left" if offset[0] > 0 else "right", "fontsize": SMALL, "path_effects": HALO, **how}
     axes.annotate(text, at, xytext=offset, textcoords="offset points", **how)
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure whose axes are in inches from its lower left corner, with a title at its top (two lines: 0.5
-    inches).
+    """Return a figure with one panel whose coordinates are inches from the lower left corner, and with a title at the
+    top.
+
+    A title has at most two lines, which take 0.5 inches.
     """
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -314,12 +322,12 @@ def headed(figure: Figure, title: str) -> Figure:
 
 
 def title_of(name: str, title: str) -> str:
-    """Return the title above a picture of a train."""
+    """Return the title above a picture of a train: its name, and its title if it has one."""
     return f"{name}: {title}" if title else name
 
 
 def after_turns(scene: Scene, turns: Fraction) -> str:
-    """Return the end of the title of a scene after `turns` of its driving link; empty for 0."""
+    """Return the end of a picture's title, which gives the `turns` of the driving link; empty for 0 turns."""
     driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
     return f", after {turns} turns of {driver}" if turns else ""
 

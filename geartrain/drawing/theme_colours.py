@@ -41,7 +41,7 @@ _OPPONENTS = np.array([[0.2104542553, 0.7936177850, -0.0040720468],
 
 @contextmanager
 def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
-    """Give the figure the theme's colours within a `with` block, and restore its colours afterwards."""
+    """Give the figure the theme's colours within a `with` block, and restore its light colours afterwards."""
     if name == "light":
         yield
         return
@@ -78,7 +78,7 @@ class _Painter:
         self._scales: list[Colormap] = []  # converted scales, as a colour bar shares the scale of its map
 
     def paint(self, artist: Artist) -> None:
-        """Convert the colours of one artist; values on a colour scale get the theme's scale."""
+        """Convert the colours of one artist; an artist with values on a colour scale gets the theme's scale."""
         if isinstance(artist, Collection) and artist.get_array() is not None:
             self._scale(artist)
         elif not isinstance(artist, (Figure, Axes)):  # their colours are those of their patches
@@ -142,7 +142,7 @@ def _set_grid(axis: Axis, colour: Any) -> None:
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
-    """Return the fill colour and hatch of a series area in a theme that defines them; otherwise None."""
+    """Return the fill colour and hatch of an area in a series colour, in a theme that defines areas; otherwise None."""
     areas = THEMES[name].areas
     if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
         return None
@@ -184,8 +184,9 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill for a colour; None if it is not a mixture of the light theme's
-    colours.
+    """Return the theme's mixture of shade and fill for a colour.
+
+    It is None if the colour is not a mixture of the shade and fill of the light theme.
     """
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
@@ -211,6 +212,7 @@ def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
     """
     paper, ink = (_oklab(_rgb_of(each)) for each in (theme.paper, theme.ink))
     light, *hue = _oklab(rgb)
+    # the Oklab lightness is 0 for black and 1 for white
     lightness = ink[0] + light * (paper[0] - ink[0])
     strong = 0.0 if theme is THEMES["print"] else 1.0
     return _rgb(np.array([lightness, *(strong * np.array(hue))]))

@@ -1,8 +1,8 @@
 """Picture of two wheels of triangular teeth in contact, to scale: outlines, contact point, normal, instant centre.
 
-The driver turns about (0, 0), the driven wheel about (D, 0), or (-D, 0) if it is a ring. Lengths are in the unit of the
-sizes. In forward motion the entry side is above the line of centres, where alpha_1 and alpha_2 are positive. In
-backward motion it is below.
+The driver turns about (0, 0), and the driven wheel about (D, 0), or about (-D, 0) if the driven wheel is a ring.
+Lengths are in the unit of `TriangularSizes`. In forward motion the entry side is above the line of centres, where
+alpha_1 and alpha_2 are positive. In backward motion it is below.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Return tooth counts, half angle, clearance factor and friction of a pair, the driver first.
+    """Return tooth counts, half angle, clearance factor and friction of a pair as a string, the driver first.
 
-    The friction is by default the one of the transmission function.
+    By default the friction is that of the transmission function.
     """
     sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
@@ -80,8 +80,9 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose with the driving tooth pair at alpha_1 and alpha_2 [rad], in one phase; all other teeth follow from the
-    pitch.
+    """Pose of two wheels, with the driving tooth pair at alpha_1 and alpha_2 [rad] in one phase.
+
+    The angles of all other teeth follow from the pitch.
     """
 
     sizes: TriangularSizes
@@ -93,7 +94,9 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return tooth count, tip radius, root radius and the angle [rad] of the driving pair's tooth of a wheel."""
+        """Return tooth count, tip radius and root radius of a wheel, and the angle of its tooth in the driving pair
+        [rad].
+        """
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -105,8 +108,9 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius about a wheel's centre and an angle [rad] from the line of centres, entry
-        up.
+        """Return points (..., 2) at a radius about a wheel's centre and an angle [rad] from the line of centres.
+
+        Positive angles are on the entry side.
         """
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
@@ -117,7 +121,8 @@ class ToothPairPose:
         """Return vertices (n, 2) of all teeth of a wheel, or of the teeth within an angle [rad] from the line of
         centres.
 
-        In the second case the centre is a vertex too. The body of a ring ends at a circle beyond its roots.
+        In the second case the centre of an external wheel is a vertex too. The body of a ring ends at a circle beyond
+        its roots.
         """
         z, tip, root, alpha = self.wheel(which)
         half = pi / z
@@ -150,7 +155,7 @@ class ToothPairPose:
 
     @property
     def normal(self) -> Point:
-        """Unit vector normal to the flank in contact, in the direction in which the driver pushes."""
+        """Unit vector normal to the flank in contact, in the direction in which the driver pushes the driven tooth."""
         return sin(self.lean), -self.direction * cos(self.lean)
 
     @property
@@ -163,7 +168,7 @@ class ToothPairPose:
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
     """Return the pose with the driving tooth pair at `alpha1` [rad], by default in the middle of the first interval.
 
-    If no tooth pair drives at alpha1, return the pose in which some tooth of the driver is there.
+    If no tooth pair drives at `alpha1`, the pose is that in which some tooth of the driver is at this angle.
     """
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
@@ -191,7 +196,7 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Draw two triangular teeth in contact, to scale, with their contact point and the line of centres.
+    """Return a figure of two triangular teeth in contact, to scale, with their contact point and the line of centres.
 
     Parameters
     ----------
@@ -248,7 +253,7 @@ def teeth_figure(
 
 @dataclass(frozen=True, slots=True)
 class ToothViewport:
-    """Part of the plane that is drawn; `whole` is True if it contains whole wheels."""
+    """Part of the plane that is drawn, by its limits; `whole` is True if it contains whole wheels."""
 
     left: float
     right: float
@@ -258,7 +263,7 @@ class ToothViewport:
 
     @property
     def shape(self) -> float:
-        """Height divided by width."""
+        """Height of the viewport divided by its width."""
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
@@ -270,6 +275,7 @@ class ToothViewport:
         near = min(side * (end - axis) for end in (self.left, self.right))
         if near <= 0:
             return pi
+        # one pitch more, so that the ends of the outline are outside of the picture
         return min(pi, atan2(max(self.top, -self.bottom), near) + 2 * pi / z)
 
 
@@ -317,7 +323,10 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in a wheel's sense of rotation, with its name, inside its body on the entry side."""
+    """Draw an arrow in a wheel's sense of rotation, with the wheel's name, inside its body on the entry side.
+
+    A driven wheel at rest has no arrow.
+    """
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1

@@ -24,14 +24,14 @@ def picture(
     labels: bool = True,
     outputs: Sequence[str] = (),
 ) -> Figure:
-    """Draw a picture of a train: plan to scale, stick diagram, kinematic graph, lever diagram or dials.
+    """Return a figure of a train: plan to scale, stick diagram, kinematic graph, speed diagram or dials.
 
     Parameters
     ----------
     train : GearTrain
         Train to draw.
     kind : {"plan", "stick", "graph", "lever", "dials"}
-        Kind of picture.
+        Kind of picture; "lever" is the speed diagram.
     state : str, optional
         Name of a state; by default the first, or all states for "lever".
     turns : Fraction
@@ -39,7 +39,7 @@ def picture(
     labels : bool
         True to add names and numbers.
     outputs : sequence of str
-        Outputs whose dials are drawn; by default all.
+        Outputs whose dials are drawn; by default all. Used by "dials".
 
     Returns
     -------
@@ -72,7 +72,9 @@ def picture(
         return stick_figure(train, labels, state)
     if kind not in KINDS:
         kinds = ", ".join(KINDS)
-        raise QuestionError(Problem(f"'{kind}' is not a kind of picture", f"kinds are {kinds}", "use one of them"))
+        raise QuestionError(
+            Problem(f"'{kind}' is not a kind of picture", f"the kinds are {kinds}", "use one of these kinds")
+        )
     from geartrain.scene import make_scene
 
     scene = make_scene(train, state)

@@ -55,7 +55,8 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def transmission_figure(transmission: TransmissionFunction, title: str) -> Figure:
-    """Draw transmission error, speed ratio and efficiency of the drive flanks over two periods of the pair.
+    """Return a figure of transmission error, speed ratio and efficiency of the drive flanks over two periods of the
+    pair.
 
     Parameters
     ----------
@@ -207,8 +208,8 @@ def _values(
 ) -> tuple[tuple[Floats, ...], ...]:
     """Return the curves of each panel at alpha_1 = x [rad].
 
-    They are alpha_2 [deg], tau, the efficiency, and the moment arms of driver and driven wheel. Efficiency and moment
-    arms are NaN where friction locks and during a dwell.
+    The curves are alpha_2 [deg], tau, the efficiency, and the relative moment arms of driver and driven wheel.
+    Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction locks.
     """
     if held is not None:
         none = np.full_like(x, np.nan)
@@ -225,7 +226,10 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits that contain the real path, and the ideal path where it is near the real path."""
+    """Return axis limits that contain the real path, and the ideal path where it is near the real path.
+
+    They are 0 and 1 without finite values of the real path.
+    """
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -240,7 +244,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
 
 
 def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
-    """Draw a line at the angle at which the flanks coincide, if it is within the panel."""
+    """Draw a line at the angle at which the flanks coincide, if it is within the range of alpha_1."""
     matching = transmission.sizes.matching
     if abs(matching) >= transmission.sizes.reach1:
         return
@@ -254,8 +258,9 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact: tau before it, where the last tooth pair separates, and tau after it, where the next tooth pair
-    drives.
+    """Draw each impact, with tau before and after it.
+
+    Before the impact the last tooth pair separates; after it the next tooth pair drives.
     """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
@@ -283,13 +288,15 @@ def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
 
 
 def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
-    """Return the speed ratio tau at O1C / D."""
+    """Return the speed ratio tau at which the instant centre is at O1C / D, bounded as in `_centre_at`."""
     first, second = signs
     return centre / np.maximum(first * (1 - second * centre), 0.1)
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values, far enough from each other."""
+    """Return ticks for the instant centre between two speed ratios: round values that are far enough from each
+    other.
+    """
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -302,8 +309,9 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis with the instant centre divided by the centre distance: tau/(1 + tau), or tau/|1 - tau| with a
-    ring.
+    """Draw a second axis with the instant centre divided by the centre distance.
+
+    It is tau/(1 + tau), or tau/|1 - tau| for a pair with a ring.
     """
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
@@ -366,7 +374,7 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Draw a comparison of tooth forms for one pair: flanks, path of contact, stress, heat, flash temperature,
+    """Return a figure that compares tooth forms for one pair: flanks, path of contact, stress, heat, flash temperature,
     sliding and loss.
 
     Parameters
@@ -393,7 +401,11 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """
     if not paths:
         raise QuestionError(
-            Problem("no tooth form can be drawn", "none of them can run", "change the arcs or the tooth counts")
+            Problem(
+                "no tooth form can be drawn",
+                "no form has a path of contact for this pair",
+                "change the arcs or the tooth counts",
+            )
         )
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)
@@ -435,7 +447,7 @@ def _form_text(paths: Mapping[str, PathOfContact]) -> str:
 
 
 def _leaves_panel(axes: Axes) -> bool:
-    """Return True if a curve extends beyond its panel."""
+    """Return True if a curve of a form extends beyond the limits of its panel."""
     low, high = axes.get_ylim()
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
     return any(bool(((y < low) | (y > high)).any()) for y in drawn)
@@ -448,7 +460,7 @@ def _pitch_title(pitch: PitchSurfaces) -> str:
 
 
 def _places(path: PathOfContact) -> Floats:
-    """Return values of X along the whole path, except at the pitch point."""
+    """Return positions X along the whole path of contact, except the pitch point [modules or rad]."""
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
@@ -458,7 +470,9 @@ def _places(path: PathOfContact) -> Floats:
 
 
 def _flat(points: Floats) -> Floats:
-    """Return x and y from the pitch point; on the sphere, as viewed from outside above the pitch point."""
+    """Return x and y relative to the pitch point (..., 2); on the sphere, as viewed from outside above the pitch
+    point.
+    """
     return points[..., :2]
 
 
@@ -484,6 +498,7 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
     """Yield each quantity with its label; lengths in modules, so that spur and bevel gears are comparable."""
+    # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)
     yield r"flash temperature $\Theta$", lambda c: c.flash * unit**0.25
@@ -509,6 +524,7 @@ def _along(
         top = min(float(away.max(initial=0.0)), _SPIKE * float(np.quantile(away, 0.9))) if len(away) else 0.0
         low, high = min(low, float(away.min(initial=inf))), max(high, top)
         tops.append(top)
+    # one form with a singular curve must not flatten the curves of all other forms
     high = min(high, _MOST * float(np.median(tops)))
     rim = max(0.1 * (high - low), 0.02 * high)
     axes.set_ylim(low - rim if low > _FLAT * high else 0.0, high + rim or 1.0)

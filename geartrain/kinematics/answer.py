@@ -17,7 +17,7 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join names with `mark`; replace all after the first 12 by their number.
+    """Join names with `mark`; if there are more than 13 names, replace those after the 12th by their number.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -44,7 +44,7 @@ class Loop(Result):
     links: tuple[str, ...]
     """Links in the order of the loop."""
     pairs: tuple[str, ...]
-    """Ids of the pairs in the order of the loop; the last one closes it."""
+    """Ids of the pairs in the order of the loop; the last pair closes the loop."""
     product: Fraction
     """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one of its pairs is
     redundant. Otherwise the links of the loop are locked to the carrier.
@@ -111,7 +111,9 @@ class Verdict(Result):
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """Error of a speed computed in float64: its estimate, and the true error if the exact speed is known."""
+    """Error of a speed computed in float64 [unit of the answer]: its estimate, and the true error if the exact speed is
+    known.
+    """
 
     estimate: float
     true_error: float | None
@@ -121,7 +123,7 @@ class SpeedAccuracy:
 
 
 class RowResiduals(TypedDict, total=False):
-    """JSON keys of float speeds only: residual of each row of the Willis system."""
+    """Keys that the JSON output has only for float speeds: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
     """Row label -> magnitude of the residual divided by the sum of the magnitudes of the terms of the row [1]."""
@@ -177,7 +179,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access; empty for float speeds.
     """
     method: str
-    """Method of solution: "exact", or float64 by sparse LU factorisation or by rounding exact speeds."""
+    """Method of solution: "exact", or "floats" for float64 speeds, found by sparse LU factorisation or by rounding
+    exact speeds.
+    """
     accuracy: Mapping[str, SpeedAccuracy]
     """Link -> error estimate [`unit`] and condition number of its speed. Computed at the first access; empty for exact
     speeds.
@@ -214,7 +218,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return a speed as text; as a ratio to the input if exactly one input turns."""
+        """Return a speed as text; as a ratio to the input if exactly one input turns and both speeds are exact."""
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
         if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:
@@ -242,7 +246,10 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target."""
+        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target.
+        Undetermined outputs are included only if the verdict is `determined`.
+        """
+        # if the verdict has failed, undetermined outputs are its consequence and no further failures
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 

@@ -39,7 +39,7 @@ class Components:
     node_group: Sequence[int]
     """Component of each node."""
     ratios: FactoredRatios
-    """Speed of each node's link relative to its carrier, over the unknown speed of its component."""
+    """Speed of each node's link relative to its carrier, divided by the unknown speed of its component."""
     node_circuit: Sequence[int]
     """Circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
@@ -59,7 +59,7 @@ class Components:
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Return the speed of a node's link relative to its carrier, over the unknown speed of its component."""
+        """Return the speed of a node's link relative to its carrier, divided by the unknown speed of its component."""
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
@@ -67,7 +67,7 @@ class Components:
         return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
 
     def group_of(self, circuit: Circuit) -> int:
-        """Return the component that contains a circuit."""
+        """Return the index of the component that contains a circuit."""
         return self.node_group[self.node(self.index[circuit.i], self.index[circuit.carrier])]
 
     def loop(self, circuit: int) -> Loop:
@@ -120,7 +120,7 @@ def find_components(
     """Find the ordinary trains of every carrier by breadth-first search: (18), (19) of docs/theory.md.
 
     first   links from which the search starts if possible (the inputs); the unknown of their component is then their
-            own speed, and fractions with many digits are not multiplied with each other
+            own speed, so that fractions with many digits are not multiplied with each other
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
@@ -210,6 +210,7 @@ def _nodes(
 def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
     for link in first:
         yield from nodes_of.get(link, ())
+    # components that contain no input; nodes that were already reached are skipped by the caller
     yield from range(count)
 
 
@@ -217,10 +218,10 @@ def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], c
 class ReducedSystem:
     """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
-    Unknowns 0..g-1 belong to the components. Above them there is one for each carrier other than the frame, and one for
-    each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a link
-    that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1) for a
-    follower.
+    Unknowns 0..g-1 belong to the components. They are followed by one unknown for each carrier other than the frame,
+    and one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a
+    link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1)
+    for a follower.
     """
 
     components: Components
@@ -274,6 +275,7 @@ def reduce_components(parts: Components) -> ReducedSystem:
     equations: list[LinearForm] = []
     origin: list[tuple[str, int, int]] = []
     for link, nodes in parts.nodes_of.items():
+        # without an own unknown, the first node of a link defines its speed and needs no equation
         loose = nodes if link in own or link == parts.frame else nodes[1:]
         for node in loose:
             row = shell.form(link)
@@ -328,6 +330,7 @@ def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[
     queue = deque(link for link, used in users.items() if len(used) == 1 and link not in wanted)
     while queue:
         link = queue.popleft()
+        # another leaf may have removed the last circuit of this link since it was queued
         if len(users[link]) != 1:
             continue
         (at,) = users[link]

@@ -24,12 +24,12 @@ def build_graph(train: Train) -> Graph:
     """Return a graph with links as vertices, and turning pairs, gear pairs and couplings as edges.
 
     Edges have the data `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or
-    name
-    of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or coupling;
-    turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
+    name of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or
+    coupling; turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
+    # a multigraph, because a turning pair and several gear pairs may join the same two links
     graph: Graph = LazyGraph(name=train.name)
     for name, link in train.links.items():
         graph.add_node(name, declared=link, frame=name == train.frame)
@@ -165,7 +165,8 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text. Edges have a kind and a label, and gear pairs the names of their wheels.
+    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also name their wheels, couplings
+    their pin and slot.
 
     Parameters
     ----------
@@ -190,7 +191,8 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON. Edges have a kind and a label, and gear pairs the names of their wheels.
+    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also name their wheels, couplings
+    their pin and slot.
 
     Parameters
     ----------
@@ -213,6 +215,7 @@ def to_json(graph: Graph) -> str:
 
     data = nx.node_link_data(_plain(graph), edges="edges")
     text = json.dumps(data, indent=1, ensure_ascii=False)
+    # ASCII escapes if names contain control characters, which a terminal would interpret
     return text if printable(text) == text else json.dumps(data, indent=1)
 
 

@@ -21,7 +21,7 @@ Relative = Callable[[str, str], SpeedValue | None]
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """Speed that a `target` or `period` of an output requires."""
+    """Speed that a declared target of an output requires, compared with its sign or by its magnitude only."""
 
     label: str
     """Description of the required speed without its sense of rotation."""
@@ -38,8 +38,8 @@ class RatioGoal:
         return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
 
     def error(self, speed: SpeedValue) -> SpeedValue:
-        """Return the relative error speed / goal - 1, which is positive for a fast output; the difference if the goal
-        is 0.
+        """Return the relative error speed / goal - 1, which is positive for a fast output; the speed itself if the
+        goal is 0.
         """
         return error_against(speed, self.speed, self.signed)
 
@@ -87,7 +87,9 @@ class TargetResult(Result):
     target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
-    """Gain of the pointer in angle during one unit of time [deg]; None if the value exceeds the range of float64."""
+    """Gain of the pointer in angle during one unit of the train, such as a year [deg]; None if the value exceeds the
+    range of float64.
+    """
     met: bool | None
     """True if `error` is within the declared tolerance; None if no tolerance is declared."""
 
@@ -116,7 +118,7 @@ class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """Exact speed as a fraction in text; None if it was solved in floats, or is not determined."""
+    """Exact speed as a string such as "2/7"; None if it was solved in floats, or is not determined."""
     value: Required[float | None]
     """Nearest float64; None beyond its range, or if the speed is not determined."""
     decimal: str
@@ -135,7 +137,7 @@ class JudgedExpectation(NamedTuple):
     value: str
     """Expected value as declared."""
     holds: bool | None
-    """True if the speed equals the value within its tolerance; None if the speed is not determined."""
+    """True if the speed equals the expected value within its tolerance; False if it differs or is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,9 +153,11 @@ class JudgedFigure(Result):
     place: str | None
     """Place in the source where the value is printed."""
     found: SpeedValue | None
-    """Same quantity, calculated for this train."""
+    """Same quantity, calculated for this train; None if it is not determined."""
     holds: bool | None
-    """True if both agree in all printed digits; None if the quantity is not determined."""
+    """True if the published and the calculated value agree in all printed digits, or within a declared tolerance; False
+    if they differ, or if the quantity is not determined.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,11 +189,15 @@ class OutputResult(Result):
     ratio: SpeedValue | None
     """Output speed divided by input speed; None unless exactly one input has a non-zero speed."""
     expect_holds: bool | None
-    """True if the speed agrees with the declared `expect`; None if no `expect` is declared."""
+    """True if the speed agrees with the declared `expect`, False also if it is not determined; None if no `expect` is
+    declared.
+    """
     published_holds: bool | None
-    """True if the output agrees with the declared `published` value; None if no value is published."""
+    """True if the output agrees with the declared `published` value, False also if it is not determined; None if no
+    value is published.
+    """
     targets: tuple[TargetResult, ...]
-    """Comparisons with the declared targets."""
+    """Comparisons with the declared targets; empty if the speed is not determined."""
     bookkeeping: bool
     """True for a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
 
@@ -224,6 +232,7 @@ class OutputResult(Result):
         otherwise True.
         """
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
+        # None means that nothing was declared or compared, which is not a failure
         return False not in judged
 
     @property
@@ -292,7 +301,9 @@ def judge_outputs(
 
 
 def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
-    """Return whether the speed agrees with the declared `expect`; floats are compared to nine digits."""
+    """Return True if the speed agrees with the declared `expect`, False if it differs or is undetermined; None without
+    `expect`.
+    """
     expect = output.expect
     if expect is None or speed is None:
         return None if expect is None else False
@@ -312,7 +323,9 @@ def _published_holds(output: Output, speed: SpeedValue | None, ratio: SpeedValue
 
 
 def as_published(published: Published, speed: SpeedValue | None, ratio: SpeedValue | None) -> SpeedValue | None:
-    """Return an output as the quantity that the source prints: speed, output/input or input/output."""
+    """Return an output as the quantity that the source prints: speed, output/input or input/output; None if it is
+    undefined.
+    """
     if published.as_ == "speed":
         return speed
     return ratio if published.as_ == "output/input" else 1 / ratio if ratio else None
@@ -391,7 +404,8 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Yield the exact change of each output when an uncertain wheel has one tooth fewer or one tooth more.
+    """Yield the change of each output that is affected by one tooth fewer or one tooth more of an uncertain wheel
+    [ppm].
 
     solve_with   function that solves the train with other circuits, and returns the function for relative speeds
     """
@@ -406,6 +420,7 @@ def sensitivity(
         }
         for result in outputs:
             shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
+            # outputs that the wheel does not affect are omitted
             if any(value != 0 for value in shift.values()):
                 allowed = wheel.uncertainty.allowed if wheel.uncertainty else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))

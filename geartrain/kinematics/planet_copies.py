@@ -22,7 +22,7 @@ from geartrain.train.mechanism import Axis, Revolute
 
 
 def has_copies(train: Train) -> bool:
-    """Return whether a link is declared with `copies` above 1."""
+    """Return True if a link is declared with `copies` above 1."""
     return any(part.copies > 1 for part in train.links.values())
 
 
@@ -35,8 +35,8 @@ def check_copies(train: Train, tree: Tree) -> None:
 def with_copies(train: Train, tree: Tree) -> Train:
     """Return the train with every equal planet as a separate link (`p`, `p.2`, `p.3`), with its own pairs and axes.
 
-    Loads and bearings apply to each planet. Positions are rotated about the axis of the carrier; undeclared ones follow
-    from the layout. Inputs, brakes and locks of a planet apply to its first copy.
+    Loads and bearings apply to each planet. Declared positions and directions of axes are rotated about the axis of the
+    carrier.
     """
     return _Expansion(train, tree).train() if has_copies(train) else train
 
@@ -122,8 +122,8 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
             if bearer in train.links and train.links[bearer].copies > 1:
                 what = f"'{link}' turns on '{bearer}', which has `copies: {train.links[bearer].copies}`"
                 fix = (
-                    f"write `copies: {train.links[bearer].copies}` for it too; or, if all share one '{link}', add a "
-                    "link coaxial with the carrier on which it turns, with the coupling "
+                    f"declare `copies: {train.links[bearer].copies}` for this link too; or, if all copies share "
+                    f"one '{link}', add a link coaxial with the carrier on which it turns, with the coupling "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
                 why = f"each of the {train.links[bearer].copies} links '{bearer}' would need its own '{link}'"
@@ -181,7 +181,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
 
 
 def _allows_copies(train: Train, coupling: Coupling) -> bool:
-    """Return whether the coupling keeps each of several equal links parallel to one other link."""
+    """Return True if the coupling keeps each of several equal links parallel to one other link."""
     counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
     return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
 
@@ -267,6 +267,7 @@ class _Expansion:
     def _gear(self, gear: GearPair, at: int, number: int) -> GearPair:
         own = {wheel: self._wheel(wheel, at) for wheel in gear.pair}
         driver = None if gear.driver is None else own[gear.driver]
+        # without `phase`, because the phase of a copy follows from its position
         changed = gear.changed(
             pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at)
         )
@@ -319,6 +320,7 @@ class _Expansion:
         found = {}
         for link, (_, axis) in self.tree.parent.items():
             number, carrier = self.declared.links[link].copies, self.tree.top[link]
+            # a link on a copied planet is spaced about the carrier of the planet
             while self.declared.links[carrier].copies > 1:
                 carrier = self.tree.top[carrier]
             if number > 1:

@@ -64,7 +64,7 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
 
 
 def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
-    """Return whether a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
+    """Return True if a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
     overlap).
     """
     wheel = train.wheels[name][1]
@@ -123,7 +123,7 @@ class TrainKinematics(Shown):
         Parameters
         ----------
         names : sequence of str
-            Names of the pairs to leave out.
+            Names of the omitted pairs.
 
         Raises
         ------
@@ -159,6 +159,7 @@ class TrainKinematics(Shown):
         of, base : str
             Two links; the order does not matter.
         """
+        # without sums all axes between links and the frame are parallel, so that no path is examined
         return not self.joint_sums or self._axes.is_rotation(of, base)
 
     # -------------------------------------------------------------------------------------------------------- states
@@ -210,7 +211,9 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked: axes are placed or directed, and gear pairs form loops."""
+        """True if the assembly condition can be checked: axes have positions or directions, and gear pairs form
+        loops.
+        """
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
@@ -351,7 +354,7 @@ class TrainKinematics(Shown):
             raise QuestionError(
                 Problem(
                     f"'{train.name}' has no output or link '{output}'",
-                    "it must be a declared output or link",
+                    "speeds are reported for declared outputs and links",
                     suggest(output, known),
                 )
             )
@@ -477,9 +480,11 @@ class TrainKinematics(Shown):
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
+            # two bevel wheels on one side of a third are a likely cause of a lock or contradiction
             verdict = replace(verdict, text=verdict.text + "".join(map(_facing_advice, self._bevels_on_one_side)))
         if wanted is not None:
             verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
+            # a requested link is measured relative to the frame, which need not be shown
             shown = wanted if case.outputs else wanted[:1]
             # other links were solved only as far as the output needs them
             speeds = {link: speeds[link] for link in shown if link in speeds}
@@ -549,7 +554,7 @@ def _nearest(speed: Fraction) -> float:
     """Return the nearest float64. Raises `RangeError` beyond its range."""
     value = as_float(speed)
     if value is None:
-        why = "its ratio would become 0 or infinity"
+        why = "in float64 it would become 0 or infinite"
         fix = "use `method='exact'`, with input speeds in turns and not in radians"
         raise RangeError(Problem("a speed leaves the range of float64", why, fix))
     return value

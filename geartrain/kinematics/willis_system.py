@@ -81,7 +81,7 @@ class WillisSystem(Shown):
     equations: tuple[WillisEquation, ...]
     """Equations of the rows, with their labels."""
     exact: bool = True
-    """False if inputs in radians and in turns are mixed; numbers are then shown as decimals."""
+    """False if radians were converted to turns or turns to radians; numbers are then shown as decimals."""
     redundant: tuple[str, ...] = ()
     """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
 
@@ -147,6 +147,7 @@ def assemble_willis_system(
         for c in circuits
     ]
     if case is not None:
+        # a brake on the frame would repeat the row of the frame
         rows += [WillisEquation(f"fixed {link}", "fixed", ((link, 1),)) for link in case.fixed if link != frame]
         rows += [
             WillisEquation(f"lock {a} {b}", "lock", ((a, signs.get(a, 1)), (b, -signs.get(b, 1))))

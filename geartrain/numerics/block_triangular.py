@@ -58,6 +58,7 @@ def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequenc
                     open_.append(other)
                     stack.append((other, iter(rows[taken[other]])))
                     break
+                # an edge into a finished component closes no cycle
                 if not done[other]:
                     low[column] = min(low[column], order[other])
             else:  # every column that this one depends on is done
@@ -157,7 +158,9 @@ def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, in
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Extend the matching by a row through breadth-first search; return whether an augmenting path exists."""
+    """Extend the matching by a row through breadth-first search; return True if an augmenting path exists, else
+    False.
+    """
     came: dict[
         int, tuple[int, int | None]
     ] = {}  # column -> the row that reached it, and the column matched to that row

@@ -22,8 +22,8 @@ from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_error, sum_error
 
 Monomial = tuple[tuple[int, int], ...]
-"""Product of powers of variables: pairs (variable, power) in ascending order of variables; powers have either sign,
-not 0.
+"""Product of powers of variables: pairs (variable, power) in ascending order of variables; powers are positive or
+negative, never 0.
 """
 
 WholeTerm = tuple[int, tuple[int, ...]]
@@ -75,7 +75,7 @@ def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> in
 
 
 def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Sequence[float]) -> bool:
-    """Return whether no term can underflow or overflow in float64, whatever the order of multiplication.
+    """Return True if no term can underflow or overflow in float64, whatever the order of multiplication.
 
     terms     nonzero coefficients, and exponents of all variables
     largest   log10 of the maximum value of each variable; the minimum value is 1

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ChebyshevSeries:
-    """Chebyshev series on the interval [start, end]."""
+    """Chebyshev series on the interval [start, end], an approximation of a smooth function that can be differentiated
+    and integrated.
+    """
 
     coefficients: Floats
     start: float
@@ -80,6 +82,7 @@ def differentiation(count: int) -> Floats:
     """Return the differentiation matrix at the Chebyshev points of `points` (barycentric form, rows summing to 0)."""
     x, _ = points(count)
     weights = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+    # barycentric weights of these points (Berrut and Trefethen 2004)
     weights[[0, -1]] /= 2
     gap = x[:, None] - x[None, :]
     np.fill_diagonal(gap, 1.0)

@@ -125,6 +125,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
     squares = float(off @ off)
     if not squares or not np.ptp(values):  # the mean of equal values may be off by rounding
         return IntervalEstimate(0.0, 0.0, 0.0)
+    # Bonett trims the fraction 1 / (2 sqrt(n - 4)) at each end
     trimmed = int(n / (2 * sqrt(n - 4)))
     about = values - np.sort(values)[trimmed : n - trimmed].mean()
     kurtosis, c = n * float(np.sum(about**4)) / squares**2, n / (n - z)
@@ -162,6 +163,7 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
     found = np.flatnonzero(high < len(counts))
     low, high = counts[found], counts[high[found]]
     probability = up_to[high - counts[0]] - less[found]
+    # the last key has priority: closed intervals, then short ones, then the most probable
     best = np.lexsort((-probability, high - low, (low == 0) | (high == n)))[0]
     return int(low[best]), int(high[best])
 

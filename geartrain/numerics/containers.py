@@ -109,7 +109,7 @@ class ItemwiseMapping(Mapping[K, V]):
 
 
 class FrozenFields:
-    """Base class of frozen dataclasses that converts their dictionaries to immutable ones."""
+    """Base class of frozen dataclasses that replaces their dictionaries by immutable dictionaries."""
 
     __slots__ = ()
 

@@ -64,7 +64,7 @@ class Echelon:
 
 
 class TooDenseError(Exception):
-    """Elimination exceeded its budget of operations; the caller must use another method."""
+    """Error raised if elimination exceeds its budget of operations; the caller must use another method."""
 
 
 def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None:
@@ -94,7 +94,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
 
 
 class Ring(Protocol[T]):
-    """Protocol of the ring of the coefficients of linear forms."""
+    """Protocol of the ring that contains the coefficients of linear forms, for `eliminate_units`."""
 
     @property
     def modulus(self) -> int:
@@ -111,7 +111,7 @@ class Ring(Protocol[T]):
 
 
 class _Rationals:
-    """Field of the rational numbers, with Fractions as elements."""
+    """Field of the rational numbers, with Fractions as elements, as a ring for `eliminate_units`."""
 
     modulus = 0
 
@@ -127,7 +127,7 @@ RATIONALS = _Rationals()
 
 @dataclass(frozen=True, slots=True)
 class Residues:
-    """Field of the integers modulo a prime."""
+    """Field of the integers modulo a prime, as a ring for `eliminate_units`."""
 
     modulus: int
 
@@ -229,8 +229,8 @@ def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) ->
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """Return whether values of the unknowns exist for which every linear form is nonnegative, by phase 1 of the
-    simplex method.
+    """Return True if values of the unknowns exist for which every linear form is nonnegative, by phase 1 of the simplex
+    method.
 
     Bland's rule, by which the entering and the leaving variables have the lowest possible index, prevents cycling.
 
@@ -259,7 +259,7 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
 
 
 def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int) -> bool:
-    """Return whether the artificial variables, whose indices begin at `artificial`, can all be reduced to 0."""
+    """Return True if the artificial variables, whose indices begin at `artificial`, can all be reduced to 0."""
     while True:
         lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
         if not any(row[-1] for row in lacking):

@@ -123,6 +123,7 @@ def _scaled(value: Fraction, power: int, digits: int) -> int:
 
 def _leading(number: int) -> Decimal:
     """Return a long positive integer as a Decimal rounded to the precision of the context."""
+    # 1024 bits are about 308 digits, far more than the precision of the context
     cut = max(number.bit_length() - 1024, 0)
     return Decimal(number >> cut) * Decimal(2) ** cut
 
@@ -186,7 +187,7 @@ def watts_text(power: float) -> str:
 
 
 def percent_text(part: Fraction | float, digits: int = 4) -> str:
-    """Format a ratio as a percentage, or as a multiple from 10 on.
+    """Format a ratio as a percentage, or as a multiple if its magnitude is 10 or more.
 
     >>> percent_text(Fraction(46, 47)), percent_text(Fraction(2588, 10))
     ('97.87 %', '258.8 times')
@@ -195,7 +196,7 @@ def percent_text(part: Fraction | float, digits: int = 4) -> str:
 
 
 def percent_of_text(part: Fraction, whole: str) -> str:
-    """Format a ratio as a percentage or multiple of a named whole.
+    """Format a ratio as a percentage of a named whole, or as a multiple if its magnitude is 10 or more.
 
     >>> percent_of_text(Fraction(1, 2), "the power in"), percent_of_text(Fraction(2588, 10), "the power in")
     ('50 % of the power in', '258.8 times the power in')
@@ -209,7 +210,7 @@ def plural(count: int, noun: str) -> str:
 
 
 def is_short(value: Fraction | int, most: int) -> bool:
-    """Return whether all digits of a number fit in `most` characters."""
+    """Return True if all digits of a number fit in `most` characters."""
     bits = value.numerator.bit_length() + value.denominator.bit_length()
     return bits < 4 * most + 8 and len(fraction_text(value)) <= most
 

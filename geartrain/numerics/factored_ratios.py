@@ -49,7 +49,7 @@ class FactoredRatios:
             self.top[at], self.bottom[at] = times(1, 1, a, b)
 
     def vanishes(self, terms: Iterable[tuple[int, int]]) -> bool:
-        """Return whether a linear combination of numbers, given as (index, coefficient), is 0."""
+        """Return True if a linear combination of numbers, given as (index, coefficient), is 0."""
         terms = list(terms)
         common = len({self.anchor[at] for at, _ in terms}) == 1  # all are relative to the same number, which is not 0
         n, d = 0, 1
@@ -68,6 +68,7 @@ class FactoredRatios:
             here = self.anchor[here]
         value = self._kept.get(here) or coprime(self.top[here], self.bottom[here])
         for hop in reversed(hops):
+            # the anchor is kept, because the number read next probably has the same one
             if hop == at:
                 self._keep(self.anchor[at], value)
             value = coprime(*times(value.numerator, value.denominator, self.top[hop], self.bottom[hop]))

@@ -31,6 +31,7 @@ def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple
     (['c', 'b'], ['d', 'b'])
     """
     up, down = chain_to_root(i, above), chain_to_root(j, above)
+    # both chains end at the root, so their common end is removed from there
     while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
         up.pop()
         down.pop()
@@ -58,7 +59,7 @@ class DisjointSets(Generic[V]):
         self._above[self.find(second)] = self.find(first)
 
     def are_apart(self, first: V, second: V) -> bool:
-        """Return whether two elements are in different sets."""
+        """Return True if two elements are in different sets."""
         return self.find(first) != self.find(second)
 
 
@@ -96,7 +97,7 @@ class RatioSets(Generic[V]):
             self._above[other] = root, ratio * times / multiple
 
     def ratio(self, first: V, second: V) -> Fraction | None:
-        """Return the first quantity over the second; None if their ratio is unknown."""
+        """Return the first quantity divided by the second; None if their ratio is unknown."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         return times / multiple if root == other else None
 

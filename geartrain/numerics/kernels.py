@@ -182,7 +182,7 @@ def kernel(function: Callable[P, R]) -> Kernel[P, R]:
 
 
 def is_fast(fast: bool | None, seconds: float) -> bool:
-    """Return whether to compile kernels for work that takes `seconds` in Python and numpy.
+    """Return True if kernels are to be compiled for work that takes `seconds` in Python and numpy.
 
     fast   choice of the user; None to compile if numba is installed and the work is long enough to justify loading it
 
@@ -196,7 +196,7 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
 
 
 def usable() -> bool:
-    """Return whether numba is installed and can be imported."""
+    """Return True if numba is installed and can be imported."""
     try:
         _numba()
     except MissingExtraError:

@@ -1,4 +1,4 @@
-"""A networkx multigraph with attributes that are computed when they are first read.
+"""Multigraph of networkx with attributes that are computed when they are first read.
 
 An attribute of an edge may take longer to compute than the graph. It is stored as `Lazy(make)`, and networkx returns
 the result of `make` whenever the attribute is read.
@@ -13,7 +13,7 @@ import networkx as nx
 
 
 class Lazy:
-    """Value that is computed once, when it is first read."""
+    """Value that is computed once, when it is first read; stored as an attribute of a graph."""
 
     __slots__ = ("_make", "_value")
 

@@ -15,7 +15,8 @@ _FOLLOWED = {"http", "https", "mailto"}
 
 
 def markdown_text(text: str) -> str:
-    r"""Return a text with escaped HTML, and with links escaped unless they are relative or http, https or mailto links.
+    r"""Return the text with escaped HTML, and with links escaped unless they are relative or http, https or mailto
+    links.
 
     >>> markdown_text("<b> [worn](JavaScript:alert(1)), see [the paper](https://example.org)")
     '&lt;b> [worn]\\(JavaScript:alert(1)), see [the paper](https://example.org)'

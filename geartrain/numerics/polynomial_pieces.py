@@ -61,7 +61,7 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
         raise RangeError(
             Problem(
                 f"a curve cannot be interpolated near parameter {start:.6g}",
-                "it is not smooth there, or not finite",
+                "the curve is not smooth or not finite there",
                 "split it into curves at its kinks, or use another parameter",
             )
         )
@@ -132,6 +132,7 @@ def _polynomial(column: Floats, u: Floats) -> Floats:
 
 def ends(coefficients: Floats) -> Floats:
     """Return the values at both ends of the pieces, shape (2, pieces)."""
+    # all powers of u are 1 or -1 there, so that sums are sufficient
     signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
     return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
 

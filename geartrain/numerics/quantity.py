@@ -134,12 +134,14 @@ def turns_in(unit: str) -> Fraction:
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """Return whether one unit is a rational multiple of the other; radians are rational multiples only of radians."""
+    """Return True if one unit is a rational multiple of the other; radians are rational multiples only of radians."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 
 def nearest_unit(unit: str, dimension: str) -> str:
-    """Return a text with known units that are similar to an unknown one, such as `rpm` for RPM."""
+    """Return advice on an unknown unit: the most similar known unit, such as `rpm` for RPM, or all units of the
+    dimension.
+    """
     known = units_of(dimension)
     if re.search(r"\b(year|yr|month)s?\b", unit):
         return (
@@ -153,7 +155,7 @@ def nearest_unit(unit: str, dimension: str) -> str:
 
 
 def units_of(dimension: str) -> str:
-    """Return all units of a dimension, or of several dimensions joined by `or`, as text."""
+    """Return all units of a dimension, or of several dimensions joined by `or`, as a string with commas."""
     known = [*UNITS.items(), *IRRATIONAL.items()]
     return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
 
@@ -319,7 +321,7 @@ def parse_friction(raw: object) -> Figure:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """Number with its unit as written.
+    """Number with its unit as written in a declaration, convertible to base units and SI units.
 
     Use `base` in comparisons and computations, not `value`, because `base` does not depend on the written unit. The
     units are listed in `UNITS`; rad and rad/s are also allowed. A radian is an irrational fraction of a turn, rounded
@@ -358,6 +360,7 @@ class Quantity:
     @property
     def si(self) -> float:
         """Value in SI units (m, rad, s, rad/s, N m and others); a number without a unit is unchanged."""
+        # radians are SI units already; conversion to turns and back would round twice
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -388,14 +391,16 @@ class Quantity:
         match = _QUANTITY.match(text) if isinstance(raw, str) and len(text) <= _MOST_DIGITS else None
         if match is None and (number := re.match(r"[\d.]+ +(?=.*[A-Za-z])", text[:_MOST_DIGITS])):
             known = units_of(dimension)
-            fix = f"write for example '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
+            fix = f"for example, write '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
             raise PydanticCustomError("unit", "'{text}' has an unknown unit", {"text": text, "fix": fix})
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
             if not plain and figure.value:
                 raise _no_unit(text, dimension)
             return _in_range(cls(figure.value, None, text), dimension)
+        # several blanks within a unit count as one
         unit = " ".join(match[2].split())
+        # an exponent of more than three digits, which `_NUMBER` does not match, is not a unit
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
         unit = SPELT.get(unit, unit)
@@ -456,7 +461,7 @@ def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     return PydanticCustomError(
         "unit",
         "'{text}' has no unit",
-        {"text": text, "fix": f"write for example '{text} {first}'; units: {units_of(dimension)}"},
+        {"text": text, "fix": f"for example, write '{text} {first}'; units: {units_of(dimension)}"},
     )
 
 
@@ -467,7 +472,7 @@ def _with_article(noun: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """Pydantic annotation of a field that is a quantity of one dimension."""
+    """Pydantic annotation of a field whose values are quantities of one dimension, such as lengths."""
 
     name: str
     plain: bool = False

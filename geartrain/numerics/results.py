@@ -1,8 +1,8 @@
 """Base classes of results: display at the prompt and in notebooks, plain data for JSON, tables and figures.
 
 `Shown` results have a `repr` of one line, print the text of the command that computes them, and appear as tables in a
-notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become text with
-every digit, arrays and tuples become lists, and results become objects. None remains None. `Tabular` results have
+notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become strings
+with every digit, arrays and tuples become lists, and results become objects. None remains None. `Tabular` results have
 columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured` results name
 the function that draws them, which is imported when it is called.
 """
@@ -44,7 +44,7 @@ class Shown:
     The constant is "" if no command prints such a result.
     """
     TEXT: ClassVar[str] = ""
-    """Function that returns the text of the command, if this is not the text of the document."""
+    """Function that returns the text of the command, if this is not the text of the document; otherwise ""."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         """Keep the inherited `__repr__` of a class, which `dataclass` would otherwise replace."""
@@ -205,8 +205,8 @@ class Tabular(Shown):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of equal length by name. Numbers are floats, exact numbers are text in separate columns, and missing
-        values are None.
+        """Columns of equal length by name. Numbers are floats, exact numbers are strings in separate columns, and
+        missing values are None.
         """
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
@@ -383,7 +383,7 @@ class Result(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TrainResult(Result):
-    """Result for a train that contains the declaration of the train, which its text and its tables need."""
+    """Result for one train, stored together with the declaration of the train, which its text and its tables need."""
 
     _declaration: Any = field(default=None, kw_only=True, repr=False, compare=False)
 
@@ -456,7 +456,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
 
 
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
-    """Return keys of the attributes with the same name for the names in a sequence of keys and names."""
+    """Return keys and names as keys only; a name becomes the key of the attribute with the same name."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
 
 
@@ -470,6 +470,7 @@ def field_docs(kind: type) -> Mapping[str, str]:
     Python discards these docstrings, so they are read from the source. Units are in brackets: `Angle [rad].`
     """
     found: dict[str, str] = {}
+    # base classes first, so that a class overrides their docstrings
     for base in reversed(kind.__mro__):
         if get_annotations(base):
             found |= _docs_of_classes(base.__module__).get(base.__qualname__, {})

@@ -23,7 +23,7 @@ class SparseRows:
     width: int
 
     def small(self, height: int) -> bool:
-        """Return whether the solution for a matrix with `height` rows is fast."""
+        """Return True if the solution for a matrix with `height` rows is fast."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:

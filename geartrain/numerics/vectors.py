@@ -33,7 +33,7 @@ def minus(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
 
 
 def parallel(u: tuple[N, N, N], v: tuple[N, N, N]) -> bool:
-    """Return whether two vectors are parallel or antiparallel, tested exactly, without a tolerance."""
+    """Return True if two vectors are parallel or antiparallel, tested exactly, without a tolerance."""
     return not any(cross(u, v))
 
 
@@ -88,6 +88,7 @@ def frame(n: Vector) -> tuple[Vector, Vector]:
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
     """Return the nearest points of two lines that are not parallel: a line is given by a point and a unit vector."""
     apart, turn = minus(other, point), dot(way, cut)
+    # squared sine of the angle between the lines; 0 only for parallel lines
     square = 1.0 - turn * turn
     near = (dot(apart, way) - turn * dot(apart, cut)) / square
     there = (turn * dot(apart, way) - dot(apart, cut)) / square

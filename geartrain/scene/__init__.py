@@ -1,7 +1,7 @@
 """Layouts, scenes and solids: the geometry of a train in space and time.
 
-The input is a train, a state, a layout and manufacturing sizes. The output is the places of axes and wheels, all data
-of an animated picture, and solids to export. Lengths are in mm and angles in rad; ratios are exact.
+The input is a train, a state, a layout and manufacturing sizes. The output is the positions of axes and wheels, all
+data of an animated picture, and solids to export. Lengths are in mm and angles in rad; ratios are exact.
 
 lay_out      `Layout`: axes and wheels in space, as declared or placed so that pitch circles touch
 build_scene  `Scene` with plates, pillars, arbors and dials in manufacturing sizes
@@ -9,22 +9,22 @@ make_scene   `Scene`: the train in one state, with angles from exact speeds and,
              (4) of docs/motion.md
 SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `ManufacturingSizes`
 
-context         a train, its answer in one state and its layout, which every part of a scene reads
+context         a train, its answer in one state and its layout, from which all parts of a scene are derived
 construction    construction of the scene of a train; phases of wheels; exact speeds as functions of tooth counts
 train_scene     the scene as plain data; its records are in `elements`, its formulas in `count_formulas`
 bodies          links and wheels with their teeth; flexible wheels of strain waves
 joints          gear pairs, and pins in slots
 movement        exact speeds and transmission errors, as tables and steps; evaluated by `pose`
-scene_run       a simulated motion as a page replays it
+scene_run       a simulated motion as it is replayed on a page
 dial_scale      scales of dials and their engraving; dials, pointers, dates and mean motions are in `dial_pointers`
 stroke_letters  letters as strokes, outlines of hands
 palette         colours of the themes
-layout          places of axes and wheels (beam search, local search)
+layout          positions of axes and wheels (beam search, local search)
 solids          closed surfaces of wheels, plates and pins
 parts           parts of the frame: plates, pillars, arbors, pipes
 
-Each wheel is placed so that its pitch surface touches those of its mates at the pitch point: equations (2), (3), (8) of
-docs/theory.md for parallel axes, cones and worms.
+Each wheel is placed so that its pitch surface touches the pitch surfaces of its mates at the pitch point: equations
+(2), (3), (8) of docs/theory.md for parallel axes, cones and worms.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""Links of a scene with their axes and parents, and wheels with their positions and one tooth each as cut.
+"""Links of a scene with their axes and parents, and wheels with their positions and the profile of one tooth each.
 
-Wheels without a flat outline (bevels, crowns, worms, and teeth that cannot be cut) get nominal teeth.
+Wheels without a flat outline (bevels, crowns, worms, and wheels that cannot be cut) get nominal teeth.
 
 A declaration places the flexible wheel of a strain wave on an axis that the generator carries, as if the wheel were
-rigid. This gives its speed. The scene places the deformed wheel about the generator's own axis, and its teeth mesh with
-the ring at each lobe (docs/reducers.md, (8)).
+rigid. This gives the speed of the wheel. The scene places the deformed wheel about the generator's own axis, and its
+teeth mesh with the ring at each lobe (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
@@ -34,22 +34,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """Flexible wheel of a strain wave gear, with its wave generator."""
+    """Flexible wheel of a strain wave gear in a layout, with the wave generator that deforms it."""
 
     wheel: str
-    """Name of the wheel."""
+    """Name of the flexible wheel."""
     link: str
     """Link that is the wave generator."""
     axis: str
-    """Label of the generator's axis."""
+    """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from that axis to the axis on which the wheel is declared (mm): amplitude and direction of the wave."""
+    """Vector from the generator's axis to the axis on which the wheel is declared: amplitude and direction of the wave
+    [mm].
+    """
     lobes: int
     """Number of lobes of the wave, the difference of the tooth counts of ring and wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
-    """Yield all flexible wheels of a train that a generator deforms."""
+    """Yield all flexible wheels of a train that a wave generator deforms."""
     declared = train.declaration
     for gear in declared.gears:
         thin = next((name for name in gear.pair if declared.wheels[name][1].flexible), None)
@@ -60,6 +62,7 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
         own = layout.axes[label]
         counts = (declared.wheels[name][1] for name in gear.pair)
         lobes = abs(sum((wheel.count or 0) * (1 if wheel.internal else -1) for wheel in counts))
+        # only the offset perpendicular to the axis deforms the wheel: it may also be displaced along the axis
         offset = across(minus(place.point, own.point), unit_or_z(own.direction))
         if lobes and size(offset):
             yield BentWheel(thin, place.carrier, label, offset, lobes)
@@ -68,7 +71,10 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Move flexible wheels to the axes of their generators, and return bodies, wheels and strain waves."""
+    """Return bodies and wheels with the flexible wheels on the axes of their generators, and the strain waves.
+
+    The arguments are not modified.
+    """
     bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -84,7 +90,7 @@ def bend(
 
 
 Points = tuple[tuple[float, float], ...]
-"""Points of a flank: radius (relative to the pitch radius) and angle (rad)."""
+"""Points of a flank or of a whole tooth: radius relative to the pitch radius, and angle [rad]."""
 
 FORM = "likeness"
 _PRESSURE = pi / 9
@@ -99,19 +105,20 @@ _LAND = 0.08  # minimum half width of a tip, divided by half a pitch
 
 
 def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a wheel, at most `height` (modules) above the pitch circle."""
+    """Return a nominal tooth of a wheel, at most `height` [modules] above the pitch circle."""
     return ToothProfile(FORM, _tooth(z, min(ADDENDUM, height)))
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a ring, at most `height` (modules) within the pitch circle.
+    """Return a nominal tooth of an internal gear, at most `height` [modules] inside the pitch circle.
 
-    It has the shape of a tooth space of an external wheel.
+    The tooth has the shape of a tooth space of an external wheel.
     """
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
     tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
     half = pi / z
+    # a space of an external wheel is wider than half a pitch by the backlash, and a tooth narrower by as much
     flank = [(r, half - _half(z, r) - 2 * _BACKLASH * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
         FORM, _mirrored([(r, min(max(angle, _LAND * half), _ROOM * half)) for r, angle in reversed(flank)], z)
@@ -121,7 +128,7 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
 def tooth_height(z: int, mate: int, within: bool) -> float:
     """Return the maximum height of a tooth [modules] that does not touch the roots of a mate with few teeth.
 
-    within   one of them is a ring; tips then also pass each other outside of the mesh
+    within   True if one of the two wheels is a ring, whose teeth the tips of the other also pass outside of the mesh
     """
     if within:
         return _PASSING * abs(z - mate)
@@ -135,7 +142,8 @@ def _root(z: float) -> float:
 def bevel(z: int, cone: float) -> ToothProfile:
     """Return a nominal tooth of a bevel wheel at its wide end, from the virtual spur wheel of its back cone (Tredgold).
 
-    Its radii contain heights above the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
+    Each radius of the profile is 1 plus the height above the pitch cone along the back cone; `cone` is the half angle
+    of the pitch cone [rad].
     """
     # the back cone of a crown wheel is a cylinder: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
@@ -146,9 +154,9 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """Return a tooth of a crown wheel whose tooth spaces are slightly wider than the given teeth of its mate.
+    """Return a tooth of a crown wheel, whose spaces are slightly wider than the given tooth of its mate.
 
-    section   one tooth of the mate: radius relative to its pitch radius and angle (rad), by increasing angle
+    section   one tooth of the mate: radius relative to its pitch radius and angle [rad], by increasing angle
     """
     import numpy as np
 
@@ -162,8 +170,9 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread as points around its axis; heights are relative to the
-    pitch radius.
+    """Return the axial section of a worm's thread, as points around the axis of the worm.
+
+    height   addendum divided by the pitch radius
     """
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
@@ -191,22 +200,23 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angle (rad) of a tooth at relative radius r.
+    """Return half the angular thickness of a tooth at relative radius r [rad].
 
     The flank is an involute, radial below the base circle, with the undercut of a rack.
     """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
+    # the rack undercuts only where its path is inside the involute
     return min(involute, pi / z - _swept(z, r))
 
 
 def _swept(z: float, r: float) -> float:
-    """Return half the angle (rad) of the tooth space that the tips of a rack cut out at relative radius r.
+    """Return half the angle of the tooth space that the tips of a rack cut out at relative radius r [rad].
 
-    The rack's tip corner is at the distance `b` from the middle of its tooth and at the height `c` above the axis.
-    After a rotation of the wheel by u - b it is displaced by u, and then at the angle atan(u / c) - (u - b) from the
-    middle of the space.
+    The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the
+    wheel's axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) -
+    (u - b) from the middle of the space.
     """
     c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
@@ -215,7 +225,9 @@ def _swept(z: float, r: float) -> float:
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
-    """Return a whole tooth from the middle of a space to the middle of the next; the flank runs from root to tip."""
+    """Return a whole tooth, from the middle of one space to the middle of the next, from a flank that runs from root to
+    tip.
+    """
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
@@ -262,7 +274,7 @@ def _role(stage: SceneContext, link: str) -> str:
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
     """Return the tooth profile of every wheel, as cut with the declared backlash, and notices.
 
-    Wheels that cannot be cut get nominal teeth. The notices are on wheels that could not be drawn as cut.
+    Wheels that cannot be cut get nominal teeth. Each notice gives the reason why some wheels could not be drawn as cut.
     """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
@@ -277,7 +289,9 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield the reasons why planar wheels are drawn differently from how they are cut, each reason once."""
+    """Yield the reasons why planar wheels are not drawn as they are cut, each reason once, and flexible wheels without
+    a wave.
+    """
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -285,13 +299,13 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.approximations), []).append(wheel)
     for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
-        drawn = "drawn with the teeth for the first pair of each" if of_first else "drawn approximately"
+        drawn = "drawn with the teeth for the first pair of each wheel" if of_first else "drawn approximately"
         yield Problem(f"the wheels {names} are {drawn}: {what}", why, fix)
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
         if own.flexible and name not in bent:
-            why = "no wave generator deforms it: its axis is not carried by a generator inside a ring with more teeth"
-            fix = "declare it as in trains/engineering/strain-wave.yaml"
+            why = "its axis is not carried off centre by a wave generator inside a ring with another tooth count"
+            fix = "declare the strain wave gear as in trains/engineering/strain-wave.yaml"
             yield Problem(f"flexible wheel '{name}' is drawn undeformed", why, fix)
 
 
@@ -320,10 +334,10 @@ def _mates(stage: SceneContext, name: str) -> Iterator[str]:
 def find_wheels(
     stage: SceneContext, profiles: Mapping[str, ToothProfile], turns: Mapping[str, float]
 ) -> tuple[tuple[SceneWheel, ...], tuple[ToothProfile, ...]]:
-    """Return all wheels in the order declared, and the tooth profiles that they share.
+    """Return all wheels in the order declared, and the tooth profiles to which the wheels refer.
 
-    profiles   tooth by wheel
-    turns      angle (rad) of the first tooth of each wheel about the direction of its body
+    profiles   tooth profile by wheel
+    turns      angle [rad] of the first tooth of each wheel about the direction of its body
     """
     shared: dict[ToothProfile, int] = {}
     circuits: dict[str, list[str]] = {}
@@ -393,6 +407,7 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)
+    # relative to the axis: the complement of the lead angle, which tables of worms give
     return (-1 if wheel.hand == "left" else 1) * atan2(2 * pi * place.radius, lead)
 
 
@@ -408,7 +423,7 @@ def as_placed(stage: SceneContext, wheel: str) -> float:
 
 
 def _uncertainty(wheel: Declared) -> str:
-    """Return the tooth counts that the evidence allows, as text; empty for a certain count."""
+    """Return the tooth counts that the evidence allows, as a string; empty for a certain count."""
     uncertainty = wheel.uncertainty
     if uncertainty is None:
         return ""
@@ -418,8 +433,10 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power that is lost at each wheel's meshes; half of the loss of a pair is
-    assigned to each wheel.
+    """Return the fraction of the input power that is lost at each wheel's meshes; empty if no power loss can be
+    computed.
+
+    Half of the loss of a pair is assigned to each of its wheels.
     """
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):

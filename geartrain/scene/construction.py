@@ -2,10 +2,10 @@
 
 The rotation of each wheel on its body brings teeth into contact as their transmission function requires in the zero
 pose. The transmission function of a pair gives the angles of both wheels at the angle of its driver, so that a
-traversal from wheel to wheel determines them all. For a wheel with several mates one pair is exact; in the others the
-driven wheel is rotated until its driver does not interfere with it at any position.
+traversal from wheel to wheel determines all angles. If a wheel has several mates, one pair is exact; in each other
+pair the driven wheel is rotated until its driver does not interfere with it at any position.
 
-Speeds are available as exact functions of tooth counts, for pages on which counts are changed; equal planets share one
+Speeds are available as exact functions of tooth counts, for pages on which counts are changed. Equal planets share one
 count.
 """
 
@@ -53,10 +53,10 @@ _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are roundi
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
-    """Return the directions of contact of a pair; None for skew axes, and for coaxial wheels.
+    """Return the directions of contact of a pair and its sense; None for screw pairs and for coaxial wheels.
 
-    They are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their axes, and 1
-    if positive rotations of both wheels move the teeth in contact in the same direction, else -1.
+    The directions are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their
+    axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, else -1.
     """
     one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
@@ -77,12 +77,13 @@ _ROUNDS = 4
 
 
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
-    """Return the angle of the first tooth of every wheel at which it meshes with its mates, and notices.
+    """Return the angle of the first tooth of every wheel at which its teeth mesh with its mates, and notices.
 
-    Angles (rad) are about the direction of the body, from its reference. A wheel without mates has its angle in the
-    layout.
+    Each angle [rad] is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
+    without mates has its angle in the layout.
     """
     found = _Mounting(stage, moved)
+    # pairs with a transmission function, then pairs with a declared phase, because their angles are not free
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
     turns = {wheel: found.turns.get(wheel, as_placed(stage, wheel)) for wheel in stage.layout.wheels}
@@ -109,12 +110,12 @@ class _Mounting:
 
     @property
     def pairs(self) -> list[Circuit]:
-        """Pairs whose wheels can be aligned with each other."""
+        """Gear pairs whose wheels can be aligned with each other."""
         return [circuit for circuit in self.stage.train.circuits if circuit.id in self.meetings]
 
     def spread(self, first: Circuit) -> None:
-        """Place all wheels that are connected with a pair by meshes, by breadth-first search, except wheels that are
-        already placed.
+        """Place all wheels that meshes connect with a pair, by breadth-first search, except wheels that are already
+        placed.
         """
         if any(wheel in self.turns for wheel in first.wheels):
             return
@@ -156,6 +157,7 @@ class _Mounting:
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
+        # teeth repeat after a pitch, so the shift is reduced to the nearest equivalent phase
         shift = (position - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
         return shift if abs(shift) > _NEAR else 0.0
 
@@ -167,8 +169,8 @@ class _Mounting:
         """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation
         [pitches].
 
-        position   position of the driver's tooth (pitches); off the phase of its transmission function, the driven
-                   tooth is advanced until the driver does not interfere with it at any position
+        position   position of the driver's tooth [pitches]; if it is off the phase of the transmission function, the
+                   driven tooth is advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
@@ -205,7 +207,7 @@ class _Mounting:
         self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (position % 1) * pitch) % (2 * pi)
 
     def _zero(self, circuit: Circuit, at: int) -> float:
-        """Return the angle at which the first tooth of a wheel is initially on the line of centres."""
+        """Return the angle at which the first tooth of a wheel is initially on the line of centres [rad]."""
         place = self.stage.layout.wheels[circuit.wheels[at]]
         axis = self.stage.reference(place.axis)
         rest = self.moved.rest[(circuit.i, circuit.j)[at]] - self.moved.rest[circuit.carrier]
@@ -230,9 +232,9 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "their driver meshes with several wheels, and its angle is set by the first of them; the driven teeth "
-                "are "
-                "rotated until no teeth overlap, so that they touch only once per pitch; the motion is exact",
+                "the driver of each of these pairs has several mates, and the first mesh determines its angle; driven "
+                "teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is "
+                "exact",
                 "",
             )
 
@@ -250,9 +252,10 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return the speeds of a train as functions of tooth counts, for the parts of its scene; None if they do not exist.
+    """Return the speeds of a train as functions of tooth counts, for the parts of its scene.
 
-    A train without inputs has none, nor has one that is too strongly coupled or too large.
+    The result is None for a train without inputs or tooth counts, and for a train that is too strongly coupled or too
+    large.
     """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
@@ -266,6 +269,7 @@ def find_count_formulas(
     own = originals(declared)
     counted = {wheel.id: _original(wheel.id, own, bodies[wheel.body].id) for wheel in wheels}
     try:
+        # unfolded, as each planet is a body of the scene, although equal planets share one count
         train_requested = _with_outputs(unfolded.declaration, state, [*requested, *filter(None, links)])
         found = find_formulas(train_requested, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:
@@ -290,7 +294,7 @@ def _name(requested: tuple[str, str]) -> str:
 
 
 def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
-    """Return the train with other outputs: speeds of links relative to links."""
+    """Return the train with its outputs replaced by speeds of links relative to other links."""
     outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in requested})
     states = {
         name: each.changed(outputs=FrozenDict({})) if name == state else each for name, each in train.states.items()
@@ -305,8 +309,8 @@ def _original(wheel: str, own: dict[str, str], link: str) -> str:
 
 
 def _parent(train: Train) -> str:
-    """Return the name with which a declaration can extend the train: the shipped train, or else the file
-    that was read.
+    """Return the name with which a declaration can extend the train: the shipped train, or else the file that was
+    read.
     """
     from geartrain.train.declaration_files import shipped
 
@@ -318,7 +322,7 @@ def _parent(train: Train) -> str:
 
 
 class _Table:
-    """Indexed formulas without duplicates."""
+    """Formulas with their indices, without duplicates."""
 
     def __init__(self, place: Mapping[str, int]) -> None:
         self.place = place  # index of the count of each wheel

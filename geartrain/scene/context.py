@@ -27,7 +27,9 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """Train in one state, with its layout and the indices of its bodies and wheels."""
+    """Train in one state, with its layout and the indices of its bodies and wheels, as the input of all parts of a
+    scene.
+    """
 
     train: GearTrain
     answer: Answer
@@ -35,12 +37,12 @@ class SceneContext:
 
     @cached_property
     def case(self) -> StateCase:
-        """Prescribed inputs and outputs of this state."""
+        """Inputs and outputs that the state of the train prescribes."""
         return self.train.declaration.case(self.answer.state)
 
     @cached_property
     def outputs(self) -> Mapping[str, Output]:
-        """Outputs declared in this state; for a train without outputs, its first 100 links."""
+        """Outputs declared in the state; for a train without outputs, the first 100 links of the train."""
         from geartrain.train import Output
 
         declared = self.train.declaration
@@ -49,12 +51,12 @@ class SceneContext:
 
     @cached_property
     def body(self) -> Mapping[str, int]:
-        """Index of the body of each link."""
+        """Index of the body of each link, by name of the link."""
         return {link: at for at, link in enumerate(self.train.declaration.links)}
 
     @cached_property
     def wheel(self) -> Mapping[str, int]:
-        """Index of each wheel."""
+        """Index of each wheel, by name of the wheel."""
         return {wheel: at for at, wheel in enumerate(self.train.declaration.wheels)}
 
     @cached_property
@@ -64,7 +66,7 @@ class SceneContext:
 
     @cached_property
     def crank(self) -> str | None:
-        """Link that is turned by hand: the declared crank, or the driving link."""
+        """Link that is turned by hand: the declared crank, or the driving link; None if there is neither."""
         return self.train.declaration.crank or self.driving_link
 
     def speed(self, link: str) -> Fraction | None:
@@ -73,9 +75,9 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link relative to the driving link.
+        """Return the exact speed of a link divided by the speed of the driving link.
 
-        It is None if the speed is not determined, or nothing is driven.
+        It is None if the speed is not determined, or if no link is driven.
         """
         found = self.speed(link)
         if found is None or self.driving_link is None:
@@ -83,7 +85,7 @@ class SceneContext:
         return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None) -> str | None:
-        """Return a speed as text, exact if the inputs are exact."""
+        """Return a speed as a string, exact if the inputs are exact and rounded if not; None if the speed is None."""
         return None if speed is None else self.case.shown(speed)
 
     def sense(self, link: str) -> int:
@@ -91,18 +93,18 @@ class SceneContext:
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the declared starting angle of a link (rad)."""
+        """Return the declared starting angle of a link [rad]."""
         angle = self.train.declaration.links[link].angle
         return 0.0 if angle is None else angle.si
 
     def along(self, axis: str | None) -> Vector:
-        """Return the declared direction of an axis; z for the frame."""
+        """Return the declared unit direction of an axis; z if the axis is not in the layout."""
         place = self.layout.axes.get(axis or "")
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the direction of an axis, reversed if it is opposite to the first declared axis that is parallel to
-        it.
+        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared parallel
+        axis.
         """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
@@ -131,7 +133,7 @@ class SceneContext:
 
     @property
     def unbuilt(self) -> tuple[Problem, ...]:
-        """Reasons why real teeth cannot be built."""
+        """Reasons why real teeth cannot be built; empty if they can be built."""
         return self._built[1]
 
     @cached_property
@@ -143,15 +145,15 @@ class SceneContext:
 
     @cached_property
     def near(self) -> Vector:
-        """Unit vector towards the viewer."""
+        """Unit vector along z towards the viewer."""
         return (0.0, 0.0, float(self.layout.front))
 
 
 def exact(value: Fraction | None) -> str | None:
-    """Return a ratio as exact text; None if the ratio is None."""
+    """Return a ratio as an exact string; None if the ratio is None."""
     return None if value is None else fraction_text(value)
 
 
 def rounded(value: Fraction | None) -> str:
-    """Return a ratio as decimal text; empty if the ratio is None."""
+    """Return a ratio as a decimal string; empty if the ratio is None."""
     return "" if value is None else decimal(value)

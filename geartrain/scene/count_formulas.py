@@ -10,11 +10,11 @@ from geartrain.numerics.results import Shown
 
 @dataclass(frozen=True, slots=True)
 class CountFormula(Shown):
-    """Ratio of two polynomials in the tooth counts, with integer coefficients.
+    """Ratio of two polynomials in the tooth counts, with integer coefficients, which gives one speed or one condition.
 
     See Also
     --------
-    SceneFormulas : contains them.
+    SceneFormulas : contains the formulas of a scene.
     """
 
     wheels: Sequence[int]
@@ -23,7 +23,7 @@ class CountFormula(Shown):
     An index occurs several times if equal planets share a count.
     """
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as text, and exponents parallel to `wheels`, all 0 or more."""
+    """Terms of the numerator: a coefficient as a string, and exponents parallel to `wheels`, all 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the denominator, in the same form as the numerator."""
 
@@ -34,7 +34,7 @@ class CountCondition(Shown):
 
     See Also
     --------
-    SceneFormulas : contains them.
+    SceneFormulas : contains the conditions of a scene.
     """
 
     formula: CountFormula
@@ -42,9 +42,9 @@ class CountCondition(Shown):
     zero: bool
     """True if the value of `formula` must be 0, False if it must not be 0."""
     text: str
-    """Condition as text."""
+    """Description of the condition, such as `loop a - b - c closes`."""
     carrier: int | None = None
-    """Index of the body relative to which the wheels of a loop turn; None for conditions without a loop."""
+    """Index of the body relative to which the wheels of a loop turn; None for a condition that is not on a loop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +71,6 @@ class SceneFormulas(Shown):
     input: str
     """Exact speed of the driving link."""
     exact: bool
-    """False if speeds are displayed as decimals."""
+    """True if speeds are displayed as fractions, False if as decimals."""
     parent: str
     """Name of the shipped train, or of the file, that the declaration of a changed train extends."""

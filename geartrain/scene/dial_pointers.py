@@ -1,10 +1,11 @@
 """Dials with the position and direction of their scales, and pointers with their readings and the pairs on which they
 depend.
 
-An output depends on the pairs whose errors would change it; this is computed exactly. An error in one pair is a
-right-hand side in its row. Its effect on an output is the weight of that row in the only combination of rows that gives
-the output, so that one elimination of the transposed system answers for all outputs. The mean speed of a follower does
-not depend on the speed of its pin, but its position does: the pairs that turn the pin are included too.
+An output depends on the pairs whose errors would change it; this dependence is computed exactly. An error in one pair
+is a right-hand side in the row of that pair. Its effect on an output is the weight of that row in the only combination
+of rows that gives the output, so that one elimination of the transposed system gives the dependence of all outputs. The
+mean speed of a follower does not depend on the speed of its pin, but its position does: the pairs that turn the pin are
+included too.
 
 The module also gives dates of the driving link's turns, and the mean motions that pointers should show.
 """
@@ -44,10 +45,10 @@ _BUDGET = 4_000_000  # maximum number of operations of the elimination
 
 
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
-    """Return the names of the pairs and couplings on which each output depends, in order from the input; empty for a
-    train that does not move.
+    """Return the names of the pairs and couplings on which each output depends, in order from the input.
 
-    All meshes in parallel, such as several planets between two wheels, are included.
+    All meshes in parallel, such as several planets between two wheels, are included. The result is empty for a train
+    that does not move, or whose system is too dense to be eliminated.
     """
     if not stage.answer.verdict:
         return {}
@@ -69,8 +70,9 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the used pairs, with the pairs that turn the pins of used followers."""
+    """Return the used pairs, together with the pairs that turn the pins of used followers."""
     found, left = set(used), set(swings)
+    # repeated, because another follower may turn the link of a pin
     while met := found & left:
         left -= met
         found.update(*(swings[name] for name in met))
@@ -85,7 +87,10 @@ def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return for each output the labels of the rows with a non-zero weight in it; redundant rows have no weight."""
+    """Return for each output the labels of the rows with a non-zero weight in that output.
+
+    Redundant rows have no weight.
+    """
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -105,7 +110,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Return pairs in the order of a breadth-first search from the inputs."""
+    """Return the used pairs, and the pairs of loops that contain them, in breadth-first order from the inputs."""
     left = dict.fromkeys(name for name in circuits if name in set(used))
     for loop in stage.train.mobility.loops:
         if any(pair in left for pair in loop.pairs):
@@ -146,7 +151,9 @@ _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the t
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
-    """Return every declared dial on which an output is read, once for each body and axis."""
+    """Return every declared dial on which an output is read, once for each link that carries it and each pointer
+    axis.
+    """
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
     width = _train_width(stage)
@@ -164,6 +171,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
+            # an upper bound, which `_fitted` reduces
             radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
             look=dial.look,
@@ -191,14 +199,18 @@ def _differences(line: Stroke) -> tuple[int, ...]:
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """Return the dial as a ball on its own axis, until the pointer that carries it is known."""
+    """Return the dial as a ball next to the axis of its pointer, which is used unless another pointer carries the
+    ball.
+    """
     place = stage.layout.axes.get(key[2])
     foot = (0.0, 0.0, 0.0) if place is None else place.point
     return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials with balls moved into the pointers of the links that carry them, if there are such pointers."""
+    """Return the dials, with each ball moved into the pointer of the link that carries it, if there is such a
+    pointer.
+    """
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
 
@@ -212,7 +224,7 @@ def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Po
 
 
 def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials with titles. Dials of one name about several axes are distinguished by their outputs."""
+    """Return the dials with titles. Dials of the same name about different axes are distinguished by their outputs."""
     often = Counter(face.id for face in dials)
     read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
     return tuple(
@@ -231,7 +243,9 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
-    """Return the unit vector towards the reader of an output, along its axis on the side that its dial faces."""
+    """Return the unit vector towards the reader of an output, along the axis of the output on the side that its dial
+    faces.
+    """
     declared = stage.train.declaration
     output = stage.outputs[name]
     along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
@@ -244,7 +258,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
 
 
 def _train_width(stage: SceneContext) -> float:
-    """Return the extent of the train perpendicular to the view (mm)."""
+    """Return the maximum x or y coordinate of the wheels minus the minimum [mm]."""
     places = stage.layout.wheels.values()
     if not places:
         return 1.0
@@ -256,8 +270,9 @@ def _train_width(stage: SceneContext) -> float:
 
 def _side_width(stage: SceneContext, normal: Vector) -> float:
     """Return the width of the side on which a dial is mounted [mm]; infinite for dials that face towards or away from
-    the reader.
+    the viewer.
     """
+    # a cosine of 0.5 (60 degrees) separates dials on the front and back from dials on the sides
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
@@ -265,7 +280,7 @@ def _side_width(stage: SceneContext, normal: Vector) -> float:
 
 
 def _extent(stage: SceneContext, way: Vector) -> float:
-    """Return the extent of all wheels along a direction (mm)."""
+    """Return the extent of all wheels along a direction [mm]."""
     ends = []
     for wheel in stage.layout.wheels.values():
         along = dot(stage.layout.axes[wheel.axis].direction, way)
@@ -276,7 +291,7 @@ def _extent(stage: SceneContext, way: Vector) -> float:
 
 
 def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
-    """Return the point of an axis that is beyond all wheels on one side."""
+    """Return the point of an axis that is a gap [mm] beyond all wheels in the direction of a normal [mm]."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
     wheels = stage.layout.wheels.values()
@@ -292,7 +307,10 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials, reduced in size so that they do not overlap; dials about one axis are nested."""
+    """Return the dials, reduced in size so that they do not overlap; dials about one axis are nested.
+
+    Keys and their order are unchanged.
+    """
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -320,7 +338,7 @@ def _rounded(u: Vector) -> Vector:
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
     """Return a pointer for every output of the state, in the order declared.
 
-    Hands of one dial are at increasing heights.
+    Hands on one dial are at increasing heights.
     """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found = []
@@ -381,7 +399,10 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext) -> SceneEpoch | None:
-    """Return the declared date in turns of the driving link; None if no date is declared, or if no link is driven."""
+    """Return the declared date with the turns of the driving link at that date.
+
+    The result is None if no date is declared, if the unit is not a time, or if no link is driven.
+    """
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
@@ -399,7 +420,7 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
     """Return the target speeds of an output relative to the driving link.
 
-    speed   speed of the output in the train's unit; a target without a sense takes that of the output
+    speed   speed of the output in the train's unit; a target without a sense takes the sense of the output
     """
     if stage.driving_link is None or speed is None:
         return ()

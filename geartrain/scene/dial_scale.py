@@ -1,8 +1,8 @@
 """Scale of a dial: cells along a circle or a spiral, their names, readings of a pointer, and the engraving.
 
-Turns are counted from the zero mark along the scale, in its own direction. Rims, borders of cells, names, numerals and
-glyphs are engraved as lines, with lengths relative to the radius of the dial. The zero mark is at the top, x to the
-right and y upwards.
+Turns are counted from the zero mark along the scale, in the direction of counting of that scale. Rims, borders of
+cells, names, numerals and glyphs are engraved as lines, with lengths relative to the radius of the dial. The zero mark
+is at the top, x points to the right and y upwards.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 Point = tuple[float, float]
 
 INNER = 0.55
-"""Radius of the innermost turn of a spiral relative to the outermost."""
+"""Radius of the inner end of a spiral divided by the radius of its outer end."""
 RING = 0.17
-"""Width of a scale around another scale, relative to the radius."""
+"""Width of a scale around another scale, relative to the radius of the dial."""
 
 _CELL = "cell"
 _NUMERALS, _HOURS = 12, 24  # maximum count of numerals: default, declared
@@ -33,13 +33,13 @@ _ROMAN |= {4: "IV", 1: "I"}
 
 
 def clock_point(radius: float, turn: float | Fraction) -> Point:
-    """Return the point of a circle at an angle in turns from the top, clockwise."""
+    """Return the point of a circle about the origin at an angle in turns from the top, clockwise."""
     angle = 2 * pi * float(turn)
     return radius * sin(angle), radius * cos(angle)
 
 
 def roman(number: int) -> str:
-    """Return a number in Roman numerals.
+    """Return a positive number in Roman numerals.
 
     >>> [roman(each) for each in (4, 9, 12, 60)]
     ['IV', 'IX', 'XII', 'LX']
@@ -53,9 +53,10 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: turn of the spiral and cell, both from 1; name of the part, and cell within the part.
+    """Reading of a pointer: turn of the spiral and cell, both from 1, and the name of a run of cells with the cell in
+    it.
 
-    The name is empty on a scale without names.
+    The name is empty, and `within` is 0, at cells without a name.
     """
 
     turn: int
@@ -66,7 +67,7 @@ class ScaleReading:
 
 @dataclass(frozen=True, slots=True)
 class DialScale:
-    """Cells along a circle, or along a spiral from its inner end outwards."""
+    """Scale of a dial, divided into cells along a circle, or along a spiral from its inner end outwards."""
 
     turns: int
     """Turns of the spiral; 1 for a circle."""
@@ -85,27 +86,29 @@ class DialScale:
     numerals: tuple[tuple[str, int], ...] = ()
     """Numerals at lines, each with the number of divisions before its line."""
     glyphs: tuple[tuple[int, str], ...] = ()
-    """Glyphs in cells, by cell number from 1."""
+    """Glyphs in cells: the number of the cell, from 1, and the glyph."""
     around: DialScale | None = None
-    """Another scale around this scale."""
+    """Second scale, which surrounds this scale; None if there is none."""
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
     counted: int = 0
-    """Line at which declared numerals start again; 0 without declared numerals, when cells are counted from 1."""
+    """Number of divisions after which declared numerals start again; 0 without declared numerals, when cells are
+    counted from 1.
+    """
 
     def radius(self, turned: float) -> float:
-        """Return the relative radius after a number of turns from the inner end; for a circle always the
+        """Return the relative radius of the scale after a number of turns from the inner end; for a circle always the
         outer radius.
         """
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
-        """Return the number of turns after a number of divisions, exact."""
+        """Return the exact number of turns that a number of divisions takes."""
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns. A pointer on a line is in the cell after
-        the line.
+        """Return the reading of a pointer after a number of turns. A pointer on a line reads the cell after that
+        line.
         """
         along = turned % self.turns
         done = along / self.turns * self.divisions
@@ -115,17 +118,18 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number with which a cell is read: its own number, or with numerals the number of the line before
-        it.
+        """Return the number with which a cell is read: its own number, or on a scale with numerals the number of the
+        line before the cell.
         """
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as text, such as `Leo, degree 14`, with the glyph in that cell; empty without divisions.
+        """Return the reading as a string, such as `Leo, degree 14`, with the glyph in that cell; empty without
+        divisions.
 
-        The scale around this one is not read, because no declaration specifies which pointer is read on it.
+        The surrounding scale is not read, because no declaration specifies which pointer is read on it.
         """
         read, parts = self.read(turned), []
         if self.turns > 1:
@@ -141,7 +145,7 @@ class DialScale:
 
 
 def scale_of(dial: Dial) -> DialScale:
-    """Return the scale of a declared dial."""
+    """Return the scale of a declared dial, with its surrounding scale if one is declared."""
     way = 1 if dial.counted == "clockwise" else -1
     outer = 1.0 if dial.around is None else 1.0 - RING
     inner = outer * INNER if dial.turns > 1 else outer
@@ -168,13 +172,14 @@ def _scale(
 
 
 def plain_circle() -> DialScale:
-    """Return the scale of an output without a dial, with twelve lines."""
+    """Return the scale of an output without a dial: a circle of twelve divisions."""
     return DialScale(1, 12)
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals, by default about twelve on a circle from 0, and none for a spiral or a scale with
-    names.
+    """Return the declared numerals with their lines, by default up to twelve numerals from 0 on a circle without names.
+
+    A spiral, and a scale with names, has no numerals by default.
     """
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
@@ -211,10 +216,10 @@ _PEN = 0.12  # line width divided by the height of letters
 
 @dataclass(frozen=True, slots=True)
 class Engraving:
-    """Engraved lines of one width."""
+    """Engraved lines of one kind and one width."""
 
     kind: Kind
-    """Kind of lines."""
+    """Kind of the lines: rim, fine or bold borders, or letters."""
     width: float
     """Width relative to the radius of the dial."""
     lines: Sequence[Stroke]
@@ -246,7 +251,7 @@ def _border(scale: DialScale, radius: float, depth: float, turn: Fraction) -> St
 
 
 def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> Stroke:
-    """Return a line along the scale, offset inwards."""
+    """Return a polyline along the scale, offset inwards by `off`."""
     steps = max(1, round(_CHORDS * turns))
     turned = (turns * each / steps for each in range(steps + 1))
     return tuple(_point(scale, scale.radius(each) - off, each) for each in turned)
@@ -256,7 +261,7 @@ def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> St
 
 
 def _circle(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the rim, the borders that extend inwards from it, and the text inside the borders."""
+    """Yield the rim, the borders that extend inwards from the rim, and the text inside the borders."""
     at = {line for _, line in scale.numerals}
     starts = {first for _, first, _ in scale.names}
     every = -(-scale.divisions // _MARKS)
@@ -277,12 +282,13 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 def _names(scale: DialScale) -> Iterator[Engraving]:
     """Yield names, each in the middle of its divisions.
 
-    If the smallest letters do not fit, only every second, third, ... name is engraved, or none.
+    If names do not fit in the smallest letters, only every second to sixth name is engraved, or none.
     """
     radius = scale.outer - _BAND
     named = [part for part in scale.names if part[0]]
     # fewer names leave more space for each
     for every in range(1, 7):
+        # a name may extend over its omitted neighbours; 0.9 leaves a gap to the next name
         share = 1 if every == 1 else 0.9 * every
         heights = {part: share * _fitting(part[0], radius, scale.turn_of(part[2])) for part in named[::every]}
         kept = {part: height for part, height in heights.items() if height >= _MINIMUM}
@@ -295,20 +301,24 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _fitting(text: str, radius: float, turn: Fraction) -> float:
-    """Return the maximum height of the letters of a text along a part of a circle."""
+    """Return the maximum height of the letters of a string along a part of a circle, in units of the radius of the
+    dial.
+    """
     return _FULL * 2 * pi * radius * float(turn) / max(text_length(text), 0.5)
 
 
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield the strokes of a text along a circle; below the centre it may be inverted, to be readable."""
+    """Yield the strokes of a string along a circle; if `turned`, strings below the centre are inverted, to be
+    readable.
+    """
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
 
 def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
-    """Yield numerals at their lines, inside the borders and any names."""
+    """Yield numerals at their lines, inside the borders and inside any names."""
     if not scale.numerals:
         return
     inside = 0.5 * _TALL + 0.075 if scale.names else 0.0

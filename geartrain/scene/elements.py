@@ -1,6 +1,6 @@
 """Records of a scene: links, wheels with their teeth, gear pairs, pins in slots, structural parts and hanging parts.
 
-Lengths are in mm, angles in rad. Ratios are exact, as text (`-254/19`). Bodies, wheels and tooth forms are referenced
+Lengths are in mm, angles in rad. Ratios are exact strings (`-254/19`). Bodies, wheels and tooth profiles are referenced
 by their index in the scene.
 """
 
@@ -19,7 +19,7 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 @dataclass(frozen=True, slots=True)
 class ScenePart(Shown):
-    """Structural part as manufactured: a turned part or a flat part.
+    """Structural part as manufactured, such as an arbor or a plate: a turned part or a flat part.
 
     The z axis of the part passes through `place`, which is at mid-height of a flat part.
 
@@ -43,7 +43,7 @@ class ScenePart(Shown):
     across: Vector
     """Unit vector of the x axis of the part."""
     bands: Sequence[tuple[float, float, float, float]] = ()
-    """Bands of a turned part, from the lowest: start and end along z, outside and inside radius [mm]."""
+    """Bands of a turned part from the lowest to the highest: start and end along z, outside and inside radius [mm]."""
     outlines: Sequence[Sequence[float]] = ()
     """Outlines of a flat part: first its edge, then its holes, each as alternating x and y [mm]."""
     height: float = 0.0
@@ -71,7 +71,7 @@ class SceneHanger(Shown):
     direction: Vector
     """Unit vector along the axis about which the pendulum swings or the barrel turns."""
     down: Vector
-    """Unit vector downwards, perpendicular to that axis."""
+    """Unit vector downwards, perpendicular to `direction`."""
     length: float
     """Distance from the point of suspension to the middle of the bob, or to the weight in the zero pose [mm]."""
     rate: float
@@ -91,7 +91,7 @@ class SceneHanger(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneBody(Shown):
-    """Link of a scene, with the axis about which it turns.
+    """Link of a scene as a rigid body, with the axis about which it turns.
 
     See Also
     --------
@@ -101,21 +101,25 @@ class SceneBody(Shown):
     id: str
     """Name of the link."""
     parent: int | None
-    """Index of the body that carries the axis; None for the frame."""
+    """Index of the body that carries the axis of the link; None for the frame."""
     axis: str
     """Label of the axis about which the link turns."""
     point: Vector
-    """Point on the axis [mm]."""
+    """Point on the axis of the link [mm]."""
     direction: Vector
-    """Unit vector of the reference direction of all axes that are parallel to its axis."""
+    """Unit vector along the link's axis, in the reference direction of all axes that are parallel to it."""
     sense: int
-    """-1 if the declared axis points against `direction`, so that its speed changes sign about it; else 1."""
+    """-1 if the declared axis points against `direction`, so that the speed about `direction` has the opposite sign;
+    else 1.
+    """
     speed: str | None
-    """Speed relative to the speed of the driving link, about its declared axis, exact; None if it is not determined."""
+    """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined."""
     shown: str | None
-    """Exact speed of the link at the declared inputs, in the train's unit."""
+    """Speed of the link at the declared inputs, in the train's unit: exact if the inputs are exact; None if not
+    determined.
+    """
     decimal: str
-    """Rounded speed of the link at the declared inputs, in the train's unit."""
+    """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
     """Declared starting angle of the link [rad]."""
     role: str
@@ -140,13 +144,13 @@ class ToothProfile(Shown):
     form: str
     """Tooth form: triangular, involute, cycloidal, ...
 
-    It is `standard` if no form is declared, and `approximation` for nominal teeth of a wheel without a flat outline.
+    It is `standard` if no form is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
     """
     points: Sequence[tuple[float, float]]
-    """Radius relative to the pitch radius, and angle [rad], of each point, from -pi/z to pi/z in ascending order of the
-    angle.
+    """Radius relative to the pitch radius, and angle [rad], of each point.
 
-    For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back cone.
+    The angles of an open profile ascend from -pi/z to pi/z. For a bevel or contrate wheel the radius is 1 plus the
+    height above the pitch cone, along the back cone.
     """
     hole: bool = False
     """True if the profile is a closed curve, such as the pin of a lantern pinion. Its points then go once around
@@ -170,7 +174,7 @@ class SceneWheel(Shown):
     teeth: int
     """Tooth count; 1 if it is not known."""
     kind: str
-    """Kind of the wheel; `pins` is a lantern pinion."""
+    """Kind of the wheel: `ring` if it is internal, `pins` for a lantern pinion, otherwise as declared."""
     centre: Vector
     """Centre of the wheel's pitch circle, on the axis of the wheel [mm]."""
     direction: Vector
@@ -186,7 +190,7 @@ class SceneWheel(Shown):
     root: float
     """Root radius [mm]."""
     module: float
-    """Pitch diameter divided by the tooth count [mm]."""
+    """Module [mm]: transverse, or the axial module of a worm."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     cone: float
@@ -194,22 +198,22 @@ class SceneWheel(Shown):
     facing: int
     """Side of the axis towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     profile: int
-    """Index of the tooth profile of the wheel."""
+    """Index of the tooth profile of the wheel in `Scene.profiles`."""
     layer: int | None
-    """Level of the wheel in the stack; None if it is not in the stack."""
+    """Level of the wheel in the stack, from 0; None if the wheel's axis is not parallel to the main axes."""
     status: str
     """Status of the wheel: surviving, reconstructed or hypothetical; empty if no status is declared."""
     source: str
-    """Source of the data on the wheel, as declared."""
+    """Source of the data on the wheel, or of its uncertainty, as declared; empty if none is declared."""
     note: str
-    """Note on the wheel, as declared."""
+    """Note on the wheel, or on its uncertainty, as declared; empty if none is declared."""
     doubt: str
-    """Tooth counts of the wheel that the evidence allows, as text; empty for a certain count."""
+    """Tooth counts of the wheel that the evidence allows, as a string; empty for a certain count."""
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the meshes of the wheel; None unless loads and friction are
-    declared.
+    """Fraction of the input power that is lost at the meshes of the wheel; None if the losses are not known, for
+    example without declared loads.
     """
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""
@@ -232,7 +236,7 @@ class SceneWheel(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ScenePair(Shown):
-    """Gear pair of a scene.
+    """Gear pair of a scene: two wheels that mesh, with the equation of their speeds.
 
     See Also
     --------
@@ -242,7 +246,7 @@ class ScenePair(Shown):
     id: str
     """Name of the gear pair."""
     wheels: tuple[int, int]
-    """Indices of the two wheels."""
+    """Indices of the two wheels in `Scene.wheels`."""
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
@@ -250,18 +254,18 @@ class ScenePair(Shown):
     docs/theory.md.
     """
     form: str
-    """Tooth form of the pair; empty if no form is declared."""
+    """Tooth form of the pair; empty if its real teeth are not known."""
     text: str
-    """Equation of the pair's fundamental circuit as text."""
+    """Equation of the pair's fundamental circuit as a string."""
     broken: bool = False
-    """True if the pair belongs to a loop that does not close, or that prevents the train from turning."""
+    """True if the teeth of the pair cannot run, or if it belongs to a loop that does not close or that locks links."""
     fault: str = ""
-    """Description of the faulty loop to which a broken pair belongs."""
+    """Reason why the pair is broken: its faulty loop, or the fault of its teeth; empty for other pairs."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCoupling(Shown):
-    """Coupling of a scene: a pin in a slot, or pins in round holes.
+    """Coupling of two links in a scene: a pin in a slot, or pins in round holes.
 
     See Also
     --------
@@ -271,25 +275,25 @@ class SceneCoupling(Shown):
     id: str
     """Name of the coupling."""
     kind: str
-    """Kind of the coupling."""
+    """Kind of the coupling: `pin_and_slot`, `pin_follower` or `pins_in_holes`."""
     pin: int
-    """Index of the body of the pin."""
+    """Index of the body that carries the pin."""
     slot: int
-    """Index of the body of the slot."""
+    """Index of the body that has the slot or the holes."""
     carrier: int
     """Index of the body that carries both axes."""
     pin_at: Vector
-    """Centre of the pin in the zero pose [mm]."""
+    """Centre of the first pin in the zero pose [mm]."""
     slot_at: Vector
-    """Axis of the slot at the height of the pin [mm]."""
+    """Point on the axis of the slot's body at the height of the pin [mm]."""
     pin_radius: float
     """Distance of the pin from its axis [mm]."""
     offset: float
-    """Distance between the two axes [mm]."""
+    """Distance between the axes of the pin's body and the slot's body [mm]."""
     drawn: bool
-    """False if the dimensions of the coupling are not declared and were therefore chosen for the picture."""
+    """True if the dimensions of the coupling are declared, False if they were chosen for the picture."""
     text: str
-    """Equation of the coupling's fundamental circuit as text."""
+    """Equation of the coupling's fundamental circuit as a string."""
     slot_turn: float = 0.0
     """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose
     [rad]; 0 unless starting angles are declared.
@@ -306,7 +310,7 @@ class SceneCoupling(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SceneShiftElement:
-    """Shift element of a scene: a brake or a clutch.
+    """Brake or clutch of a scene, which is engaged or open in the state of the scene.
 
     See Also
     --------
@@ -316,13 +320,13 @@ class SceneShiftElement:
     id: str
     """Name of the brake or clutch."""
     kind: Literal["brake", "clutch"]
-    """Brake or clutch."""
+    """Kind of the element: a brake, which fixes a body to the frame, or a clutch, which connects two bodies."""
     bodies: Sequence[int]
     """Index of the body that a brake fixes to the frame, or indices of the two bodies that a clutch connects."""
     closed: bool
     """True if the element is engaged in this state."""
     text: str
-    """Description, such as `B brakes ring`."""
+    """Description of the brake or clutch, such as `B brakes ring`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -343,8 +347,8 @@ class SceneWave(Shown):
     rise: float
     """Radial deflection of the middle line of the wheel's wall, outwards at a lobe and inwards between lobes [mm]."""
     lobes: int
-    """Number of lobes."""
+    """Number of lobes of the wave around the wheel."""
     middle: float
     """Radius of the middle line of the wall in the undeformed wheel [mm]."""
     wall: float
-    """Thickness of the wall [mm]."""
+    """Thickness of the wall of the wheel [mm]."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order declared; `faults` are descriptions of faults by pair."""
+    """Return all gear pairs in the order declared; `faults` maps the name of a pair to a description of its fault."""
     forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(
@@ -38,8 +38,9 @@ def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePai
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """Return the equation of a circuit as text, such as `64 (b - frame) + 38 (c - frame) = 0`; names represent declared
-    speeds.
+    """Return the equation of a circuit as a string, such as `64 (b - frame) + 38 (c - frame) = 0`.
+
+    A name represents the declared speed of a link.
     """
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
@@ -55,7 +56,7 @@ def _term(factor: int, what: str) -> str:
 
 
 def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
-    """Return the verdict as plain data with its loops, and the fault of each pair by name."""
+    """Return the verdict and its faulty loops as plain data, and the fault of each faulty pair by name."""
     verdict = stage.answer.verdict
     faults: dict[str, str] = {}
     loops = {loop.pairs: _loop_data(loop) for loop in verdict.loops}
@@ -82,7 +83,9 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield pairs whose real teeth cannot run, in the form of loops, with the reason and a remedy."""
+    """Yield gear pairs whose real teeth cannot run, as dictionaries in the form of loops, with the reason and a
+    remedy.
+    """
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -91,7 +94,7 @@ def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
 
 
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
-    """Return the brakes and clutches in the order declared, with their condition in one state."""
+    """Return the brakes and clutches in the order declared, each engaged or open in one state."""
     declared = stage.train.declaration
     closed = stage.train.kinematics.cases[state].engaged
     found = []
@@ -150,8 +153,9 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the direction of the first pin. Pins in holes are placed midway between the axes that their link carries,
-    if any.
+    """Return the unit vector from the axis of the pin's link to its first pin.
+
+    Pins in holes are placed midway between the axes that their link carries, if there are such axes.
     """
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
@@ -173,10 +177,11 @@ def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, 
 
 
 def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[float, float]:
-    """Return the diameters of pins and of their holes (mm); 0 for a pin in a slot."""
+    """Return the diameters of pins and of their round holes [mm]; both are 0 for a pin in a slot."""
     if not isinstance(declared, PinsInHoles):
         return 0.0, 0.0
     apart = 2 * radius * sin(pi / declared.pins)
+    # a hole is wider than its pin by 2 offset, so that a large offset leaves little space for the pin
     pin = max(_PART * apart - 2 * offset, 0.1 * apart)
     if declared.pin_diameter is not None:
         own = declared.pin_diameter
@@ -185,9 +190,10 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 
 
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the angle (rad) by which the slot in the zero pose deviates from the direction of its pin.
+    """Return the angle by which the slot in the zero pose deviates from the direction of its pin [rad].
 
-    A transmission function has slot and pin in line if both angles are 0. Declared starting angles may differ.
+    A transmission function assumes that slot and pin are in line if both angles are 0. Declared starting angles may
+    differ.
     """
     setting = moved.driving.get(circuit.id)
     if setting is None:
@@ -197,13 +203,16 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from typical
+    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from default
     proportions.
+
+    apart   distance between the placed axes [mm], to which declared sizes without a unit are scaled
     """
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
             radius, offset = radius / 1000, offset / 1000
+            # sizes without a unit define only a ratio: the distance of the placed axes sets the scale
             if apart > _NONE and offset > 0:
                 radius, offset = radius * apart / offset, apart
         return radius, offset
@@ -218,8 +227,9 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of the two links; without wheels, the height of the pin's
-    axis.
+    """Return the height midway between the nearest wheels of the two links [mm].
+
+    If only one link has wheels, it is the height of its first wheel; without wheels, the height of the pin's axis.
     """
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]

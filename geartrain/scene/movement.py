@@ -1,7 +1,7 @@
 """Motion of a scene: exact speeds, and errors of teeth and pins as tables and steps that are stored in a page.
 
-Angles differ from their exact mean values by transmission errors. These are given as tables of the errors of gear pairs
-and pins, and as the steps that compose them.
+Angles differ from their exact mean values by transmission errors. The module gives tables of the errors of gear pairs
+and pins, and the steps that compose them.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ErrorTable(Result):
-    """Periodic error of a gear pair or of a pin in a slot, as piecewise polynomials.
+    """Periodic transmission error of a gear pair or of a pin in a slot, as piecewise polynomials.
 
     See Also
     --------
-    Movement : contains it.
+    Movement : contains the tables of a scene.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
@@ -47,7 +47,7 @@ class ErrorTable(Result):
     )
 
     pair: str
-    """Name of the first pair with this transmission function."""
+    """Name of the first gear pair or coupling with this transmission function."""
     period: float
     """Period of the transmission error in the driver's angle [rad]."""
     breaks: Floats
@@ -62,29 +62,29 @@ class ErrorTable(Result):
 
     @property
     def packed_breaks(self) -> str:
-        """Breakpoints as base64 text."""
+        """Breakpoints as a base64 string."""
         return packed(self.breaks)
 
     @property
     def packed_coefficients(self) -> str:
-        """Coefficients as base64 text, row by row."""
+        """Coefficients as a base64 string, row by row."""
         return packed(self.coefficients)
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorSource(Shown):
-    """Gear pair whose transmission error contributes to the angular errors of the bodies in a scene.
+    """Gear pair or coupling whose transmission error contributes to the angular errors of the bodies in a scene.
 
     After t turns of the driving link the driver's forward angle is
 
         S = start + period frac(cycles t) + from_known delta[known] + own delta[sources]
 
-    with the coefficients of its step (`ErrorStep`). The error of the pair is delta = sense e(S), where e is the error
-    table, and every body in `bodies` has this error times its weight.
+    with the coefficients of the step that contains the source (`ErrorStep`). The error of the pair is delta = sense
+    e(S), where e is the error table, and every body in `bodies` has this error times its weight.
 
     See Also
     --------
-    Movement : contains it.
+    Movement : contains the sources of a scene.
     """
 
     pair: str
@@ -92,24 +92,26 @@ class ErrorSource(Shown):
     transmission: int
     """Index of the pair's error table in `Movement.transmissions`."""
     cycles: str
-    """Number of periods of the transmission error per turn of the driving link, exact."""
+    """Exact number of periods of the transmission error per turn of the driving link; negative if the driver turns
+    backwards.
+    """
     start: float
     """Driver's forward angle S at the start, with all errors 0 [rad]."""
     sense: int
     """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
     bodies: Sequence[int]
-    """Indices of the bodies that the error moves."""
+    """Indices of the bodies that the error of the pair moves."""
     weights: Sequence[float]
-    """Error of each of these bodies per unit of the pair's error [rad/rad]."""
+    """Error of each body in `bodies` per unit of the pair's error [rad/rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Computation of the errors of some sources from the errors of earlier sources.
+    """Step in the composition of errors, which computes the errors of some sources from the errors of earlier sources.
 
     See Also
     --------
-    Movement : contains it.
+    Movement : contains the steps of a scene.
     """
 
     sources: Sequence[int]
@@ -121,14 +123,15 @@ class ErrorStep(Shown):
     own: Sequence[Sequence[float]]
     """Change of each driver's angle S per unit of each error of this step [rad/rad], one row per source.
 
-    It is empty if the errors of this step do not move its drivers; otherwise, they are solved by iteration.
+    It is empty if the errors of this step do not move its drivers; otherwise, the errors are computed by iteration.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class Movement(Shown):
-    """Angular errors of bodies as functions of the turns of the driving link. The steps are evaluated in order,
-    and constant offsets are then added.
+    """Motion of a scene: the angular errors of bodies as functions of the turns of the driving link.
+
+    The steps are evaluated in order, and constant offsets are then added.
 
     See Also
     --------
@@ -136,7 +139,7 @@ class Movement(Shown):
     """
 
     kind: str
-    """Kind of motion, which states whether transmission errors are included.
+    """Kind of motion: with or without transmission errors.
 
     `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: the mean motion is shown,
     because these errors cannot be computed. `still`: no speed is determined.
@@ -148,7 +151,7 @@ class Movement(Shown):
     transmissions: Sequence[ErrorTable] = ()
     """Error tables; equal pairs share one table."""
     sources: Sequence[ErrorSource] = ()
-    """Pairs with transmission errors."""
+    """Gear pairs and couplings with transmission errors, to which `steps` refer by index."""
     steps: Sequence[ErrorStep] = ()
     """Steps that compute the angular errors, in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
@@ -160,7 +163,7 @@ _DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table
 
 
 def step_of(step: Composed) -> ErrorStep:
-    """Return a step of a composition as built-in numbers."""
+    """Return a step of a composition with its arrays as lists."""
     own = step.own.tolist() if step.coupled else []
     return ErrorStep(step.sources, step.known, step.from_known.tolist(), own)
 
@@ -168,7 +171,8 @@ def step_of(step: Composed) -> ErrorStep:
 def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Return the error tables and the sources that refer to them; equal pairs share a table.
+    """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
+    table.
 
     way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
           about declared axes
@@ -198,12 +202,13 @@ def tables_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """Return the transmission error as polynomials within `TOLERANCE` of a driven pitch, in the smallest table."""
+    """Return the transmission error as polynomials, in the smallest table within `TOLERANCE` of a driven pitch."""
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
     tables = (TabulatedTransmission(transmission, TOLERANCE, degree).error_table for degree in _DEGREES)
+    # a follower that swings has mean ratio 0: its tolerance is relative to the period of the driver
     pitch = (float(transmission.ratio) or 1.0) * transmission.period
     # if rounding errors keep all tables above the tolerance, the most accurate one is used
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
@@ -229,23 +234,23 @@ _TRIED = 257  # positions at which coupled pairs are tested
 
 @dataclass(frozen=True, slots=True)
 class InitialPosition:
-    """Initial position of a pair with a transmission error."""
+    """Initial position of a gear pair or coupling with a transmission error."""
 
     driver: str
     """Driving link; `forward` is 1, or -1 if it turns against the direction of its body."""
     forward: int
     S: float
-    """Forward angle of the driver (rad)."""
+    """Forward angle of the driver [rad]."""
     error: float
-    """Error of the driven side at S (rad)."""
+    """Error of the driven side at S [rad]."""
     transmission: ToothTransmission
     """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error of the driven side [rad] at which a driver that is out of phase does not overlap it.
+        """Return the minimum error of the driven side [rad] at which an out-of-phase driver does not overlap it.
 
-        The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
-        requires e(S + shift), so c is the maximum of their difference.
+        The driver's teeth are `shift` [rad] ahead of their phase. The driven side follows e(S) + c and its mate
+        requires e(S + shift), so c is the maximum of the difference e(S + shift) - e(S).
         """
         import numpy as np
 
@@ -255,11 +260,11 @@ class InitialPosition:
 
 @dataclass(frozen=True, slots=True)
 class MovementStart:
-    """Movement of a scene, and the pose at its start."""
+    """Movement of a scene, with the initial angles of all links and the initial positions of all pairs."""
 
     movement: Movement
     rest: Mapping[str, float]
-    """Initial angle A of each link about its body's direction (rad)."""
+    """Initial angle A of each link about the direction of its body [rad]."""
     driving: Mapping[str, InitialPosition] = field(default_factory=dict)
     """Initial positions, by pair or coupling with a transmission error."""
     notices: tuple[Problem, ...] = ()
@@ -270,8 +275,9 @@ class MovementStart:
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement of a train in its state; if the errors cannot be computed, the mean motion with
-    the reason.
+    """Return the movement of a train in its state.
+
+    It is still if no speed is determined, and the mean motion with a reason if the errors cannot be computed.
     """
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
@@ -323,8 +329,10 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement in reverse if it differs from the forward movement, and notices on why it cannot
-    be computed.
+    """Return the movement in reverse and notices.
+
+    The movement is None if it equals the forward movement `ahead`. If it cannot be computed, it is the mean motion, and
+    the notices give the reasons.
     """
     try:
         composition = motion._backward
@@ -337,7 +345,9 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still cause offsets."""
+    """Return the movement of a composition, with kind `exact` if ratios are constant. Backlash may still cause
+    offsets.
+    """
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(

@@ -1,11 +1,11 @@
 """Palette of drawings, plots, reports and pages, in a light, a dark and a print theme.
 
-Series differ in colour and in dashes, and no combination of the two repeats early. In print, areas differ in grey and
-hatch. Values are mapped to a scale of colours whose low end is close to the paper. Any two of the ten colours, and each
-from the ink, remain distinguishable for readers with protanopia or deuteranopia (tests/scene/test_palette.py measures
-the CIEDE2000 difference under the simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for
-simulation of color vision deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291). All have enough contrast to be read as
-text on their paper.
+Series differ in colour and in dashes; `series_dash` gives the number of distinct combinations. In print, areas differ
+in grey and hatch. Values are mapped to a scale of colours whose low end is close to the paper. In the light and the
+dark theme, any two of the ten colours, and each colour and the ink, remain distinguishable for readers with protanopia
+or deuteranopia (tests/scene/test_palette.py measures the CIEDE2000 difference under the simulation of Machado, Oliveira
+and Fernandes 2009, A physiologically-based model for simulation of color vision deficiency, IEEE Trans. Vis. Comput.
+Graph. 15:1291). All colours have enough contrast to be read as text on their paper.
 """
 
 from __future__ import annotations
@@ -29,30 +29,32 @@ _DASHES: tuple[Dash, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """Theme: colours as #rrggbb by purpose."""
+    """Theme of drawings and pages: a colour, as #rrggbb, for each purpose."""
 
     desk: str
-    """Background of a page, behind cards."""
+    """Colour of the background of a page, behind cards."""
     paper: str
-    """Background of drawings and text."""
+    """Colour of the background of drawings and text."""
     ink: str
-    """Lines and text."""
+    """Colour of lines and text."""
     quiet: str
-    """Secondary text."""
+    """Colour of secondary text."""
     line: str
-    """Secondary lines: grids, borders."""
+    """Colour of secondary lines: grids, borders."""
     accent: str
-    """Headings and links of a page."""
+    """Colour of headings and links of a page."""
     fault: str
-    """Errors."""
+    """Colour of errors and faulty parts."""
     fill: str
-    """Faces of the object in a picture; `shade` is for faces that are turned away, `band` for flows and marks."""
+    """Colour of faces of the object in a picture; `shade` is for faces that are turned away, `band` for flows and
+    marks.
+    """
     shade: str
     band: str
     scale: tuple[str, str, str]
-    """Colours of the minimum, middle and maximum of a value; values in between are interpolated."""
+    """Colours of the minimum, middle and maximum of a value; colours in between are interpolated."""
     series: tuple[str, ...]
-    """Ten colours of series, in order."""
+    """Ten colours of curves and areas, in the order in which they are used."""
     areas: tuple[tuple[str, str], ...] = ()
     """Colour and matplotlib hatch of the areas of each series, if they are not filled with the colour of the series."""
 
@@ -130,14 +132,14 @@ THEMES: dict[ThemeName, Theme] = {
 
 
 def series_colour(at: int, theme: ThemeName = "light") -> str:
-    """Return the colour of the series with an index, from 0."""
+    """Return the colour of the series with an index, from 0; colours repeat after ten series."""
     series = THEMES[theme].series
     return series[at % len(series)]
 
 
 def series_dash(at: int) -> Dash:
-    """Return the dashes of a series [line widths].
+    """Return the dashes of the series with an index, from 0 [line widths].
 
-    Combinations with the colour repeat after seventy series, in print after ten.
+    The first seventy combinations of colour and dashes are distinct, in print the first ten.
     """
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

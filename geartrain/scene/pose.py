@@ -24,42 +24,47 @@ _ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, an
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Angles A of all bodies about their directions [rad, modulo a turn], and rigid motions of the bodies."""
+    """Pose of a scene: angles A of all bodies about their directions [rad, modulo a turn], and rigid motions of the
+    bodies.
+    """
 
     angles: Floats
     turned: Floats
     """Rotation matrices of the bodies. Shape (bodies, 3, 3).
 
-    With their displacements `moved`, shape (bodies, 3) in mm, a point p of the zero pose moves to turned p + moved.
+    With the displacements `moved` of the bodies, shape (bodies, 3) in mm, a point p of the zero pose moves to
+    turned p + moved.
     """
     moved: Floats
 
     def point(self, body: int, point: object) -> Floats:
-        """Return the positions of points (..., 3) of a body, which are given in the zero pose."""
+        """Return the positions in this pose of points (..., 3) of a body, which are given in the zero pose [mm]."""
         return np.asarray(np.asarray(point, dtype=float) @ self.turned[body].T + self.moved[body])
 
     def way(self, body: int, way: object) -> Floats:
-        """Return the rotated directions (..., 3) of a body, which are given in the zero pose."""
+        """Return the directions in this pose of vectors (..., 3) of a body, which are given in the zero pose."""
         return np.asarray(np.asarray(way, dtype=float) @ self.turned[body].T)
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact turns of a body after `turns` of the driving link, from its relative speed; 0 if the speed is
-    None.
+    """Return the exact turns of a body after `turns` of the driving link.
+
+    speed   speed relative to the driving link; a body with speed None does not turn
     """
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """Return the pose after `turns` of the driving link.
+    """Return the pose of a scene after `turns` of the driving link.
 
-    Mean angles are exact, and errors of teeth and pins are from the scene's tables.
+    Mean angles are exact, and errors of teeth and pins are computed from the scene's tables.
 
     Raise `RangeError` if the iteration of pairs that depend on each other does not converge.
     """
     error = body_errors(scene, turns)
     angles = np.array(
         [
+            # reduced to one turn as a fraction: the float of many turns would lose digits of the angle
             body.sense * (body.start + 2 * pi * float(turns_of(body.speed, turns) % 1) + error[at])
             for at, body in enumerate(scene.bodies)
         ]
@@ -79,7 +84,7 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
 
 
 def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
-    """Return the right-handed rotation about a unit vector (Rodrigues' formula)."""
+    """Return the matrix of a right-handed rotation by an angle [rad] about a unit vector (Rodrigues' formula)."""
     x, y, z = axis
     skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew)
@@ -89,7 +94,9 @@ def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
 
 
 def body_errors(scene: Scene, turns: Fraction) -> Floats:
-    """Return the error of each body (rad) from its mean motion; zero for constant ratios."""
+    """Return the error of each body's angle relative to its mean motion [rad]; zero for constant ratios without
+    offsets.
+    """
     movement = scene.movement
     delta = np.zeros(len(movement.sources))
     for step in movement.steps:
@@ -104,7 +111,9 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
-    """Compute the errors of a step in place: directly if all drivers are known, else by fixed-point iteration."""
+    """Compute the errors of a step in `delta` in place: directly if all drivers are known, else by fixed-point
+    iteration.
+    """
     sources, known = list(step.sources), list(step.known)
     base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle
@@ -118,8 +127,8 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
     raise RangeError(
         Problem(
             f"the pose of '{scene.name}' does not converge",
-            "fixed-point iteration diverges for pairs that depend on each other",
-            "compute the motion instead, or choose another number of turns",
+            "the fixed-point iteration for pairs that depend on each other diverges or is too slow",
+            "compute the motion with `GearTrain.motion`, or choose another number of turns",
         )
     )
 
@@ -127,12 +136,13 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:
     """Return the error of a pair [rad] if the errors of other pairs move its driver by `shift` [rad]."""
     transmission = scene.movement.transmissions[source.transmission]
+    # reduced to one period as a fraction, for the same reason as in `scene_pose`
     mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)
     return source.sense * _value(transmission, source.start + mean + shift)
 
 
 def _value(transmission: ErrorTable, S: float) -> float:
-    """Return the tabulated transmission error at a driver's angle (rad)."""
+    """Return the tabulated transmission error at a driver's angle [rad]."""
     s = S % transmission.period
     # clamped, because rounding may make s equal to the period
     cell = min(max(int(np.searchsorted(transmission.breaks, s, side="right")) - 1, 0), len(transmission.breaks) - 2)

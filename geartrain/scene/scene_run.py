@@ -1,6 +1,6 @@
 """Simulated motion of a train as stored in a page: angles at few samples, contacts, and impacts.
 
-Sample n is `step n` seconds after the start of the replayed part. The angle of a link is
+Sample n is `n step` seconds after the start of the replayed part. The angle of a link is
 
     turned(t) = rate t + line(t)
 
@@ -36,17 +36,17 @@ TimeRun: TypeAlias = Any
 
 @dataclass(frozen=True, slots=True)
 class LinkCourse(Result):
-    """Angle of a link as a function of time.
+    """Angle of a link as a function of time, stored as a mean speed and the deviations from uniform motion.
 
     See Also
     --------
-    SceneRun : contains one for each body.
+    SceneRun : contains a course for each body.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
 
     rate: float
-    """Mean speed of the link about its declared axis [rad/s]."""
+    """Mean speed of the link about its declared axis in the replayed part [rad/s]."""
     samples: Ints
     """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
@@ -69,7 +69,7 @@ class SceneContact(Result):
 
     See Also
     --------
-    SceneRun : contains these.
+    SceneRun : contains the contacts of a run.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
@@ -92,7 +92,7 @@ class SceneContact(Result):
     kind: str
     """Kind of contact: pair, pin or escapement."""
     body: int
-    """Index of the body with which the contact point moves."""
+    """Index of the body that carries the contact point."""
     at: Vector
     """Position of the contact point in the zero pose [mm]."""
     apart: float
@@ -100,13 +100,13 @@ class SceneContact(Result):
     coast: float
     """Fraction of the time in which the coast flank is in contact."""
     impact_rate: float
-    """Number of impacts per second [1/s]."""
+    """Mean number of impacts per second [1/s]."""
     hardest: float
     """Maximum closing speed of an impact, as a speed of the driven side [rad/s]."""
     changes: Ints
     """Indices of the samples at which the contact changes to the corresponding entry of `states`. Shape (n,)."""
     states: str
-    """One letter per change: `d` drive flank, `c` coast flank, `a` no contact; empty if the contact is not known."""
+    """One letter per change: `d` drive flank, `c` coast flank, `a` no contact; empty for a contact without flanks."""
     impact_times: Floats
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
@@ -144,19 +144,19 @@ class SceneRun(Result):
     rate: float
     """Mean speed of the driving link [rad/s]."""
     period: float
-    """Time of one turn of the driving link at that speed [s]."""
+    """Time of one turn of the driving link at its mean speed [s]; the duration if that speed is 0."""
     skip: float
     """Simulated time before the replayed part [s]."""
     duration: float
     """Duration of the replayed part [s]."""
     step: float
-    """Time between samples of the simulation [s]."""
+    """Time between samples of the replayed part [s]."""
     tolerance: float
-    """Maximum difference between stored and simulated angles [rad]."""
+    """Maximum difference between stored and simulated angles [rad]; it is smaller for the driving link."""
     torque: float
     """Mean torque at the link where power enters [N m]."""
     complete: bool
-    """False if the simulation was stopped before its end."""
+    """True if the simulation ran to its end, False if it was stopped before."""
     links: Sequence[LinkCourse]
     """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]
@@ -164,7 +164,7 @@ class SceneRun(Result):
     deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
     """Maximum deviations of the simulated outputs from the result of `motion`, ahead and behind."""
     notes: Sequence[str]
-    """Simplifications of the replay: omitted effects, and links that are drawn as one."""
+    """Simplifications of the simulation and its replay: omitted effects, and links that are drawn as one."""
 
 
 # ------------------------------------------------------------------------------------------------- from a simulated run
@@ -178,7 +178,7 @@ _FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a 
 
 @dataclass(frozen=True)
 class ShownSamples:
-    """Samples of the evaluated part of a run, with the sample at time 0, which a run does not store."""
+    """Samples of the evaluated part of a run, including the sample at time 0, which a run does not store."""
 
     run: TimeRun
 
@@ -187,35 +187,36 @@ class ShownSamples:
         return np.asarray(self.run.time > self.run.skip - self.run.step / 2)
 
     def of(self, values: Floats, first: float = 0.0) -> Floats:
-        """Return the values at the replayed samples, with `first` at time 0."""
+        """Return the values at the replayed samples, preceded by `first` if the replay starts at time 0."""
         picked = values[self._picked]
         return np.concatenate(([first], picked)) if self.run.skip == 0 else picked
 
     @cached_property
     def start(self) -> float:
-        """Time of the first sample (s)."""
+        """Time of the first replayed sample [s]."""
         return float(self.of(self.run.time)[0])
 
     @cached_property
     def time(self) -> Floats:
-        """Times since the first sample (s)."""
+        """Times of the replayed samples since the first of them [s]."""
         return self.of(self.run.time) - self.start
 
     @property
     def step(self) -> float:
-        """Time between samples (s)."""
+        """Time between replayed samples [s]."""
         return float(self.time[-1]) / (len(self.time) - 1)
 
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
-        """Return the course of a link with these angles (rad), simplified within a tolerance (rad)."""
+        """Return the course of a link from its angles at all samples [rad], simplified within a tolerance [rad]."""
         shown = self.of(turned)
+        # without the mean motion the stored angles are small, so that float32 has enough digits for them
         rate = float(shown[-1] - shown[0]) / float(self.time[-1])
         line = shown - rate * self.time
         kept = simplified(np.column_stack((_FLAT * self.time, line)), tolerance)
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return the samples at which contact changes, and the new states as letters.
+        """Return the indices of the samples at which a contact changes, and the new states as letters.
 
         Both are empty for contacts without flanks.
         """
@@ -229,9 +230,9 @@ class ShownSamples:
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Return times and closing speeds of a contact's impacts.
+        """Return times since the first replayed sample [s] and closing speeds [rad/s] of a contact's impacts.
 
-        Impacts within one sample are merged into one with the first time and the maximum speed.
+        Impacts within one sample are merged into one impact with the first time and the maximum speed.
         """
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
@@ -298,7 +299,7 @@ def find_run(
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Return the tolerance of a link (rad), smaller for the driving link.
+    """Return the tolerance of the stored angles of a link [rad], smaller for the driving link.
 
     The page derives the ideal angles of all other links from the angle of the driving link.
     """
@@ -320,7 +321,9 @@ def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield each contact with its kind, the body with which its point moves, and this point in the zero pose [mm]."""
+    """Yield each contact with its kind, the body that carries the contact point, and the point in the zero pose
+    [mm].
+    """
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
@@ -332,8 +335,9 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the contact point of the pallets with the escape wheel: the wheel without mates, otherwise the largest
-    wheel.
+    """Return the contact point of the pallets with the escape wheel, which is the largest wheel without mates [mm].
+
+    If all wheels of the link have mates, the largest wheel is used; without wheels, the origin.
     """
     if not wheels:
         return (0.0, 0.0, 0.0)
@@ -344,7 +348,11 @@ def _rim(wheels: Sequence[SceneWheel]) -> Vector:
 
 
 def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
-    """Return the pitch point of two wheels in the zero pose (mm), on the pitch circle towards the other axis."""
+    """Return the pitch point of two wheels in the zero pose [mm], on the pitch circle of one towards the axis of the
+    other.
+
+    If one wheel is a ring, it is on the pitch circle of the ring.
+    """
     if other.kind == "ring":
         one, other = other, one
     way = across(minus(other.centre, one.centre), one.direction)

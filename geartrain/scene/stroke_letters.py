@@ -1,7 +1,7 @@
 """Letters as single strokes for engraving, and outlines of hands.
 
-Letters are capitals of the Latin and Greek alphabets, digits and a few signs. Outlines of hands are relative to their
-length, and come with their extent on a dial.
+Letters are capitals of the Latin and Greek alphabets, digits and a few signs. The outline of a hand is relative to the
+length of the hand, which is given relative to the radius of a scale.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from math import cos, sin
 
 @dataclass(frozen=True, slots=True)
 class HandOutline:
-    """Outline of a hand along x from its axis, with its tip at 1."""
+    """Outline of a hand along x from its axis, with the tip at x = 1."""
 
     reach: float
-    """Length relative to the radius of the scale on which it is read."""
+    """Length of the hand relative to the radius of the scale on which it is read."""
     stations: tuple[tuple[float, float], ...]
     """Pairs (x, half the width at x) from the tail to the tip, relative to the length."""
 
@@ -129,7 +129,9 @@ _UNKNOWN = "0008585000"
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital of height 1 above the base line at 0, and its width; a box if it is unknown."""
+    """Return the strokes of a capital of height 1 above the base line y = 0, and its width; a box for an unknown
+    letter.
+    """
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)
@@ -142,7 +144,7 @@ def _stroke(drawn: str) -> Stroke:
 
 
 def _rounded(corners: list[Point]) -> Iterator[Point]:
-    """Yield corners cut off at a quarter of their sides (Chaikin's algorithm).
+    """Yield the points of a stroke with corners cut off at a quarter of their sides (Chaikin's algorithm).
 
     End points are kept, unless a stroke is closed.
     """
@@ -155,23 +157,23 @@ def _rounded(corners: list[Point]) -> Iterator[Point]:
 
 
 def capitals(text: str) -> str:
-    """Return a text as it is engraved: in capitals without accents."""
+    """Return a string as it is engraved: in capitals without accents."""
     return "".join(each for each in unicodedata.normalize("NFD", text.upper()) if not unicodedata.combining(each))
 
 
 def _advances(text: str) -> list[tuple[str, float]]:
-    """Return the letters of a text, each with the sum of its width and gap relative to the height."""
+    """Return the letters of a string, each with the sum of its width and the gap after it, relative to the height."""
     gap = _APART / _HIGH
     return [(each, (_SPACE / _HIGH if each.isspace() else letter_strokes(each)[1]) + gap) for each in capitals(text)]
 
 
 def text_length(text: str) -> float:
-    """Return the length of a text relative to the height of its letters."""
+    """Return the length of a string relative to the height of its letters."""
     return max(0.0, sum(wide for _, wide in _advances(text)) - _APART / _HIGH)
 
 
 def curved_text(text: str, height: float, radius: float, angle: float, inwards: bool = False) -> Iterator[Stroke]:
-    """Yield the strokes of a text along a circular arc, centred at an angle clockwise from the top (rad).
+    """Yield the strokes of a string along a circular arc, centred at an angle [rad] clockwise from the top.
 
     inwards   True if the feet of letters point outwards, so that text below the centre is readable
     """
@@ -179,6 +181,7 @@ def curved_text(text: str, height: float, radius: float, angle: float, inwards: 
     along = -text_length(text) * height / 2
     for letter, advance in _advances(text):
         wide = (advance - _APART / _HIGH) * height
+        # letters are not bent: only the middle of each letter follows the arc
         turned = angle + way * (along + wide / 2) / radius
         along += advance * height
         if letter.isspace():

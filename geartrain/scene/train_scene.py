@@ -1,7 +1,7 @@
-"""Scene of a train: all data that are required for a picture of it, as plain data. Lengths in mm, angles in rad.
+"""Scene of a train: all data of a picture of the train, as plain data. Lengths are in mm, angles in rad.
 
-Places are given in the zero pose, in which the angle of every link is zero. The angle of a body about its `direction`,
-after `t` turns of the driving link, is
+Positions are given in the zero pose, in which the angle of every link is zero. The angle of a body about its
+`direction`, after `t` turns of the driving link, is
 
     A(t) = sense (start + 2 pi speed t + error(t))
 
@@ -39,7 +39,7 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class DialFace(Shown):
-    """Dial: a scale with the pointers that turn over it.
+    """Dial of a scene: a scale over which pointers turn, or a ball in a pointer.
 
     See Also
     --------
@@ -51,7 +51,7 @@ class DialFace(Shown):
     body: int
     """Index of the body on which the dial is mounted."""
     face: str
-    """Face of the train: front or back, or another name."""
+    """Face of the train on which the dial is: front, back or another declared name; empty if none is declared."""
     centre: Vector
     """Centre of the dial [mm]."""
     normal: Vector
@@ -70,12 +70,12 @@ class DialFace(Shown):
     note: str = ""
     """Note on the dial, as declared."""
     plate: float = 0.0
-    """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if no disc is made."""
+    """Radius of the engraved disc, which is one of the scene's parts [mm]; 0 if the scene has no such disc."""
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
-    """Caption: the name of the dial. If dials on several axes have this name, the outputs that are read on this
-    dial follow in brackets.
+    """Caption: the name of the dial. If dials on several axes have this name, the outputs that are read on this dial
+    follow in brackets.
     """
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
     """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
@@ -86,7 +86,7 @@ class DialFace(Shown):
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget(Shown):
-    """Target value of an output.
+    """Target speed of an output, with which the speed of its pointer is compared.
 
     See Also
     --------
@@ -94,7 +94,7 @@ class PointerTarget(Shown):
     """
 
     label: str
-    """Name of the target value."""
+    """Name of the target speed."""
     speed: str
     """Speed relative to the driving link, exact. A target without a sense takes the sense of the output."""
     source: str = ""
@@ -113,9 +113,9 @@ class SceneEpoch(Shown):
     julian_day: str
     """Julian day of the date, exact [d]."""
     turns: str
-    """Turns of the driving link up to that date, exact."""
+    """Exact number of turns of the driving link at that date."""
     days: str
-    """Duration of one turn of the driving link, exact [d]; negative if it turns against its positive sense."""
+    """Exact duration of one turn of the driving link [d]; negative if the link turns against its positive sense."""
     calendar: str | None
     """Calendar in which dates are displayed; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
@@ -126,7 +126,7 @@ class SceneEpoch(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Pointer(Shown):
-    """Output of a scene, shown as a pointer.
+    """Pointer of a scene, which shows one output of the train.
 
     See Also
     --------
@@ -142,15 +142,18 @@ class Pointer(Shown):
     dial: int | None
     """Index of the dial; None for an output without a dial, for which a small dial is drawn."""
     speed: str | None
-    """Speed relative to the driving link, exact; None if it is not determined."""
+    """Exact speed of the output divided by the speed of the driving link; None if it is not determined."""
     shown: str | None
-    """Exact speed of the output at the declared inputs, in the train's unit."""
+    """Speed of the output at the declared inputs, in the train's unit: exact if the inputs are exact; None if not
+    determined.
+    """
     decimal: str
-    """Rounded speed of the output at the declared inputs, in the train's unit."""
+    """Rounded speed of the output at the declared inputs, in the train's unit; empty if it is not determined."""
     sense: int
     """1 if a positive angle is clockwise for a reader of the dial, -1 if it is counter-clockwise."""
     text: str
-    """Sense of rotation of the pointer in words."""
+    """Sense of rotation of the pointer, such as `clockwise as read` or `at rest`; empty if its speed is not determined.
+    """
     pairs: Sequence[str]
     """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
@@ -164,9 +167,9 @@ class Pointer(Shown):
     level: float = 0.0
     """Height of the middle of the hand above the dial [mm]."""
     seat: float = 0.0
-    """Diameter of the arbor or pipe on whose end the hand is fitted [mm]; 0 if none is made."""
+    """Diameter of the arbor or pipe on whose end the hand is fitted [mm]; 0 if the scene has no such part."""
     reach: float = 0.0
-    """Length of the hand relative to the radius of the scale."""
+    """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
     """Outline of the hand relative to its length: distances from the axis, and half the width at each distance.
 
@@ -188,7 +191,7 @@ class Scene(Shown):
     title: str
     """Title of the train."""
     note: str
-    """Note of the train."""
+    """Note on the train, as declared; empty if none is declared."""
     state: str | None
     """State of the train; None if it has no states."""
     unit: str
@@ -198,11 +201,11 @@ class Scene(Shown):
     front: int
     """Side of z from which the train is viewed, 1 or -1."""
     driving_link: int | None
-    """Index of the body whose turns are prescribed."""
+    """Index of the body whose turns are prescribed; None if no link is driven."""
     crank: int | None
     """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     step: str
-    """Turns of the driving link per unit of the input, exact."""
+    """Exact turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if no link is driven."""
     verdict: Mapping[str, Any]
     """Verdict as plain data, with keys "kind", "text", "links", "loops" and "advice".
 
@@ -214,21 +217,21 @@ class Scene(Shown):
     wheels: Sequence[SceneWheel]
     """Wheels, in the order declared, which is the order of their indices."""
     profiles: Sequence[ToothProfile]
-    """Tooth forms that wheels share."""
+    """Distinct tooth profiles, to which the wheels refer by index."""
     pairs: Sequence[ScenePair]
-    """Gear pairs."""
+    """Gear pairs, in the order declared."""
     couplings: Sequence[SceneCoupling]
-    """Pins in slots and in round holes."""
+    """Pins in slots and in round holes, in the order declared."""
     dials: Sequence[DialFace]
     """Dials of the scene, with their scales."""
     pointers: Sequence[Pointer]
-    """Outputs of the train; the first 100 links if no output is declared."""
+    """Pointers of the outputs; of the first 100 links if no output is declared."""
     movement: Movement
     """Deviations of the bodies' angles from uniform motion, for positive turns of the driving link."""
     sources: Mapping[str, Mapping[str, str]]
     """Citations by source key."""
     notices: Sequence[Mapping[str, str]]
-    """Problems of placement or motion: {"what", "why", "fix", "place"}."""
+    """Problems of layout, teeth or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
     """Deviations of the bodies' angles while the driving link turns against its declared sense and the coast
     flanks are in contact.
@@ -240,13 +243,16 @@ class Scene(Shown):
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date that corresponds to turns of the driving link; None if no date is declared."""
+    """Date that corresponds to a number of turns of the driving link; None if no date is declared, the unit is not a
+    time, or no link is driven.
+    """
     formulas: SceneFormulas | None = None
-    """Speeds as functions of tooth counts, if they were requested and exist."""
+    """Speeds as functions of tooth counts; None if they were not requested, do not exist, or the scene replays a run.
+    """
     asks: bool = True
-    """True if outputs are declared. Otherwise links are used as outputs."""
+    """True if outputs are declared, False if links are shown as outputs instead."""
     run: SceneRun | None = None
-    """Simulated motion to be replayed; None if the train is turned by its crank."""
+    """Simulated motion to be replayed; None if the scene shows the motion without a simulation."""
     parts: Sequence[ScenePart] = ()
     """Plates, pillars, arbors, pipes and all other structural parts of a built scene; otherwise empty."""
     hangers: Sequence[SceneHanger] = ()
@@ -261,7 +267,8 @@ class Scene(Shown):
     def to_dict(self) -> dict[str, Any]:
         """Return the scene as plain data for JSON.
 
-        Arrays are encoded as base64 of little-endian numbers, row by row. `run` is included only if it exists.
+        Arrays are encoded as base64 of little-endian numbers, row by row. The key `run` is included only for a scene
+        with a run.
         """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:

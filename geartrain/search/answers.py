@@ -6,7 +6,9 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the result type of each search command, or of each use of a command whose result has another type."""
+    """Return the result type of each search command. A use of a command with another result type has its own
+    entry.
+    """
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
     from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.posterior.posterior_result import ToothCountPosterior

@@ -16,12 +16,14 @@ Integers = NDArray[Any]
 
 
 def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
-    """Return all integers of some half-open ranges as two arrays: the index of the range, and the integer.
+    """Return the integers of half-open ranges as two arrays: the index of the range of each integer, and the
+    integer.
 
     No range may have an end below its start.
     """
     sizes = ends - starts
     owner = np.repeat(np.arange(len(sizes)), sizes)
+    # position in the output at which each range begins
     before = np.cumsum(sizes) - sizes
     return owner, np.arange(len(owner)) - np.repeat(before - starts, sizes)
 
@@ -47,6 +49,7 @@ def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction]
 
     No element of `below` may be 0.
     """
+    # numpy would convert a mixture of int64 and Python integers to float64
     if above.dtype != below.dtype:
         above, below = above.astype(object), below.astype(object)
     # in lowest terms with positive denominators, equal quotients are equal pairs

@@ -13,7 +13,7 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Counts of the candidates that a search rejected, by reason; they explain an empty or short list of solutions.
+    """Counts of the candidates that a search rejected, by reason, which explain an empty or short list of solutions.
 
     See Also
     --------
@@ -25,10 +25,13 @@ class Shortfall(Result):
     considered: int = 0
     """Number of candidates before any constraint is applied."""
     removed: Mapping[str, int] | None = None
-    """Number of rejected candidates by reason. A candidate is counted under the first constraint that it violates."""
+    """Number of rejected candidates by reason. A candidate is counted under the constraint at which the search
+    rejected it.
+    """
     nearest: str = ""
     """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
-    ratio error; "" if there is a solution.
+    ratio error, or of a constraint that no candidate satisfies; "" if there is a solution or the search was
+    interrupted.
     """
     advice: str = ""
     """Suggestions of constraints to relax, with the effect of each; "" if there is a solution."""
@@ -40,7 +43,9 @@ class Shortfall(Result):
 
 
 class CountSizes(ABC):
-    """Base class of tooth counts with their sum, maximum, and number of distinct counts."""
+    """Base class of results with tooth counts. It provides the sum, the maximum, and the number of distinct tooth
+    counts.
+    """
 
     __slots__ = ()
 
@@ -56,7 +61,7 @@ class CountSizes(ABC):
 
     @property
     def largest(self) -> int:
-        """Maximum tooth count; 0 without counts."""
+        """Maximum tooth count; 0 without tooth counts."""
         return max(self.counts, default=0)
 
     @property
@@ -67,7 +72,8 @@ class CountSizes(ABC):
 
 @dataclass(frozen=True, slots=True)
 class GearStages(CountSizes, Result):
-    """Tooth counts for a ratio, as the multisets of the numerator (`top`) and the denominator (`beneath`).
+    """One solution for a ratio by gear pairs in series: the tooth counts of the numerator (`top`) and of the
+    denominator (`beneath`).
 
     See Also
     --------

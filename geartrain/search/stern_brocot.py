@@ -55,7 +55,7 @@ class Approximants(Tabular, Result):
     ROWS = "search.tooth_numbers_report:approximant_rows"
     ROW = "Approximant"
     MEANINGS: ClassVar = {
-        "error": "Fraction over the requested ratio, minus 1 [1].",
+        "error": "Fraction divided by the requested ratio, minus 1 [1].",
         "exact_error": "Error as a fraction [1].",
     }
 
@@ -83,15 +83,16 @@ class SternBrocotRun:
     far: IntegerPair
     """Numerator and denominator (P, Q) of the end on the opposite side of the number."""
     whole: int
-    """Length of the run without bounds, a term of the continued fraction. The fraction at this index is the convergent.
+    """Length of the run if bounds are ignored, a term of the continued fraction. The fraction at this index is a
+    convergent.
     """
     length: int
-    """Length within the bounds."""
+    """Number of fractions of the run within the bounds."""
     best: int
     """Minimum k from which on the fractions are best approximations of the first kind; `length` + 1 if none is."""
 
     def at(self, k: int) -> Fraction:
-        """Return the fraction at index k."""
+        """Return the fraction (p + k P)/(q + k Q)."""
         return coprime(self.near[0] + k * self.far[0], self.near[1] + k * self.far[1])
 
     def kind(self, k: int) -> ApproximantKind:
@@ -107,6 +108,7 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
     left, right = value.numerator, value.denominator
     near, far = (0, 1), (1, 0)
     while right:
+        # Euclidean algorithm: each quotient is a term of the continued fraction, the length of one run
         term, rest = divmod(left, right)
         room = min((most - p) // step if step else term for p, step in zip(near, far, strict=True))
         length = min(term, room)
@@ -161,8 +163,8 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
             raise RangeError(
                 Problem(
                     f"more than {_MOST_LISTED} fractions approximate this ratio",
-                    f"the run of the tree from {run.at(1)} to {run.at(run.length)} has {run.length} of them",
-                    "reduce the bound, or request only the convergents",
+                    f"the run of the tree from {run.at(1)} to {run.at(run.length)} has {run.length} fractions",
+                    "reduce the bound, or list only the convergents",
                 )
             )
         for k in range(first, run.length + 1):
@@ -172,10 +174,11 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
 
 
 def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> tuple[IntegerPair, IntegerPair]:
-    """Return the largest fraction below `value` > 0 and the smallest one not below it, within the bounds.
+    """Return the largest fraction a/b below `value` > 0 and the smallest fraction c/d not below `value`, within
+    the bounds.
 
-    (0, 1) is returned if none is below, (1, 0) if none is above. The two are neighbours: bc - ad = 1. The cost grows
-    with the logarithm of the bounds.
+    The fractions are integer pairs, neighbours with bc - ad = 1. Without a fraction below, a/b is (0, 1);
+    without one above, c/d is (1, 0). The cost grows with the logarithm of the bounds.
 
     >>> neighbours(Fraction(191, 23), 100, 100)
     ((83, 10), (25, 3))
@@ -220,8 +223,10 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
     excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
     denominator.
     """
+    # towards infinity the fractions are the integers up to `value`, of which only the last can be nearest
     if not far[1]:
         return length if value - length < Fraction(1, 2) else length + 1
+    # the opposite end is 0, which is not a gear ratio
     if not far[0]:
         return 1
     n, d = value.numerator, value.denominator
@@ -240,7 +245,7 @@ def _check(value: Fraction, most_numerator: int, most_denominator: int) -> None:
     if value <= 0 or most_numerator < 1 or most_denominator < 1:
         raise QuestionError(
             Problem(
-                f"no fractions near {value} up to {most_numerator}/{most_denominator}",
+                f"no fractions exist near {value} up to {most_numerator}/{most_denominator}",
                 "numbers and bounds must be positive",
                 "give a positive number and bounds of 1 or more",
             )

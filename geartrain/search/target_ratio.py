@@ -32,17 +32,17 @@ _TIMES = {
 }
 _COUNTED_TIMES = ("day", "days", "hour", "hours", "minute", "minutes", "second", "seconds")
 _TURNS = ("turn", "turns", "rev")
-_WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.53059 d' or a name of `geartrain periods`"
+_WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.53059 d' or a name from `geartrain periods`"
 
 
 @dataclass(frozen=True, slots=True)
 class TargetRatio(Result):
-    """Requested ratio of a gear train. `read_ratio` parses it from text.
+    """Requested ratio of a gear train, with an optional sense of rotation. `read_ratio` parses it from a string.
 
     Raises
     ------
     QuestionError
-        If the value is not positive.
+        If the value is not from 1e-30 to 1e30.
 
     Examples
     --------
@@ -60,7 +60,7 @@ class TargetRatio(Result):
     """Requested sense of rotation of the output: 1 for the sense of the input, -1 for the opposite sense, 0 for either.
     """
     label: str = ""
-    """Text from which the ratio was parsed."""
+    """String from which the ratio was parsed, with the second period if there is one."""
     note: str = ""
     """Derivation of the ratio, with the source of its data."""
 
@@ -90,7 +90,7 @@ class _Term:
 
 
 def read_ratio(text: str, per: str | None = None) -> TargetRatio:
-    """Parse a requested ratio from text, as an exact fraction.
+    """Parse a requested ratio from a string, as an exact fraction.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     Raises
     ------
     QuestionError
-        If the text cannot be parsed or is ambiguous.
+        If the string cannot be parsed or is ambiguous, or if the ratio is not from 1e-30 to 1e30.
 
     Notes
     -----
@@ -134,7 +134,9 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     (Fraction(235, 19), -1, '235 months in the time of 19 years')
     """
     if len(text) > _MOST_CHARACTERS:
-        raise _problem(f"the ratio has {len(text)} characters", "a number has at most 400 characters", f"write {_WAYS}")
+        raise _problem(
+            f"the ratio has {len(text)} characters", f"at most {_MOST_CHARACTERS} are accepted", f"write {_WAYS}"
+        )
     # a typographic minus sign is accepted
     label = " ".join(text.replace("−", "-").split())
     sense: Literal[-1, 0, 1] = -1 if label.startswith("-") else 1 if label.startswith("+") else 0
@@ -149,7 +151,8 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """Split a text at its division sign into one or two parts. A sign between blanks takes precedence."""
+    """Split a string at its division sign into one or two parts. A sign between blanks takes precedence."""
+    # a term such as '1/3 d' may contain a division sign itself
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
         if len(parts) == 2:
@@ -191,7 +194,7 @@ def _with_word(number: str, word: str) -> _Term:
     if word in period_table():
         raise _problem(
             f"'{_short(shown)}' is ambiguous",
-            f"it may mean {number} revolutions or {number} times the period",
+            f"the number may be {number} revolutions or {number} times the period",
             f"for counts use other words, such as '{number} months'; for times write the days, such as '29.53 d'",
         )
     unit = _TIMES.get(word, word)
@@ -227,7 +230,7 @@ def _figure(text: str) -> Fraction:
             raise _problem(why, context["why"], context["fix"]) from None
         if text[:1].isalpha():
             raise _problem(
-                what, "`geartrain periods` lists no period of this name either", suggested_period(text)
+                what, "`geartrain periods` lists no period with this name either", suggested_period(text)
             ) from None
         if text[:1].isdigit() and "is not a number" in why:
             why = "a number has at most 400 characters, and an exponent three digits"
@@ -243,14 +246,14 @@ def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, st
             raise _problem(
                 f"'{_short(label)}' is a period, not a ratio",
                 "a ratio needs two periods",
-                f"write for example '{pair}'",
+                f"for example, write '{pair}'",
             )
         return _per_period(per, term)
     if term.kind == "things":
         raise _problem(
             f"'{_short(label)}' is only one count",
             "a ratio of counts needs a second count in the same time",
-            f"write for example '{'235 months' if term.word.startswith('year') else term.note} / 19 years'",
+            f"for example, write '{'235 months' if term.word.startswith('year') else term.note} / 19 years'",
         )
     if per is not None and not (term.kind == "speed" and per.startswith("year") and per in period_table()):
         raise _ratio_already(label, per)
@@ -262,7 +265,7 @@ def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
         raise _problem(
-            f"`per` is '{_short(per)}'", "it must be a period", "give a time or a name, such as year_tropical_J2000"
+            f"`per` is '{_short(per)}'", "`per` must be a period", "give a time or a name, such as year_tropical_J2000"
         )
     return whole.value / term.value, f"{whole.note} over {term.note}"
 
@@ -274,11 +277,12 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
     if kinds == {"things"} or (kinds == {"things", "time"} and _counted(first) and _counted(second)):
         return _figure_of(first) / _figure_of(second), f"{first.note} in the time of {second.note}"
     if len(kinds) == 1:
+        # such as '24 h / 1 d', which is 1 as periods and 24 as counts
         same = first.kind == "time" and first.value == second.value and first.word != second.word
         if same and not {first.word, second.word} & set(period_table()):
             raise _problem(
                 f"'{_short(label)}' has the same time on both sides",
-                "as a quotient of periods it is 1, as a pair of counts it is not",
+                "a quotient of equal periods is 1, but a pair of counts may be meant",
                 f"write '{first.note.split()[0]}/{second.note.split()[0]}' for counts",
             )
         return first.value / second.value, f"{first.note} over {second.note}"

@@ -35,7 +35,7 @@ from geartrain.numerics.results import imported_function
 
 
 class SearchGroup(LazyGroup):
-    """Group of commands that search for tooth counts."""
+    """Group of the commands of `geartrain teeth`, one for each kind of search."""
 
     verbs = Verbs(
         {
@@ -48,11 +48,13 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command of a search. Raises `QuestionError` with a suggestion if its name is missing."""
+        """Return the command of a search. Raise `QuestionError`, with a suggestion, if the name of the search is
+        missing.
+        """
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
-            what, why = "the kind of search is missing", f"it is one of {', '.join(self.verbs)}"
+            what, why = "the kind of search is missing", f"the kinds are {', '.join(self.verbs)}"
             raise option_error(args[0], what, f"did you mean `{requested}`?", why)
         return super().resolve_command(ctx, args)
 
@@ -138,14 +140,14 @@ _WIDEST = 10**12
 
 
 def check_number(ctx: typer.Context, text: str) -> str:
-    """Raise `QuestionError` if a text that begins with a minus sign is not a negative number."""
+    """Return an argument unchanged; raise `QuestionError` if it begins with a minus sign but is not a number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
         raise option_error(text, "unknown option", f"`{ctx.command_path} --help` lists the options")
     return text
 
 
 def read_tolerance(text: str | None) -> Fraction | None:
-    """Parse the maximum relative error; None if the text is None."""
+    """Return the maximum relative error, parsed from the value of `--tolerance`; None if the option is not given."""
     if text is None:
         return None
     found = read_share(text, "--tolerance")
@@ -172,7 +174,7 @@ class SearchAnswer:
     def give(self, found: Any, declared: Callable[[int], Mapping[str, Any]] | None = None) -> None:
         """Print or write the solutions and exit: code 0 if there are solutions, 1 if not, 130 after an interruption.
 
-        found      result with a flat table of solutions and a page
+        found      result of a search, which names the functions that build its table and its document
         declared   function from the index of a solution to its declaration
         """
         table, describe = (imported_function(*name.split(":")) for name in (found.ROWS, found.PAGE))
@@ -199,7 +201,7 @@ class SearchAnswer:
         from geartrain.train.yaml_nodes import as_yaml
 
         if declared is None:
-            what = "these solutions cannot be written as a declaration"
+            what = "the solutions of this search cannot be written as a declaration"
             raise option_error("-o", what, "use .md, .html, .json or .csv")
         if self.pick <= found:
             emit(as_yaml(declared(self.pick - 1)), self.out)

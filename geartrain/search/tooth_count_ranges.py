@@ -54,6 +54,7 @@ class CountRuns(Sequence[int]):
         """
         if isinstance(counts, CountRuns):
             return counts
+        # a range may have 10^12 counts, which must not be enumerated
         if isinstance(counts, range) and counts.step == 1:
             return cls.joined([(counts.start, counts.stop - 1)] if counts else [])
         return cls.joined((count, count) for count in counts)
@@ -95,14 +96,14 @@ class CountRuns(Sequence[int]):
         return self.spans[-1][1]
 
     def as_array(self) -> NDArray[np.int64]:
-        """Return the counts as an ascending array. Raises `RangeError` if there are more than a million counts."""
+        """Return the counts as an ascending array. Raise `RangeError` if there are more than a million counts."""
         import numpy as np
 
         if len(self) > _MOST_LISTED:
             raise RangeError(
                 Problem(
                     f"{len(self)} tooth counts are too many to list",
-                    "a search enumerates the counts of a wheel",
+                    f"a search lists every count of a wheel, at most {_MOST_LISTED}",
                     "give a shorter range, such as 15:120; `geartrain teeth approximants` lists fractions of any size",
                 )
             )
@@ -140,7 +141,7 @@ class CountRuns(Sequence[int]):
 
 
 def read_counts(text: str) -> CountRuns:
-    """Parse tooth counts from text.
+    """Parse tooth counts from a string.
 
     Parameters
     ----------
@@ -155,7 +156,7 @@ def read_counts(text: str) -> CountRuns:
     Raises
     ------
     QuestionError
-        If a part is not a tooth count from 1 to 10^12 or if the first count of a range exceeds its last.
+        If the string is empty, a part is not a count from 1 to 10^12, or the first count of a range exceeds the last.
 
     Examples
     --------
@@ -180,4 +181,4 @@ def _span(part: str) -> tuple[int, int]:
 
 
 def _problem(what: str, why: str, better: str = "'15:120', '30,36,48' or '12:40,48,60'") -> QuestionError:
-    return QuestionError(Problem(what, why, f"write for example {better}"))
+    return QuestionError(Problem(what, why, f"for example, write {better}"))

@@ -96,7 +96,9 @@ def describe_approximants(found: Approximants) -> Document:
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Return a section on rejected candidates, nearest miss and suggestions; an empty list if there are none."""
+    """Return a list with one section on rejected candidates, nearest miss and suggestions; empty if there is
+    nothing to report.
+    """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
     removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
@@ -118,7 +120,7 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
 
 
 def describe_assignments(found: TrainFindings) -> Document:
-    """Build the document of the tooth counts found for a train, with a section for each independent part of it."""
+    """Build the document of the tooth counts of a train, with a section for each independent part."""
     summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} satisfy all requirements."]
     summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
@@ -128,7 +130,9 @@ def describe_assignments(found: TrainFindings) -> Document:
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """Return the sections on one independent part: its requirements, the number of solutions, and the best of them."""
+    """Return the sections on one independent part: its requirements, its number of solutions, and the best
+    solutions or, if there are none, the rejected candidates.
+    """
     requested = "; ".join([*part.demands, *part.rules])
     lines = [f"Required: {requested}." if requested else "No requirements."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"
@@ -178,7 +182,7 @@ def _ranks(standings: Sequence[Standing]) -> Section:
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """Return the epicyclic sets that were found as rows of a table."""
+    """Return the epicyclic sets of a result as rows of a table."""
     return [
         {
             "mode": one.mode.key,
@@ -193,7 +197,7 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 
 
 def describe_sets(found: SetFindings) -> Document:
-    """Build the document of the epicyclic sets found for a ratio."""
+    """Build the document of the epicyclic sets for a ratio."""
     summary = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in either sense by default.",
         f"{found.count} combinations of set and mode run"

@@ -31,7 +31,7 @@ Node = TypeVar("Node", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Alternative(Generic[Node]):
-    """One of the alternatives at a node."""
+    """One alternative at a node: its weight, its facts, and the nodes at which a derivation continues."""
 
     weight: int
     """Weight of this alternative without the weights of its parts, not negative."""
@@ -45,7 +45,7 @@ class Alternative(Generic[Node]):
         return [inside[part] for part in self.parts]
 
     def around(self, outside: int) -> int:
-        """Return the outside sum of the alternative's own node."""
+        """Return `outside`, the outside sum of the node of this alternative."""
         return outside
 
     def sum_at_node(self, values: int) -> int:
@@ -103,15 +103,15 @@ class AlternativeRows(Generic[Node]):
         return sums_by(self.leads[at][1], values, len(inside))
 
     def tell(self, found: dict[Hashable, Any], around: NDArray[Any], below: NDArray[Any]) -> None:
-        """Add the weights of all derivations that include each alternative to the arrays in `found`, by value of a
-        variable.
+        """Add to each array in `found` the weights of all derivations, summed by the value that an alternative assigns
+        to the variable.
         """
         for told, size, answers in self.tells:
             found[told] = found.get(told, 0) + sums_by(answers, around * below, size)
 
 
 class WeightedAlternatives(Generic[Node]):
-    """Weighted derivations from a root node.
+    """Weighted derivations from a root node, with their total weight, marginals and random samples.
 
     Parameters
     ----------
@@ -139,6 +139,7 @@ class WeightedAlternatives(Generic[Node]):
                 self._inside[node] = sum(way.sum_at_node(below) for way, below in both)
             elif node not in self._ways:
                 self._ways[node] = list(alternatives(node))
+                # second visit, when the inside sums of all parts are known
                 waiting.append((node, True))
                 waiting += [(part, False) for way in self._ways[node] for part in way.parts]
 
@@ -161,6 +162,7 @@ class WeightedAlternatives(Generic[Node]):
                 around, inside = way.around(outside[node]), way.below(self._inside)
                 way.tell(found, around, below)
                 for at, part in enumerate(way.parts):
+                    # not total / inside[at], which may be 0
                     beside = prod(inside[:at] + inside[at + 1 :], start=around * way.weight)
                     outside[part] = outside[part] + way.sum_at_part(at, beside, self._inside[part])
         return found

@@ -128,8 +128,9 @@ def _contacts(configuration: Configuration, circuits: tuple[Circuit, ...]) -> Pi
             if abs(step - round(step)) > _OFF * parts:
                 what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
                 why = f"it is declared with `regular` {parts}"
-                raise QuestionError(Problem(what, why, "declare it with `regular` 0"))
+                raise QuestionError(Problem(what, why, "set `regular` to 0 for this gear"))
             found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
+            # each contact of an irregular gear is a family of its own, because its angle is only a float
             key.append(gear if parts else (len(keys), gear))
         part.append((found[0], found[1]))
         keys.append((key[0], key[1]))
@@ -208,7 +209,7 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 
 def _canonical(shares: Sequence[Fraction | float]) -> tuple[Fraction | float, ...]:
-    """Return factors modulo integers; a loop traversed backwards has the same ones."""
+    """Return factors modulo integers, in a form that is equal for a loop traversed in either direction."""
     if all(isinstance(share, Fraction) for share in shares):
         return min(tuple(share % 1 for share in shares), tuple(-share % 1 for share in shares))
     # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule

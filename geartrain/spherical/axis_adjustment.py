@@ -125,7 +125,9 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
 
 @dataclass(frozen=True)
 class AxisAdjustment:
-    """Adjusted axes, the pitch [radii of the sphere], and the residual at the end and after each step."""
+    """Adjusted axes, the pitch [radii of the sphere], and the residual at the end and after each step [rad for
+    `fit_pitch`, pitch for `fit_phases`].
+    """
 
     axes: Floats
     pitch: float
@@ -139,12 +141,12 @@ class AxisAdjustment:
 
 
 def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int = 0) -> AxisAdjustment:
-    """Return axes near the given ones at which all meshes have one pitch, by Levenberg's method with minimum-norm
+    """Return axes near the given axes at which all meshes have one pitch, by Levenberg's method with minimum-norm
     steps.
 
-    Solutions are not unique; the fit returns a nearby one. If the tangencies depend on each other (symmetric solids)
-    and the fit fails, it is repeated after random displacements of the axes by a few degrees. If the result is not
-    `exact`, no solution was found nearby.
+    Solutions are not unique; the fit returns a nearby solution. If the tangencies depend on each other (symmetric
+    solids) and the fit fails, it is repeated after random displacements of the axes by a few degrees. If the result is
+    not `exact`, no solution was found nearby.
     """
     z = np.asarray(teeth, dtype=float)
     random = np.random.default_rng(seed)
@@ -163,7 +165,7 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
 
 
 def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
-    """Return whether the tangencies of cones about these axes are linearly dependent; False, without a test, above 600
+    """Return True if the tangencies of cones about these axes are linearly dependent; False, without a test, above 600
     meshes.
 
     The test computes the rank of the derivative of the angles with respect to the axes and one more unknown, the pitch,
@@ -212,7 +214,7 @@ def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorn
 
 
 def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> AxisAdjustment:
-    """Return axes near the given ones at which all loops close, and the variance of the logarithm of the pitch is
+    """Return axes near the given axes at which all loops close, and the variance of the logarithm of the pitch is
     minimised.
 
     Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The sum of

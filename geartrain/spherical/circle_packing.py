@@ -329,8 +329,8 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
 
 
 def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tangent: int) -> tuple[float, Floats]:
-    """Return the maximum error of the angles between circles [rad], and the minimum-norm correction of axes and half-
-    angles.
+    """Return the maximum error of the angles between circles [rad], and the minimum-norm correction of axes and
+    half-angles.
 
     The first `tangent` pairs are tangent, S = rho_i + rho_j. The others are orthogonal, cos S = cos rho_i cos rho_j.
     """

@@ -111,8 +111,9 @@ def one_pitch(configuration: Configuration) -> float:
     minimum, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
     raise RangeError(
         Problem(
-            f"no single pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and {sizing.label(minimum)} "
-            f"requires {sizing.pitches[minimum]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
+            f"the meshes do not have one pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and "
+            f"{sizing.label(minimum)} requires {sizing.pitches[minimum]:.12g}, "
+            f"a mismatch of {100 * sizing.mismatch:.4g} %",
             impossibility_theorem(configuration) or "each kind of mesh determines its pitch by its own axes and teeth",
             "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
             "suggest_tooth_counts() finds better teeth; from_graph() or idlers on the edges give an exact pitch with "
@@ -169,14 +170,16 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
 
 @dataclass(frozen=True)
 class TipCollision:
-    """Two gears that do not mesh, and are too close to each other."""
+    """Two gears that do not mesh and whose tips may collide, because their pitch circles are less than two modules
+    apart.
+    """
 
     gears: tuple[str, str]
     """Names of the two gears."""
     room: float
-    """Distance between their pitch circles [modules]; negative if the pitch circles overlap."""
+    """Distance between the pitch circles of the two gears [modules]; negative if the pitch circles overlap."""
     short: float
-    """Required distance minus `room` [modules]."""
+    """Distance by which the gears are too close: required distance minus `room` [modules]."""
 
     def __str__(self) -> str:
         return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} modules too close"
@@ -305,6 +308,7 @@ class SphereSizing(Result):
         """Mapping from kind to virtual tooth number, for the kinds that a rack with the mean pressure angle would
         undercut.
         """
+        # pressure angle at the mean pitch: cos alpha = c / lambda
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
         return {kind: float(count) for kind, count in pairs if count < limit}

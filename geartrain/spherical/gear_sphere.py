@@ -109,7 +109,7 @@ class GearSphere(Result):
                 Problem(
                     "the sphere cannot be drawn",
                     "its gears have no tooth numbers",
-                    "give them, such as --teeth 5=20,3=12",
+                    "give tooth numbers, such as --teeth 5=20,3=12",
                 )
             )
         angles = {} if self.closure is None else self.closure.angles
@@ -120,8 +120,8 @@ class GearSphere(Result):
 
     @cached_property
     def rule(self) -> str | None:
-        """Divisibility condition that the tooth numbers must satisfy to close the loops; None if the contacts are not
-        at known fractions of a revolution.
+        """Divisibility condition that the tooth numbers must satisfy to close the loops; None if the set cannot turn,
+        or if the contacts are not at known fractions of a revolution.
         """
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None
         return None if rule is None else rule.text
@@ -148,25 +148,27 @@ class GearSphere(Result):
 
     @property
     def closes(self) -> bool | None:
-        """True if the teeth mesh correctly around all loops; None if the loops cannot be checked."""
+        """True if the teeth mesh correctly around all loops; None if a tooth number is missing or the set cannot
+        turn.
+        """
         return None if self.closure is None else bool(self.closure)
 
     @property
     def residue(self) -> float | None:
         """Maximum phase error of the meshes that are closed last when the gears are assembled one after another
-        [pitch].
+        [pitch]; None as in `closes`.
         """
         return None if self.closure is None else self.closure.last
 
     @property
     def loop_residue(self) -> float | None:
-        """Maximum closing error of the loops [pitch]."""
+        """Maximum closing error of the loops [pitch]; None as in `closes`."""
         return None if self.closure is None else float(self.closure.worst)
 
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
-        """Mapping from kind to the half-angle of its largest operating pitch cone [rad]; None if a tooth number is
-        missing.
+        """Mapping from kind to the half-angle of its largest operating pitch cone [rad]; all values are None if a tooth
+        number is missing.
         """
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
@@ -177,7 +179,9 @@ class GearSphere(Result):
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Mapping from kind to pitch radius, in the unit of the sphere's radius; None if a tooth number is missing."""
+        """Mapping from kind to pitch radius, in the unit of the sphere's radius; all values are None if a tooth number
+        is missing.
+        """
         return {kind: None if cone is None else wheel_radius(self.radius, cone) for kind, cone in self.cones.items()}
 
     @property

@@ -111,7 +111,9 @@ def _check_connected(found: nx.Graph[Any]) -> None:
         minimum = min(parts, key=len)
         apart = ", ".join(minimum)
         raise _refused(
-            f"{apart} are not connected to the rest", "meshes determine the axes", "pack one connected part at a time"
+            f"{apart} are not connected to the other gears",
+            "meshes determine the axes",
+            "pack one connected part at a time",
         )
     cut = next(iter(nx.articulation_points(found)), None)
     if cut is None:
@@ -165,9 +167,9 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
         # branch vertices of a subdivided K5 or K3,3
         corners = sorted((str(node) for node, degree in drawn.degree() if degree > 2))
         why = (
-            "each is joined to all others"
+            "each of these gears is joined to every other one"
             if len(corners) == 5
-            else "each of three is joined to each of the other three"
+            else "each of three of these gears is joined to each of the other three"
         )
         raise _refused(
             f"it is not planar: {', '.join(corners)}",
@@ -221,7 +223,7 @@ def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[
     pitch.
 
     The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`). The
-    variance is that of ln(z / sin rho).
+    variance refers to ln(z / sin rho).
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)
@@ -295,7 +297,9 @@ def from_graph(
     (('pitch', 'phases'), {12})
     """
     if aim not in ("pitch", "phases"):
-        raise QuestionError(Problem(f"unknown aim {aim!r}", "the aim is 'pitch' or 'phases'", "pass aim='pitch'"))
+        raise QuestionError(
+            Problem(f"the aim {aim!r} is unknown", "the aim is 'pitch' or 'phases'", "pass aim='pitch'")
+        )
     named = checked_graph(graph)
     names = list(named)
     gears, regions, side = len(names), regions_of(named), turning_senses(named, names)

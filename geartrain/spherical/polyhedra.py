@@ -99,7 +99,7 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron(Shown):
-    """Convex polyhedron with the origin in its interior.
+    """Convex polyhedron with the origin in its interior, on which gears can be placed.
 
     See Also
     --------

@@ -171,8 +171,8 @@ def _placed(
             raise QuestionError(
                 Problem(
                     f"no tooth number is given for {', '.join(missing)}",
-                    "exact=True requires all of them",
-                    "give `teeth`",
+                    "exact=True requires the tooth number of every kind that meshes",
+                    "give `teeth` for these kinds",
                 )
             )
         return equal_pitch(plan.movement, plan.axes, meshes, teeth, range(len(kinds))) if meshes else plan.axes
@@ -195,7 +195,7 @@ def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All positions for gears on a solid, before any are dropped."""
+    """All positions for gears on a solid, before dropped gears are removed."""
 
     axes: Floats
     """Unit vectors of the axes, shape (gears, 3)."""
@@ -213,7 +213,7 @@ def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
         raise QuestionError(
             Problem(
                 f"unknown arrangement '{gears}'",
-                "gears are placed on parts of a solid",
+                "an arrangement names the parts of a solid that carry gears",
                 suggest(gears, get_args(Gears)),
             )
         )
@@ -366,6 +366,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
                 )
             )
     wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}
+    # a full name such as 4a takes precedence over a number of sides
     return wide | {kind: int(given[kind]) for kind in known if kind in given}
 
 
@@ -396,7 +397,11 @@ def without_gears(
         rest = [(i, j) for i, j in left if not ((i in a and j in b) or (j in a and i in b))]
         if len(rest) == len(left):
             raise QuestionError(
-                Problem(f"no mesh '{word}' to drop", f"{first} and {second} do not mesh", "name two gears that mesh")
+                Problem(
+                    f"no mesh '{word}' to drop",
+                    f"{first} and {second} do not mesh",
+                    "name two gears that mesh",
+                )
             )
         left = rest
     kept = set(range(len(names))) - gone

@@ -90,8 +90,8 @@ def equal_pitch(
 
 
 class _Places:
-    """Axes as a function of their free displacements: the first gear of each orbit moves, and the others follow by
-    symmetry.
+    """Axes as a function of their free displacements: the first gear of each orbit moves, and the other gears of the
+    orbit follow by symmetry.
     """
 
     def __init__(self, movement: SymmetricFreedom, axes: Floats, movable: Collection[int]) -> None:

@@ -179,7 +179,8 @@ class ToothCountCompromise(Shown):
     cones: tuple[tuple[float, float], ...]
     """Half-angles of the operating cones of the two gears of each kind of mesh [rad]."""
     pressure: tuple[float, ...]
-    """Operating pressure angle of each kind of mesh, for a common base pitch [rad]."""
+    """Operating pressure angle of each kind of mesh, for a common base pitch [rad]; NaN if such involutes cannot mesh.
+    """
     room: float
     """Minimum distance between the pitch circles of gears that do not mesh [modules]."""
     residue: float
@@ -384,6 +385,7 @@ def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, .
             continue
         # nearest equal neighbours of each gear
         own, other = (nearest.get((kind, kind), pi) for kind in (mesh.a, mesh.b))
+        # neighbours of kind a limit z_b / z_a from below, and therefore z_a / z_b from above
         lift = overlap_limit(mesh.angle, own)
         found.append(NeighbourRatioWindow(mesh.a, mesh.b, overlap_limit(mesh.angle, other), 1 / lift if lift else inf))
     return tuple(found)

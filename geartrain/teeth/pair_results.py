@@ -122,8 +122,8 @@ class SlidingEfficiency(Result):
     transmission function.
 
     The torques on both sides cannot be constant at the same time. `mean` is the efficiency at constant torque of the
-    driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None if friction
-    locks the pair.
+    driver, `at_constant_load` the efficiency at constant torque of the driven side. All efficiencies are None if
+    friction locks the pair.
 
     See Also
     --------

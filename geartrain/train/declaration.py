@@ -45,12 +45,12 @@ if TYPE_CHECKING:
 
 
 class Epoch(Declared):
-    """Date at a given position of the train: number of turns of the input since all pointers were at the start of their
-    scales.
+    """Date at which the position of the train is known, as turns of the input since all pointers were at the start of
+    their scales.
 
     Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar, and later
-    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single text instead of a mapping is
-    the date.
+    dates in the Gregorian calendar, unless `calendar` is given. In a declaration, a single string instead of a mapping
+    is the date.
 
     See Also
     --------
@@ -103,7 +103,7 @@ class Epoch(Declared):
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
-"""An epoch, or its date as a single text."""
+"""Epoch, or its date as a single string."""
 
 
 # ---------------------------------------------------------------------------------------------------- friction in force
@@ -257,7 +257,7 @@ class Train(Declared):
         return summary_line("Train", f"{self.name}: {counts}{more}")
 
     def place(self, *loc: str | int) -> str:
-        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it did not come
+        """Return the location where a value was written: `file.yaml:12`, or the path of its keys if it was not read
         from a file.
 
         Parameters
@@ -295,7 +295,7 @@ class Train(Declared):
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
         """Return the tooth stiffness of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of
-        the train.
+        the train; None if none is declared.
 
         Parameters
         ----------
@@ -307,7 +307,7 @@ class Train(Declared):
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
         """Return the tooth damping of a gear pair: the value of the pair, otherwise of its tooth form, otherwise of the
-        train.
+        train; None if none is declared.
 
         Parameters
         ----------
@@ -318,8 +318,8 @@ class Train(Declared):
         return gear.damping or (form.damping if form is not None else None) or self.damping
 
     def restitution_of(self, part: GearPair | Coupling) -> float | None:
-        """Return the coefficient of restitution of a pair or coupling, by default of the train; None if it is not
-        declared.
+        """Return the coefficient of restitution of a pair or coupling, by default the coefficient of the train; None if
+        neither is declared.
 
         Parameters
         ----------
@@ -358,6 +358,7 @@ class Train(Declared):
         outputs = dict(self.outputs)
         for name, output in own.outputs.items():
             inherited = outputs.get(name)
+            # a state changes only the keys that it declares
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
@@ -365,6 +366,7 @@ class Train(Declared):
         return StateCase(
             state,
             inputs={link: self._speed(speed) for link, speed in inputs.items()},
+            # without duplicates: a brake may fix a link that is fixed in every state
             fixed=tuple(dict.fromkeys(fixed)),
             locks=tuple(locks),
             outputs=outputs,
@@ -394,8 +396,8 @@ class Train(Declared):
             )
 
     def single_state(self, state: str | None) -> str | None:
-        """Return the given state, or the only state. Raises `QuestionError` if there are several states and none is
-        given.
+        """Return the given state, by default the only state; None for a train without states. Raises `QuestionError` if
+        there are several states and none is given.
 
         Parameters
         ----------
@@ -405,7 +407,11 @@ class Train(Declared):
         if state is None and len(self.states) > 1:
             names = ", ".join(self.states)
             raise QuestionError(
-                Problem(f"'{self.name}' has several states", "the result depends on the state", f"name one of: {names}")
+                Problem(
+                    f"'{self.name}' has several states",
+                    "the result depends on the state",
+                    f"give one of these states: {names}",
+                )
             )
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state
@@ -432,7 +438,7 @@ class Train(Declared):
         return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
 
     def has_torque_units(self, state: str | None) -> bool:
-        """Return True if the loads and bearings of one state are given with units.
+        """Return True if one state has loads or bearing torques other than 0, and all of these torques have units.
 
         Parameters
         ----------
@@ -462,7 +468,9 @@ class Train(Declared):
         return in_unit(speed, self.input_unit)
 
     def _is_exact(self, speed: Quantity) -> bool:
-        """Return False if the speed is an irrational number of the train's units."""
+        """Return True if a speed is a rational number of the train's units, False if radians are converted to turns or
+        the reverse.
+        """
         return not speed.value or same_kind(speed.unit, None if self.unit is not None else self.input_unit or None)
 
     @cached_property
@@ -471,6 +479,7 @@ class Train(Declared):
         without units.
         """
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
+        # the train's inputs are unused if every state has its own
         if len(groups) == len(self.states) and groups:
             speeds = [speed for group in groups for speed in group.values()]
         else:

@@ -49,7 +49,7 @@ class JsonMarks:
 
 
 def parse_json(text: str) -> dict[str, Any] | None:
-    """Parse `text` as a JSON mapping with scalars kept as text; None if YAML might read it differently.
+    """Parse `text` as a JSON mapping in which all scalars remain strings; None if YAML might read it differently.
 
     Duplicate keys, nan, infinity, deep nesting and too many values also return None, so that the YAML parser
     reports them with line numbers.
@@ -169,7 +169,7 @@ def check_is_train(train: Train) -> None:
     """Raise `DeclarationError` if the declaration is evidence for a reconstruction."""
     if train.reconstruct is not None:
         what = f"'{train.name}' is evidence, not a train"
-        why = "its key `reconstruct` leaves gear pairs to be found"
+        why = "its key `reconstruct` leaves gear pairs undetermined"
         fix = "run `geartrain reconstruct`, which finds the trains that explain it"
         raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
 
@@ -218,6 +218,7 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
         }  # short forms group the turning pairs by axis, so their order changes
 
     text = _read(path)
+    # an invalid file is refused before anything is rewritten
     before = declared(text)
     new = with_long_forms(text) if long else with_short_forms(text)
     if declared(new) != before:
@@ -254,6 +255,7 @@ def files_of(path: Path) -> tuple[Path, ...]:
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
     """Merge a declaration with the chain of its parents, the oldest parent first."""
+    # short forms are expanded first, because entries are merged key by key
     line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
     result = line.pop()
     if line:
@@ -298,7 +300,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         raise DeclarationError(
             Problem(
                 "`extends` is empty",
-                "it names the file, shipped train or shipped evidence to change",
+                "it names the file, shipped train or shipped evidence that this declaration changes",
                 "give a name, such as `extends: parent.yaml`, or remove the key",
                 place,
             )
@@ -314,7 +316,12 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         Problem(
             f"`extends` names the unknown parent '{name}'",
             f"{where} contains no such file, and no shipped train or evidence has that name",
-            suggest(name, siblings, otherwise="`geartrain list [--evidence]` shows what is shipped", wide=True),
+            suggest(
+                name,
+                siblings,
+                otherwise="`geartrain list` and `geartrain list --evidence` show the shipped names",
+                wide=True,
+            ),
             place,
         )
     )
@@ -334,6 +341,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
         return path
     if str(source) in known:
         return known[str(source)]
+    # also a path as in the source tree, such as trains/planetary.yaml
     within = next((found for found in known.values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
     if within is not None:
         return within
@@ -343,7 +351,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
         Problem(
             "the file does not exist",
             f"'{path.stem}' is not the name of a shipped {kind} either",
-            f"this folder has {path.name}.yaml: write that name"
+            f"give the name with its suffix: {path.name}.yaml"
             if path.name and _exists(path.with_name(f"{path.name}.yaml"))
             else _suggestion(path.stem, evidence),
             str(source),
@@ -370,6 +378,7 @@ def _read(path: Path) -> str:
     place = str(path)
     try:
         status = path.stat()
+        # a directory is reported by the read below
         if not S_ISREG(status.st_mode) and not S_ISDIR(status.st_mode):
             why = "a device or a pipe may be endless, and cannot be read twice"
             raise DeclarationError(Problem("this is not a regular file", why, "save the declaration as a file", place))
@@ -397,6 +406,7 @@ def _read(path: Path) -> str:
             )
         ) from None
     try:
+        # utf-8-sig, because some editors write a byte order mark
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise DeclarationError(
@@ -404,6 +414,6 @@ def _read(path: Path) -> str:
         ) from None
     if "\0" in text:
         raise DeclarationError(
-            Problem("this is not a text file", "it contains NUL bytes", "name a YAML declaration", place)
+            Problem("this is not a text file", "it contains NUL bytes", "give a YAML declaration", place)
         )
     return text

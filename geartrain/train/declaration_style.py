@@ -73,9 +73,11 @@ def with_long_forms(text: str) -> str:
 def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
     lines = text.splitlines()
     root = yaml.compose(text, Loader=_Loader)
+    # in a declaration in braces, sections do not begin on lines of their own
     if not isinstance(root, yaml.MappingNode) or root.flow_style:
         return text
     parts = [(key, value) for key, value in root.value if key.value in writers]
+    # from the last section to the first, so that the line numbers of earlier sections stay valid
     for key, value in sorted(parts, key=lambda part: -part[0].start_mark.line):
         written = _SectionSource(text, key, value)
         found = writers[key.value](written)
@@ -112,7 +114,7 @@ class _SectionSource:
 
     @property
     def head(self) -> str:
-        """Comment on the line of the section's key."""
+        """Comment on the line of the section's key; "" if there is none."""
         return self._behind.get(self.first, "")
 
     @property
@@ -125,7 +127,7 @@ class _SectionSource:
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
     def is_written_as(self, entries: Sequence[_Entry]) -> bool:
-        """Return whether all entries of a list are already written like this."""
+        """Return True if the list is already written as `entries`."""
         return [each.text for each in entries] == [self.source(node) for node in self.items]
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:
@@ -205,6 +207,7 @@ def _long_joints(written: _SectionSource) -> list[str] | None:
         for other in names[1:]:
             text = f"{{pair: [{names[0]}, {other}], axis: {written.source(key)}}}"
             entries.append(_Entry(text, own.before, own.behind))
+            # the comments of an axis are kept at its first entry only
             own = _Entry("")
     return list(_section("revolutes", entries, written.head, "", "- "))
 

@@ -1,4 +1,4 @@
-"""Examples of declarations: those of the reference, of the JSON Schema, and of error messages."""
+"""Examples of declarations for the reference, the JSON Schema and error messages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from geartrain.train.yaml_nodes import on_one_line, parse_yaml
 
 @cache
 def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML text, by part or by key with several kinds of parts; the first one is printed."""
+    """Return the examples as YAML texts by part, or by key if a key has several kinds of parts; the first text is
+    printed.
+    """
     text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
     return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
 
@@ -30,11 +32,12 @@ def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _plain(data: Any) -> Any:
-    """Return the data of a declaration, in which all scalars are text, with numbers and booleans."""
+    """Return the data of a declaration with numbers and booleans instead of the strings of its scalars."""
     if isinstance(data, dict):
         return {key: _plain(value) for key, value in data.items()}
     if isinstance(data, list):
         return [_plain(value) for value in data]
+    # a scalar that is not valid JSON remains a string
     with suppress(ValueError, TypeError):
         return json.loads(data)
     return data
@@ -66,6 +69,7 @@ def example_line(loc: Loc, kind: type) -> str:
 
 def _named(key: str) -> Iterator[Any]:
     """Yield the values of a key in the examples."""
+    # reversed, so that the stack returns values in the order of the examples
     stack: list[Any] = [data for _, data in example_data()][::-1]
     while stack:
         value = stack.pop()

@@ -104,12 +104,15 @@ def _replacement_problem(error: Mapping[str, Any]) -> Problem:
 
 
 def whole_number(raw: object, low: int, high: int) -> int | None:
-    """Return an integer within the bounds, given as such or as its digits; None for any other value."""
+    """Return an integer from `low` to `high`, inclusive, given as an integer or as its digits; None for any other
+    value.
+    """
     try:
         # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else low - 1
     except ValueError:
         return None
+    # `int` also accepts digits of other scripts, which are refused
     return number if low <= number <= high and str(raw).isascii() else None
 
 
@@ -136,7 +139,7 @@ def _boolean(raw: object) -> bool:
 
 
 def side(raw: object) -> object:
-    """Convert the texts "1" and "-1" to integers; return other values unchanged."""
+    """Convert the strings "1", "+1" and "-1" to integers; return other values unchanged."""
     return int(raw) if raw in ("1", "+1", "-1") else raw
 
 
@@ -172,7 +175,7 @@ class AlsoShort:
 
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
-"""A name as written. Numbers are accepted as names."""
+"""Name as written. Numbers are accepted as names."""
 Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
 """Immutable mapping of names to parts."""
@@ -209,7 +212,9 @@ def read_friction(raw: object) -> Any:
 
 
 def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
-    """Return True for the key `law`, and if it is missing or misspelt but most keys belong to friction laws."""
+    """Return True if the key `law` is given, possibly misspelt, or if most keys belong to friction laws; False if all
+    keys belong to Coulomb friction.
+    """
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
     if all(key in CoulombFriction.model_fields for key in keys):

@@ -53,13 +53,14 @@ def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
         return declared.place(*loc)
 
     merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
+    # a changed copy keeps name, title and note, which a child file does not inherit
     kept = {key: getattr(declared, key) for key in _NOT_INHERITED if key in declared.model_fields_set}
     new = {key: value for key, value in merged.plain().items() if key != "remove"}  # already applied
     return declare(kept | new, merged.place_of)
 
 
 def _moved_wheels(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
-    """Yield a problem for each wheel that a child declares on another link although it is still on the parent's."""
+    """Yield a problem for each wheel that a child declares on another link although the parent's link still has it."""
     owner = {wheel: link for link, part in _child(parent, "links").items() for wheel in _child(part, "wheels")}
     for link, part in _child(child, "links").items():
         for wheel in _child(part, "wheels"):
@@ -152,6 +153,7 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
     couplings.
     """
+    # turning pairs have no names, and are removed by their two links
     gone = {key: list(texts(node)) for key, node in remove.mapping.items() if key != "revolutes"}
     joints = (
         [frozenset(texts(node)) for node in remove.mapping["revolutes"].items] if "revolutes" in remove.mapping else []
@@ -206,7 +208,7 @@ def _drop(node: YamlNode, names: Iterable[str]) -> YamlNode:
 
 
 def _without_wheels(link: YamlNode, wheels: set[str]) -> YamlNode:
-    """Return a link without the given wheels."""
+    """Return a link without the wheels named in `wheels`; the link itself if it has none of them."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link
     return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)
@@ -231,7 +233,7 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
                 fix = suggest(name, known[key], otherwise="delete this entry")
                 problems.append(
                     Problem(
-                        f"`remove` names the unknown '{name}'",
+                        f"`remove` names the unknown part '{name}'",
                         f"the parent has no such entry in {key}",
                         fix,
                         remove.place_of((key, at)),

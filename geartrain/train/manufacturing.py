@@ -42,7 +42,7 @@ _SPREAD = checked(
     "a spread of {text} is out of range",
     "give a fraction from 0 to less than 1, such as 0.3 for 30 % to either side",
 )
-_STRENGTH = "give for example 200 MPa"
+_STRENGTH = "give a pressure such as 200 MPa"
 
 
 class Material(Declared):
@@ -59,17 +59,19 @@ class Material(Declared):
     ('206 GPa', 1863)
     """
 
-    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
+    youngs_modulus: Annotated[Pressure, above_zero("give a pressure such as 100 GPa")] = Field(
+        description="Young's modulus"
+    )
     poisson: Annotated[Figure, _POISSON] = Field(Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5")
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
         description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
         "yield; without safety factor",
     )
-    hardness: Annotated[Figure, above_zero("give for example 120, in HV")] | None = Field(
+    hardness: Annotated[Figure, above_zero("give a Vickers hardness (HV) such as 120")] | None = Field(
         None, description="Vickers hardness (HV), for wear calculations"
     )
-    density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
+    density: Annotated[Density, above_zero("give a density such as 8.5 g/cm3")] | None = Field(
         None, description="Density; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, _SPREAD] = Field(
@@ -80,7 +82,9 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Vickers hardness as a pressure [Pa]: force divided by the surface area of the indentation."""
+        """Vickers hardness as a pressure [Pa]: force divided by the surface area of the indentation; None if it is not
+        declared.
+        """
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 
@@ -124,12 +128,13 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
 class _DeclaredError(Declared):
-    """A fixed error, or one that is drawn for each tooth, wheel or pair. A single value instead of a mapping is
-    fixed.
+    """Manufacturing error, fixed or drawn at random for each tooth, wheel or pair. A single value instead of a mapping
+    is a fixed error.
     """
 
     @model_validator(mode="after")
     def _has_one_key(self) -> _DeclaredError:
+        # a fixed error may be negative, the width of a distribution may not
         for key in ("normal", "uniform"):
             width: Quantity | None = getattr(self, key)
             if width is not None and width.value < 0:
@@ -142,8 +147,8 @@ class _DeclaredError(Declared):
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random. A single value instead of a mapping is fixed; a number is a fraction of the
-    nominal value.
+    """Error of an angle, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction
+    of the nominal value.
     """
 
     SHORT: ClassVar = {"type": ["number", "string"], "format": "angle or fraction"}
@@ -154,8 +159,8 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random. A single value instead of a mapping is fixed; a number is a fraction of the
-    tooth depth.
+    """Error of a length, fixed or random. A single value instead of a mapping is a fixed error; a number is a fraction
+    of the tooth depth.
     """
 
     SHORT: ClassVar = {"type": ["number", "string"], "format": "length or fraction"}
@@ -219,7 +224,7 @@ class WheelManufacture(Declared):
 
 
 class Filing(Declared):
-    """Fitting of a pair by filing: where it jams, the most protruding flank is filed until the tooth pair passes.
+    """Fitting of a pair by filing: where the pair jams, the most protruding flank is filed until the teeth pass.
 
     See Also
     --------

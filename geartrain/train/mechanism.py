@@ -104,6 +104,7 @@ class BearingFriction(Declared):
     def _check_static(self) -> BearingFriction:
         if self.static is None:
             return self
+        # a torque of 0 needs no unit
         if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
             what = "sliding {sliding} and static {static} mix a number without a unit and a torque with a unit"
             fix = "give both with a unit, or both without"
@@ -131,13 +132,14 @@ DeclaredBearing = Annotated[BearingFriction, short_for("sliding")]
 
 def _at_most_one(efficiency: Quantity) -> Quantity:
     if efficiency.base > 1:
+        # a number up to 100 was probably meant as a percentage
         meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
         raise PydanticCustomError(
             "efficiency",
             "an efficiency of {text} is above 1",
             {
                 "text": efficiency.text,
-                "fix": f"write for example 0.98 or {meant}; no pair transmits more power than it receives",
+                "fix": f"for example, write 0.98 or {meant}; no pair transmits more power than it receives",
             },
         )
     return efficiency
@@ -236,16 +238,19 @@ class Teeth(Declared):
         if self.weights is not None and len(self.weights) != len(counts):
             raise PydanticCustomError(
                 "teeth",
-                "{given} weights for {count} counts",
+                "{given} weights are given for {count} counts",
                 {"given": len(self.weights), "count": len(counts), "fix": "give one weight for each count"},
             )
         return self
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain."""
+        """All tooth counts that the evidence allows; empty if the count is not declared as uncertain, or if `range`
+        contains more than 10^6 counts.
+        """
         if self.choices is not None:
             return self.choices
+        # a wider range is not enumerated, because its tuple would need much memory
         if self.range is None or self.range[1] - self.range[0] > 10**6:
             return ()
         return tuple(range(self.range[0], self.range[1] + 1))
@@ -295,7 +300,7 @@ MOST_COPIES = 360  # no carrier has space for more planets
 
 
 class Source(Declared):
-    """Bibliographic source of data in a declaration.
+    """Bibliographic source, to which other parts of a declaration refer by its key.
 
     See Also
     --------
@@ -317,7 +322,7 @@ HelixAngle = Annotated[
     Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("measure it from the axis")
 ]
 Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
-MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3 (bronze)")]
+MaterialDensity = Annotated[Density, above_zero("give a density such as 8.7 g/cm3 (bronze)")]
 
 
 class Wheel(Declared):
@@ -428,6 +433,7 @@ class Wheel(Declared):
     @property
     def transverse_module(self) -> float | None:
         """Pitch diameter divided by tooth count [m]; None if no module with a unit is declared."""
+        # a module without a unit is only a ratio to other modules
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
 

@@ -41,7 +41,7 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """Label of one or more consecutive divisions of a dial. In a declaration, a single text instead of a mapping is
+    """Label of one or more consecutive divisions of a dial. In a declaration, a single string instead of a mapping is
     the label.
 
     See Also
@@ -57,7 +57,7 @@ class DialName(Declared):
 
 class DialNumerals(Declared):
     """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a single
-    text instead of a mapping is their style.
+    string instead of a mapping is their style.
 
     See Also
     --------
@@ -77,7 +77,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions of a scale, and their labels and numerals.
+    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it.
 
     See Also
     --------
@@ -112,9 +112,10 @@ class Graduation(Declared):
                 fix = suggest(
                     names, NAMED_SCALES, otherwise=f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
                 )
-                raise PydanticCustomError("dial", "unknown scale '{names}'", {"names": names, "fix": fix})
+                raise PydanticCustomError("dial", "the scale '{names}' is unknown", {"names": names, "fix": fix})
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
+            # a division is a degree or a day only if the scale keeps its number of divisions
             if str(own["divisions"]) == str(sum(span for _, span in parts)):
                 own.setdefault("cell", cell)
             own["names"] = [
@@ -122,6 +123,7 @@ class Graduation(Declared):
             ]
         elif isinstance(names, list | tuple):
             spans = [each.get("span") if isinstance(each, dict) else None for each in names]
+            # raw data are not validated yet: only spans written as digits can be added
             whole = [int(str(span)) for span in spans if str(span).isascii() and str(span).isdigit()]
             own.setdefault("divisions", sum(whole) if len(whole) == len(spans) else len(spans))
         return own
@@ -132,7 +134,7 @@ class Graduation(Declared):
         given = [span for span in spans if span is not None]
         if given and len(given) < len(spans):
             missing = next(each.name for each in self.names if each.span is None)
-            fix = {"name": missing, "fix": "give every name a span, or none"}
+            fix = {"name": missing, "fix": "give a span to every name, or to none"}
             raise PydanticCustomError("dial", "'{name}' has no span, but other names have one", fix)
         if given and sum(given) != self.divisions:
             off = sum(given) - self.divisions
@@ -159,7 +161,7 @@ class Graduation(Declared):
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
-        """Label, first division and number of divisions of every name, as exact fractions."""
+        """Label, start and length of every name; start and length are exact fractions [divisions]."""
         found, first = [], Fraction(0)
         for each in self.names:
             span = Fraction(self.divisions, len(self.names)) if each.span is None else Fraction(each.span)
@@ -173,7 +175,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give {total}, or omit `divisions`"}
+        context = {"name": name, "divisions": count, "fix": f"give `divisions: {total}`, or omit `divisions`"}
         raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
@@ -238,8 +240,8 @@ _TOLERANCE = checked(
 
 
 class Target(Declared):
-    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single text instead
-    of a mapping is its name.
+    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a single string
+    instead of a mapping is its name.
 
     A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
     `sense` is given.
@@ -338,7 +340,7 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """Published value of an output, as printed in a source.
+    """Published value of an output, as printed in a source; `geartrain check` compares it with the calculated value.
 
     See Also
     --------
@@ -357,6 +359,7 @@ class Published(Declared):
 
     @model_validator(mode="after")
     def _check_ratio(self) -> Published:
+        # a printed 0.0 is rounded, and permits a small ratio
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
             raise PydanticCustomError(

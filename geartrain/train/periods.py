@@ -31,7 +31,7 @@ _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """Day of a calendar, with the elapsed fraction of the day.
+    """Date in the Julian or Gregorian calendar, with the elapsed fraction of the day.
 
     See Also
     --------
@@ -73,6 +73,7 @@ def julian_day(date: CalendarDate) -> Fraction:
     >>> julian_day(read_date("2000-01-01 12:00"))
     Fraction(2451545, 1)
     """
+    # years begin in March here, so that a leap day is the last day of its year
     month = (date.month - 3) % 12
     year = date.year - (date.month < 3)
     days = 365 * year + year // 4 + (153 * month + 2) // 5 + date.day - 1
@@ -106,6 +107,7 @@ def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
     since = day - _MARCH[calendar]
     whole = since // 1
     year, rest = _split_gregorian(whole) if calendar == "gregorian" else _split_julian(whole)
+    # inverse of (153 month + 2) // 5, the number of days before a month, counted from March
     month = (5 * rest + 2) // 153
     return CalendarDate(
         year + (month > 9), (month + 2) % 12 + 1, rest - (153 * month + 2) // 5 + 1, since - whole, calendar
@@ -148,6 +150,7 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
     part = Fraction(3600 * hour + 60 * minute + second, 86400) if found[4] else Fraction(1, 2)
     chosen = calendar or ("julian" if (year, month, day) < (1582, 10, 15) else "gregorian")
     date = CalendarDate(year, month, day, part, chosen)
+    # a date that does not exist is not preserved by conversion to a Julian day and back
     if date_of(julian_day(date), calendar) != date:
         raise ValueError(f"{date} does not exist in the {chosen} calendar{' of its time' if calendar is None else ''}")
     return date
@@ -164,7 +167,7 @@ def _split_julian(days: int) -> tuple[int, int]:
 
 
 def _split_gregorian(days: int) -> tuple[int, int]:
-    """Return the number of years that begin in March, and the remaining days.
+    """Split a number of days since 1 March of the year 0 into whole Gregorian years and remaining days.
 
     146097 days are 400 years, and the last of their four centuries is one day longer.
     """
@@ -176,7 +179,7 @@ def _split_gregorian(days: int) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Period:
-    """Astronomical period, speed or count, with its source.
+    """Row of the table of periods: an astronomical period, speed or count, with its source.
 
     See Also
     --------

@@ -41,7 +41,7 @@ Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 
 
 
 class AddedParts(Declared):
-    """Parts that may be added to the surviving ones.
+    """Parts that a reconstruction may add to the surviving parts.
 
     See Also
     --------
@@ -63,13 +63,13 @@ class AddedParts(Declared):
             raise PydanticCustomError(
                 "add",
                 "no range of tooth counts is given for added wheels",
-                {"fix": "add for example `teeth: [12, 225]`"},
+                {"fix": "for example, add `teeth: [12, 225]`"},
             )
         return self
 
 
 class GivenCoupling(Declared):
-    """A known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation.
+    """Known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation.
 
     See Also
     --------

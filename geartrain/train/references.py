@@ -26,7 +26,9 @@ def _cases(train: Train) -> Iterator[tuple[Loc, Train | State]]:
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Yield problems of inputs with and without units in one train; inputs of 0 are compatible with both."""
+    """Yield problems of inputs with and without units in one train, and of inputs per time if the train's unit is not a
+    time. Inputs of 0 may have a unit or not.
+    """
     inputs = [
         ((*loc, "inputs", link), speed) for loc, part in _cases(train) for link, speed in (part.inputs or {}).items()
     ]
@@ -36,7 +38,9 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
         return
     if plain is not None:
         why = f"'{plain[1]}' is a number without a unit and '{named[1]}' has a unit"
-        yield Problem("inputs mix units", why, "give all inputs a unit, or none", train.place(*plain[0]))
+        yield Problem(
+            "inputs with and without units are mixed", why, "give all inputs a unit, or none", train.place(*plain[0])
+        )
     if train.unit is not None and train.unit_days is None:
         what = f"the input '{named[1]}' does not match the unit of the train"
         why = f"the input is a speed per time, but `unit` is one turn per {train.unit.per}, which is not a time"
@@ -45,7 +49,7 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
 
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
-    """Yield a problem if torques with and without units are mixed; torques of 0 are compatible with both."""
+    """Yield a problem if torques with and without units are mixed; torques of 0 may have a unit or not."""
     found = [
         ((*loc, "loads", link), torque) for loc, part in _cases(train) for link, torque in (part.loads or {}).items()
     ]
@@ -56,7 +60,7 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
         if named is not None and torque.unit is None and torque.value:
             why = f"'{named}' has a unit, this value has none"
             fix = "give all loads, bearings and drives a unit, or none"
-            yield Problem(f"torques mix units: '{torque}'", why, fix, train.place(*loc))
+            yield Problem(f"torques with and without units are mixed: '{torque}'", why, fix, train.place(*loc))
             return
 
 
@@ -78,14 +82,17 @@ _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """Yield a problem for each target that is not in the table, or whose dimension differs from the train's unit."""
+    """Yield a problem if a target is not in the table or is a count, or if its dimension differs from the train's
+    unit.
+    """
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)
         if row is None:
             what = f"unknown astronomical period '{target.name}'"
+            # a name that begins with a digit was probably meant as a speed or a period
             fix = _TARGET_KEYS if re.match(r"[\d+-]", target.name) else suggested_period(target.name)
-            yield Problem(what, "a target that is a text is a name in the table of periods", fix, place)
+            yield Problem(what, "a target given as a string is a name in the table of periods", fix, place)
             return
         if row.kind == "count":
             yield Problem(
@@ -95,6 +102,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
                 place,
             )
             return
+        # speeds of the table are in turns per year
         if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
             yield Problem(
                 f"'{target.name}' is a speed per year",
@@ -109,14 +117,14 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             yield Problem(
                 f"the target '{target.period}' is a length",
                 "the train's unit is not a length",
-                "add for example `unit: {per: 18 ft}`",
+                "for example, add `unit: {per: 18 ft}`",
                 place,
             )
     elif target.speed is None and train.unit_days is None:
         yield Problem(
             "a period cannot be a target of this train",
             "the train's unit is not a time" if train.unit else "the train has no unit of time",
-            "add for example `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
+            "for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
             place,
         )
 
@@ -127,7 +135,7 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
         yield Problem(
             "the epoch needs a unit of time",
             f"`unit` converts turns to days; {f'{train.unit.per} is not a time' if train.unit else 'none is declared'}",
-            "add for example `unit: {per: year_tropical_J2000}`",
+            "for example, add `unit: {per: year_tropical_J2000}`",
             train.place("epoch"),
         )
 
@@ -137,8 +145,8 @@ def _suggested_unit(train: Train, per: str) -> str:
     number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
     if name in ("rpm", "turn/s", "deg/s", "rad/s"):
         link = next(iter(train.inputs), "sun")
-        return f"leave `unit` out, and write inputs with their unit: `inputs: {{{link}: 30 {name}}}`"
-    otherwise = f"write for example `unit: {{per: {number.strip() or 1} h}}`; units: {units_of('time or length')}"
+        return f"omit `unit`, and write inputs with their unit: `inputs: {{{link}: 30 {name}}}`"
+    otherwise = f"for example, write `unit: {{per: {number.strip() or 1} h}}`; units: {units_of('time or length')}"
     return otherwise if number.strip() else suggest(name, period_table(), otherwise=otherwise, wide=True)
 
 
@@ -180,7 +188,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
                 (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:
         yield Problem(
-            "lengths mix numbers without a unit and units",
+            "lengths with and without units are mixed",
             f"`{dotted(named[0])}` has a unit, this value has none",
             "give all lengths a unit, or none",
             train.place(*plain[0]),
@@ -216,11 +224,12 @@ _HOMES = {
     "dial": "dials: {{{}: {{}}}}",
     "source": "sources: {{{}: author and year}}",
 }
-"""Declarations of the parts to which others refer by name."""
+"""Templates of the declarations of parts to which other parts refer by name."""
 
 
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
     names = list(known)
+    # a long list of names would hide the fix
     few = f"use one of: {', '.join(names)}; or " if 0 < len(names) <= 12 else "correct the name, or " if names else ""
     link = next((link for link in train.links if link != train.frame), train.frame)
     if kind == "link" and name in train.wheels:
@@ -335,6 +344,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
                     yield _unknown_wheel(train, wheel, at)
             continue
         (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
+        # fast path for nearly all pairs: spur wheels on two links, at most one of them a ring
         if link_1 != link_2 and wheel_1.kind == wheel_2.kind == "spur" and not (wheel_1.internal and wheel_2.internal):
             continue
         place = train.place("gears", at, "pair")
@@ -370,7 +380,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
 def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
     return Problem(
         f"{kind} '{name}' is declared twice",
-        "pairs and couplings share one set of ids",
+        "the ids of all pairs and couplings must be different",
         "give one of them another `id`",
         train.place(*loc),
     )
@@ -402,7 +412,9 @@ def _unresolved(train: Train) -> Iterator[Problem]:
 
 
 def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
-    """Yield the kind, name (None if none is given) and path of references, except those of turning and gear pairs."""
+    """Yield the kind, name (None if none is given) and path of all references except the references of turning and gear
+    pairs.
+    """
     loc: Loc
     for at, coupling in enumerate(train.couplings):
         yield "link", coupling.pin, ("couplings", at, "pin")
@@ -473,7 +485,12 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from rates(train)
     if train.escapement is not None and train.escapement.link == train.frame in train.links:
         what = f"the escapement is on the frame '{train.frame}', which does not turn"
-        yield Problem(what, "", "name the link of the escape wheel", train.place("escapement", "link"))
+        yield Problem(
+            what,
+            "an escapement acts on a link that turns",
+            "name the link of the escape wheel",
+            train.place("escapement", "link"),
+        )
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:

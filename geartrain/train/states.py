@@ -1,6 +1,6 @@
 """Operation of a train: clutches, states, drives, and all prescriptions of one state.
 
-Drives run a train in time: a hand, a spring, a falling weight, an escapement.
+A drive moves the train in time-domain simulations: a hand, a spring, a falling weight, an escapement.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class SpringDrive(Declared):
     Drive : its field `spring`
     """
 
-    stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
+    stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 0.02 N m/rad")] = Field(
         description="Torsional stiffness: torque per radian of winding"
     )
     turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
@@ -77,7 +77,7 @@ class HandDrive(Declared):
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
     rate: Speed | None = Field(None, description="Speed that the hand keeps")
-    stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
+    stiffness: Annotated[TorsionalStiffness, above_zero("give a stiffness such as 5 N m/rad")] | None = Field(
         None, description="Torque per radian by which the crank lags behind the hand; default rigid"
     )
     inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
@@ -100,7 +100,7 @@ _KINDS = ("rate", "torque", "weight", "spring", "hand")
 
 
 class Drive(Declared):
-    """Drive of the train for simulations in time, declared by exactly one of rate, torque, weight, spring and hand.
+    """Drive of the train for time-domain simulations, declared by exactly one of rate, torque, weight, spring and hand.
 
     A drive acts at the link where power enters, which is `crank` or by default the input, in the direction in which
     this link turns. A rate is the mean speed of the input, like the train's `rate`. If `crank` is another link, its
@@ -198,6 +198,7 @@ class Escapement(Declared):
     def _check_pendulum(self) -> Escapement:
         """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
         if self.pendulum is not None:
+            # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.si / length - 1) > _NEAR:
                 raise PydanticCustomError(
@@ -273,7 +274,7 @@ class State(Declared):
 
 
 class Erratum(Declared):
-    """An error in a published source."""
+    """Error in a published source, with the correct value and the evidence for it."""
 
     place: Id = Field(description="Page or table of the source")
     printed: Id = Field(description="Printed value or statement")
@@ -323,19 +324,21 @@ class StateCase(Shown):
     loc: Loc
     """Path of the keys that declare the inputs."""
     engaged: tuple[str, ...]
-    """Names of closed clutches and brakes."""
+    """Names of engaged clutches and brakes."""
     clutches: Mapping[tuple[str, ...], str]
     """Fixed link, or pair of locked links -> name of the brake or clutch that fixes or locks them."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     """Torques on links; positive if they supply power to the train."""
     solve_for: str | None = None
-    """Link whose torque is unknown."""
+    """Link whose torque is unknown; None if none is declared."""
     exact: bool = True
     """False if radians were converted to turns, or turns to radians, which is done with 50 digits."""
     drive: Drive | None = None
-    """Drive in time: the drive of the state, otherwise of the train, otherwise the train's `rate`."""
+    """Drive in force: the drive of the state, otherwise of the train, otherwise the train's `rate`; None if none is
+    declared.
+    """
     rate: Quantity | None = None
-    """Speed of the input in real time, if it is given by `drive` or the train's `rate`."""
+    """Speed of the input in real time, from the drive or the train's `rate`; None if it is not given."""
     expect: ExpectedVerdict = "determined"
     """Expected kind of verdict, which is not reported as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
@@ -385,6 +388,7 @@ class StateCase(Shown):
         *links : str
             One link that is fixed, or two that are locked together.
         """
+        # an indirect brake or lock is described by the declaration that causes it
         links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""
         return (

@@ -1,7 +1,7 @@
 """Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and
 fix.
 
-`revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the others.
+`revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the other links.
 `gears: [s ~ p]`: a pair of two wheels.
 """
 
@@ -97,6 +97,7 @@ def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
     """
     if sum(_size(part) for part in data.values()) < _LARGE:
         return None
+    # known keys first: unknown keys must not displace them from the head
     known = {key: data[key] for key in Train.model_fields if key in data}
     return {key: _first(part) for key, part in (known | dict(islice(data.items(), _HEAD))).items()}
 
@@ -149,7 +150,7 @@ def _union_tags(kind: Any) -> tuple[Any, ...]:
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Return every friction law by its tag."""
+    """Return a mapping from tag to class of every friction law."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
@@ -160,7 +161,7 @@ _SHAPES: dict[str, tuple[str, type]] = {
     "model_type": ("a mapping of keys to values", dict),
     "tuple_type": ("a list in brackets", list),
     "list_type": ("a list in brackets", list),
-    "string_type": ("a text or a number", str),
+    "string_type": ("a string or a number", str),
     "too_long": ("a shorter list", list),
     "too_short": ("a longer list", list),
 }
@@ -170,9 +171,10 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     loc: Loc = error["loc"]
     kind, context = error["type"], error.get("ctx", {})
     key = str(loc[-1]) if loc else ""
+    # YAML reads `key:value` without a space as a single key
     if kind in ("extra_forbidden", "missing") and (joined := _without_space(loc, error["input"])):
         fix = f"write `{joined.replace(':', ': ', 1)}`"
-        what, why = f"no space after the colon in `{joined}`", "without it the colon is part of the key"
+        what, why = f"no space after the colon in `{joined}`", "without a space the colon is part of the key"
         return Problem(what, why, fix, place(loc))
     if kind == "extra_forbidden":
         allowed = tuple(_keys_at(loc[:-1]))
@@ -207,7 +209,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
 
         shape, of = _SHAPES[kind]
         line = _wheel_pair(error["input"]) if _is_wheel_pair(loc) else example_line(loc, of)
-        fix = f"write for example `{line}`" if line else f"write {shape}"
+        fix = f"for example, write `{line}`" if line else f"write {shape}"
         return Problem(f"{_where(loc)} is not {shape}", got, fix, place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
@@ -269,7 +271,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
 
 
 def _step(kind: Any, step: str | int) -> Iterator[Any]:
-    """Yield the models below `kind` after one step; the tag of a union is not a step."""
+    """Yield the models that follow `kind` after one step of a path; the tag of a union is not a step."""
     if isinstance(step, str) and step in kind.model_fields:
         yield from _models_in(kind.model_fields[step].annotation)
     else:
@@ -344,13 +346,15 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
         names = [*texts(listed[0]), "a", "b"][:2]
         several = len(listed) > 1
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
-        fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
+        fix = f"write `{form.format(*names)}`" + (", and the other entries likewise" if several else "")
         yield Problem(what, f"each entry has the form `{form.format('a', 'b')}`", fix, listed[0].place)
 
 
 def _single_link(axis: str, place: str) -> Problem:
-    why = "its list begins with the link that carries the others"
-    return Problem(f"axis '{axis}' has fewer than two links", why, f"write for example `{axis}: [frame, arbor]`", place)
+    why = "its list begins with the link that carries the other links"
+    return Problem(
+        f"axis '{axis}' has fewer than two links", why, f"for example, write `{axis}: [frame, arbor]`", place
+    )
 
 
 def _joints(joints: YamlNode) -> Iterator[YamlNode]:
@@ -367,8 +371,9 @@ def _wheels(text: str) -> list[str]:
 
 
 def _invalid_pair(gear: YamlNode) -> Problem:
+    # separators that are written by mistake instead of a tilde
     names = re.split(r"\s*[-,/]\s*|\s+", gear.value.strip())
-    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "write for example `sun ~ planet`"
+    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "for example, write `sun ~ planet`"
     why = "a pair is two wheels with a tilde between them"
     return Problem(f"'{gear.value}' is not a gear pair", why, fix, gear.place)
 

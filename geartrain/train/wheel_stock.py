@@ -1,4 +1,4 @@
-"""Blank of a wheel: thickness, face width and material, by default those of the train."""
+"""Blank of a wheel: thickness, face width and material, by default the values of the train."""
 
 from __future__ import annotations
 
@@ -13,12 +13,16 @@ if TYPE_CHECKING:
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the thickness of a wheel along its axis, by default its face width; None if neither is declared."""
+    """Return the thickness of a wheel along its axis: its thickness, else its face width, else these values of the
+    train; None if none is declared.
+    """
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the face width of a wheel, by default its thickness; None if neither is declared."""
+    """Return the face width of a wheel: its face width, else its thickness, else these values of the train; None if
+    none is declared.
+    """
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 

@@ -1,6 +1,6 @@
 """YAML 1.2 (core schema) as nodes with line numbers.
 
-Every scalar is kept as text, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
+Every scalar is kept as a string, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
 becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
 rejected. Plain Python data can be converted to nodes as well, and a declaration can be written as YAML text.
 """
@@ -27,10 +27,10 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(slots=True)
 class YamlNode:
-    """A mapping, a list, a scalar or null, with the place where it was written."""
+    """Mapping, list, scalar or null of a YAML document, with the place where it was written."""
 
     value: Any
-    """Value. Scalars of a file are kept as text; scalars of plain data are the given objects."""
+    """Value. Scalars of a file are strings; scalars of plain data are the given objects."""
     place: str
     keys: dict[str, str] = field(default_factory=dict)
     """Place of each key of a mapping."""
@@ -53,7 +53,7 @@ class YamlNode:
         return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
 
     def plain(self) -> Any:
-        """Return the data without their places."""
+        """Return the node as plain Python data, without the places."""
         if isinstance(self.value, dict):
             return {key: node.plain() for key, node in self.value.items()}
         if isinstance(self.value, list):
@@ -74,7 +74,9 @@ class YamlNode:
 
 
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError`."""
+    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError` for invalid
+    YAML.
+    """
     builder = _Builder(name)
     try:
         for event in yaml.parse(text, Loader=_Loader):
@@ -127,19 +129,23 @@ class _Builder:
         self.values = self.expanded = 0
 
     def take(self, event: yaml.Event) -> None:
-        """Process one event of the parser."""
+        """Process one event of the parser. Raises `DeclarationError` for content that exceeds a limit or cannot be read
+        further.
+        """
         self.values += 1
         if self.values > MOST_VALUES:
             why = f"a file has at most {MOST_VALUES} values"
             raise DeclarationError(
                 Problem("the file is too large", why, "build the train in Python with `GearTrain.declare`", self.name)
             )
+        # stops early, because a large file that is wrong can have millions of problems
         if len(self.problems) > MOST_REPORTED + 1:
             raise DeclarationError(self.problems)
         place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
         match event:
             case yaml.ScalarEvent():
                 self._check_tag(event.tag, place)
+                # only an unquoted null becomes None: "null" in quotes is a string
                 plain = event.implicit[0] and event.value in _NULLS and event.style in (None, "")
                 self._put(YamlNode(None if plain else event.value, place), event.anchor, place)
             case yaml.MappingStartEvent() | yaml.SequenceStartEvent():
@@ -159,7 +165,12 @@ class _Builder:
                 self._put(self._alias(event.anchor, place), None, place)
             case yaml.DocumentStartEvent() if self.root is not None:
                 raise DeclarationError(
-                    Problem("a second document begins", "a file declares one train", "split the file", place)
+                    Problem(
+                        "a second document begins",
+                        "a file declares one train",
+                        "declare each train in its own file",
+                        place,
+                    )
                 )
 
     def _alias(self, anchor: str | None, place: str) -> YamlNode:
@@ -209,6 +220,7 @@ class _Builder:
                 self.problems.append(
                     Problem(f"{text} is used as a key", "keys are names", "quote it, or give a name", place)
                 )
+            # a unique substitute for an invalid key, so that parsing continues and collects further problems
             key = node.text if isinstance(node.value, str) else f"?{place}"
             pending[0] = (key, place)
         else:
@@ -218,8 +230,8 @@ class _Builder:
                 self.problems.append(
                     Problem(
                         f"key '{key}' is given twice",
-                        f"it is also at {parent.keys[key]}, and one would be lost",
-                        "rename or remove one",
+                        f"it is also at {parent.keys[key]}, and one of the two values would be lost",
+                        "rename or remove one of the two keys",
                         key_place,
                     )
                 )
@@ -271,7 +283,7 @@ def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
 
 
 def texts(node: YamlNode | None) -> Iterator[str]:
-    """Return an iterator over the texts of a list node."""
+    """Return an iterator over the scalars of a list node as strings; it is empty for None."""
     return (item.text for item in node.items) if node else iter(())
 
 

@@ -1,8 +1,7 @@
-"""Local web server for the page of a train that is being edited; the page is rebuilt when a file of the train is
-saved.
+"""Local web server for the page of a train that is being edited; the page is rebuilt when a file of the train is saved.
 
-One page shows the report and the animated train side by side. It keeps a connection to the server; when a new version
-is announced, both are reloaded, and camera, crank and selected state are restored.
+One page shows the report and the animated train side by side. It keeps a connection to the server. When a new version
+is announced, report and view are reloaded, and camera, crank and selected state are restored.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ _LOCAL = "127.0.0.1"
 
 @dataclass(frozen=True, slots=True)
 class LivePages:
-    """Pages of a train as complete HTML documents."""
+    """Report and animated view of a train, each as a complete HTML document."""
 
     report: str
     view: str
@@ -50,7 +49,7 @@ class LiveServer:
     MissingExtraError
         If tornado or watchdog is not installed.
     QuestionError
-        If the port is in use.
+        If the port is in use or not a valid port.
     """
 
     def __init__(self, make: Callable[[], LivePages], watched: Callable[[], Iterable[Path]], port: int = 0) -> None:
@@ -67,20 +66,23 @@ class LiveServer:
         try:
             self._sockets = tornado.netutil.bind_sockets(port, _LOCAL)
         except (OSError, OverflowError) as error:
-            fix = "give another --port, or omit it"
+            fix = "give another --port, such as --port 0 for any free port"
             raise QuestionError(Problem(f"port {port} cannot be used", str(error), fix)) from None
 
     @property
     def address(self) -> str:
-        """URL of the page."""
+        """URL of the outer page."""
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages; if the train has errors, keep the last pages and store the message."""
+        """Rebuild the pages and count the version; if the train has errors, keep the last pages and store the error
+        message.
+        """
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
             self.error = str(error)
+        # counted after an error too, so that open pages show the message
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
@@ -173,8 +175,9 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page: its script, frames of this server, and the web
-        socket to it.
+        """Return the content security policy of the outer page.
+
+        It permits the script of the page, frames of this server, and the web socket to this server.
         """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]

@@ -29,7 +29,8 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
     "\u2028": "\\u2028",
     "\u2029": "\\u2029",
 }
-"""Escapes of characters that could end a script element or start another; in JSON they have the same meaning."""
+"""Escapes of characters that could end a script element or start another; in JSON strings they have the same meaning.
+"""
 
 
 _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
@@ -76,9 +77,9 @@ def page(
     if len(scenes) < 1 + compare:
         raise QuestionError(
             Problem(
-                "too few scenes for a page",
-                f"{len(scenes)} scenes are given",
-                "pass one scene, or two with compare=True",
+                "there are too few scenes for a page",
+                f"a page requires at least one scene, or two to compare, and the number given is {len(scenes)}",
+                "pass at least one scene, or at least two with compare=True",
             )
         )
     # the default layout needs no entry
@@ -139,7 +140,7 @@ class EmbeddedPage:
     train: GearTrain
     """Train that the page shows."""
     state: str | None = None
-    """Name of the state that the page shows; by default the viewer can select any state."""
+    """Name of the state that the page shows; by default the user can select any state."""
     height: int = 620
     """Height of the frame [px]."""
 
@@ -177,21 +178,23 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
 
 
 def json_in_script(data: object) -> str:
-    """Return JSON text that is safe inside a script element, whatever characters its strings contain."""
+    """Return data as a JSON string that is safe inside a script element, whatever characters its strings contain."""
     # NaN is not valid JSON
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.translate(str.maketrans(_IN_SCRIPTS))
 
 
 def _words(scene: Scene) -> str:
-    """Return the HTML text for browsers that run no scripts: title, state and verdict."""
+    """Return the HTML for browsers that run no scripts: title, state and verdict of a scene."""
     state = f" ({scene.state})" if scene.state else ""
     verdict = scene.verdict.get("text", "")
     return f"<h1>{escape(scene.title or scene.name)}{escape(state)}</h1>\n<p>{escape(str(verdict))}</p>"
 
 
 def own_script_only(program: str) -> str:
-    """Return a content security policy that permits styles and one script, identified by its hash, but no images."""
+    """Return a content security policy that permits inline styles and one script, identified by its hash, and no
+    images.
+    """
     digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
     allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'"
     return f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"

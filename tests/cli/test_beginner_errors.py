@@ -22,30 +22,30 @@ MISTAKES = r"""
 # a unit that is misspelt: |links:|unit: {per: 12 hrs}\nlinks:|
 error: my.yaml:1: '12 hrs' is not a unit
   why: `per` is a time, a length, or a period listed by `geartrain periods`
-  fix: write for example `unit: {per: 12 h}`; units: m, cm, mm, um, in, ft, km, mile, s, min, h, d
+  fix: for example, write `unit: {per: 12 h}`; units: m, cm, mm, um, in, ft, km, mile, s, min, h, d
 
 # a unit without `per`: |links:|unit: 12 h\nlinks:|
 error: my.yaml:1: `unit` is not a mapping of keys to values
   why: the given value is '12 h'
-  fix: write for example `unit: {per: 12 h}`
+  fix: for example, write `unit: {per: 12 h}`
 
 # a speed as the unit: |links:|unit: {per: rpm}\nlinks:|
 error: my.yaml:1: 'rpm' is not a unit
   why: `per` is a time, a length, or a period listed by `geartrain periods`
-  fix: leave `unit` out, and write inputs with their unit: `inputs: {a: 30 rpm}`
+  fix: omit `unit`, and write inputs with their unit: `inputs: {a: 30 rpm}`
 
 # no unit: |expect: -1/3|targets: [{period: 3 d}]|
 error: my.yaml:8: a period cannot be a target of this train
   why: the train has no unit of time
-  fix: add for example `unit: {per: 1 d}`: a speed of 1 is then one turn per day
+  fix: for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day
 
 # a length without unit: |{p: 20}|{p: {teeth: 20, thickness: 3}}|
 error: my.yaml:3: `links.a.wheels.p.thickness`: '3' has no unit
-  fix: write for example '3 mm'; units: m, cm, mm, um, in, ft, km, mile
+  fix: for example, write '3 mm'; units: m, cm, mm, um, in, ft, km, mile
 
 # the unit of an input: |{a: 1}|{a: 30 1/min}|
 error: my.yaml:7: `inputs.a`: '30 1/min' has an unknown unit
-  fix: write for example '30 rpm'; units: rpm, turn/s, turn/min, turn/h, turn/d, deg/s, rad/s
+  fix: for example, write '30 rpm'; units: rpm, turn/s, turn/min, turn/h, turn/d, deg/s, rad/s
 
 # an unknown parent: |links:|extends: planetery\nlinks:|
 error: my.yaml:1: `extends` names the unknown parent 'planetery'
@@ -55,7 +55,7 @@ error: my.yaml:1: `extends` names the unknown parent 'planetery'
 # no turning pairs: |revolutes: {A: [frame, a], B: [frame, b]}\n||
 error: my.yaml:1: no turning pair is declared
   why: every link but 'frame' turns on an axis that another link carries
-  fix: add for example `revolutes: {A: [frame, a]}`, with an entry for each axis
+  fix: for example, add `revolutes: {A: [frame, a]}`, with an entry for each axis
 
 # no fixed link: |  frame: {}\n||
 error: my.yaml:1: no link 'frame'
@@ -85,7 +85,7 @@ error: my.yaml:6: 'p-w' is not a gear pair
 # pairs that are not a list: |[p ~ w]|p ~ w|
 error: my.yaml:6: `gears` is not a list in brackets
   why: the given value is 'p ~ w'
-  fix: write for example `gears: [m ~ h]`
+  fix: for example, write `gears: [m ~ h]`
 
 # links instead of wheels: |[p ~ w]|[a ~ w]|
 error: my.yaml:6: no wheel 'a'
@@ -95,7 +95,7 @@ error: my.yaml:6: no wheel 'a'
 # a carrier without turning pair: |  b: {wheels|  carrier: {}\n  b: {wheels|
 error: my.yaml:4: link 'carrier' is not joined to the frame
   why: no chain of turning pairs leads from it to 'frame'
-  fix: add it to an axis of `revolutes`, or an axis of its own: `carrier: [frame, carrier]`
+  fix: add it to an axis of `revolutes`, or declare an axis of its own: `carrier: [frame, carrier]`
 
 # teeth in words: |p: 20|p: twenty|
 error: my.yaml:3: `links.a.wheels.p.teeth`: 'twenty' is not a tooth count
@@ -113,7 +113,7 @@ error: my.yaml:3: unknown key 'teeth'
 # a link as a number: |a: {wheels: {p: 20}}|a: 20|
 error: my.yaml:3: `links.a` is not a mapping of keys to values
   why: the given value is '20'
-  fix: write for example `a: {wheels: {m: 6}}`
+  fix: for example, write `a: {wheels: {m: 6}}`
 
 # no input: |inputs: {a: 1}\n||
 my: free: 1 degree of freedom and no input: speeds of a, b are undetermined; prescribe an input, such as a (my.yaml:1)
@@ -132,7 +132,7 @@ error: my.yaml:8: no link 'hour'
 # outputs as a list: |outputs: {b: {expect: -1/3}}|outputs: [b]|
 error: my.yaml:8: `outputs` is not a mapping of keys to values
   why: the given value is ['b']
-  fix: write for example `outputs: {hour: {expect: -1}}`
+  fix: for example, write `outputs: {hour: {expect: -1}}`
 
 # a tab: |  a: {wheels|\ta: {wheels|
 error: my.yaml:3: the line contains a tab
@@ -151,18 +151,18 @@ error: my.yaml:3: invalid YAML syntax
 
 # no space after a colon: |{p: 20}|{p:20}|
 error: my.yaml:3: no space after the colon in `p:20`
-  why: without it the colon is part of the key
+  why: without a space the colon is part of the key
   fix: write `p: 20`
 
 # a key twice: |inputs: {a: 1}|inputs: {a: 1}\ninputs: {b: 1}|
 error: my.yaml:8: key 'inputs' is given twice
-  why: it is also at my.yaml:7, and one would be lost
-  fix: rename or remove one
+  why: it is also at my.yaml:7, and one of the two values would be lost
+  fix: rename or remove one of the two keys
 
 # a pair with a tilde as the value of `pair`: |gears: [p ~ w]|gears: [{pair: p ~ w, efficiency: 0.98}]|
 error: my.yaml:6: `gears[0].pair` is not a list in brackets
   why: the given value is 'p ~ w'
-  fix: write for example `pair: [p, w]`
+  fix: for example, write `pair: [p, w]`
 
 # a pair that has only an id: |gears: [p ~ w]|gears: [{id: p~w, efficiency: 0.98}]|
 error: my.yaml:6: key 'pair' is missing
@@ -180,7 +180,7 @@ error: my.yaml:7: `inputs.a`: '1 turn/year' has an unknown unit
 
 # a target that is a number: |expect: -1/3|targets: [5/19]|
 error: my.yaml:8: unknown astronomical period '5/19'
-  why: a target that is a text is a name in the table of periods
+  why: a target given as a string is a name in the table of periods
   fix: write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`, turns as `{name: NAME, turns: 5}`
 
 # a key that is misspelt: |inputs:|input:|
@@ -230,7 +230,7 @@ def test_a_name_without_its_suffix_is_explained() -> None:
     Path("my.yaml").write_text(SOUND, encoding="utf-8")
     done = ended("solve", "my")
     assert done.returncode == 2
-    assert "fix: this folder has my.yaml: write that name" in done.stderr
+    assert "fix: give the name with its suffix: my.yaml" in done.stderr
 
 
 @pytest.mark.parametrize("command", ["view", "report", "compare"])

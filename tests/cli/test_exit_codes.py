@@ -230,7 +230,7 @@ def test_a_journal_of_another_question_is_refused_and_kept(
     code, out, err = run(*CUT, "--trials", "2", "--seed", "8", "--resume")
     assert (code, out) == (2, "")
     assert "the journal belongs to another run" in err
-    assert "seed is 7 there and 8 here" in err
+    assert "seed is 7 in the journal and 8 in this run" in err
     assert kept.name in err
     assert kept.read_bytes() == text
     assert run(*CUT, "--trials", "2", "--seed", "8")[0] == 0, "begun anew without --resume"

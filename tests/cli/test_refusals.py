@@ -44,11 +44,11 @@ posterior doubt.yaml -o out.stl | -o: '.stl' is not an output format of this opt
 teeth ratio 13.3683x | only one count
 teeth ratio months_per_yea | did you mean
 teeth ratio 3 --range 5:2 | reversed
-teeth set 3 --kind planetry | unknown kind
+teeth set 3 --kind planetry | 'planetry' is not a kind
 teeth ratio 3 --sort size | not an order
 teeth ratio 3 --tolerance -1 | tolerance
 teeth train hands.yaml --free nut,screw | screw
-teeth train hands.yaml --where nut | wheel=32
+teeth train hands.yaml --where nut | W=32
 teeth ratio 3 -o x.yaml | as a declaration
 teeth orrery moon=29.5 29.5 | moon=29.53
 teeth orrery venus=venus_synodic_per_year_289_in_462 | is a speed, not a period

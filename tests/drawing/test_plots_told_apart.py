@@ -215,7 +215,7 @@ def test_of_outputs_without_error_no_flat_error_is_drawn() -> None:
 def test_outputs_without_error_that_are_left_out_are_told() -> None:
     figure = motion_figure(MotionRun(load("price-1974").motion(), 0.02, 21), title="price-1974")
     said = " ".join(figure.get_suptitle().split())
-    assert said == "price-1974; every output moves uniformly; 8 outputs are left out: select them with --of"
+    assert said == "price-1974; every output moves uniformly; 8 outputs are omitted: select them with --of"
     assert len([axes for axes in figure.axes if axes.axison]) == 12
 
 

@@ -81,7 +81,7 @@ def test_without_axes_all_axes_are_parallel_and_the_default_direction_is_z() -> 
         ("{A: {direction: [1, 0]}}", "direction"),
         ("{A: {position: [0 mm, 1 mm, 0 kg]}}", "is a mass, but a length is required"),
         ("{A: {position: [0 mm, 1 mm, 0 parsec]}}", "unknown unit"),
-        ("{A: {position: [1 mm, 0, 0]}, B: {position: [1, 0, 0]}}", "lengths mix"),
+        ("{A: {position: [1 mm, 0, 0]}, B: {position: [1, 0, 0]}}", "lengths with and without units"),
     ],
 )
 def test_axes_that_make_no_sense_are_refused(axes: str, said: str) -> None:

@@ -113,7 +113,7 @@ def test_neighbours_of_the_textbook_planetary(number: int) -> None:
     if number == 5:
         assert "1/84 turn" in words(train)
         assert "use 2, 3, 4 or 6 planets, which can be evenly spaced" in words(train)
-        assert "space them by 16 and 17 of these steps (4 times 17)" in words(train)
+        assert "space neighbours by 16 or 17 of these steps (4 of the gaps with 17)" in words(train)
     if number == 7:
         assert "overlap by 3.554 mm" in words(train)
         assert "at most 6" in words(train)

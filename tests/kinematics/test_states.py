@@ -74,7 +74,7 @@ def test_engaged_clutches_add_to_what_is_fixed() -> None:
 
 def test_a_train_with_states_must_be_requested_for_one_of_them() -> None:
     train = load(FREE_SET.format(rest=STATES))
-    with pytest.raises(GearTrainError, match="name one of: low, high"):
+    with pytest.raises(GearTrainError, match="give one of these states: low, high"):
         train.solve()
     with pytest.raises(GearTrainError, match="has no state 'medium'"):
         train.solve("medium")

@@ -397,13 +397,13 @@ def test_a_journal_is_a_text_that_a_reader_can_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("theirs", "ours", "said"),
     [
-        ({"a": 1, "w": [15, 16]}, {"a": 1, "w": [15, 17]}, "w[1] is 16 there and 17 here"),
-        ({"a": {"b": "x"}}, {"a": {"b": "y"}}, 'a.b is "x" there and "y" here'),
-        ({"a": 1}, {"a": 1, "c": 2}, "c is only here"),
-        ({"a": 1, "c": 2}, {"a": 1}, "c is only there"),
-        ({"w": [1, 2]}, {"w": [1, 2, 3]}, "w has 2 entries there and 3 here"),
-        ({"a": 1}, {"a": True}, "a is 1 there and true here"),
-        ({"a": None}, {"a": {}}, "a is null there and {} here"),
+        ({"a": 1, "w": [15, 16]}, {"a": 1, "w": [15, 17]}, "w[1] is 16 in the journal and 17 in this run"),
+        ({"a": {"b": "x"}}, {"a": {"b": "y"}}, 'a.b is "x" in the journal and "y" in this run'),
+        ({"a": 1}, {"a": 1, "c": 2}, "c is only in this run"),
+        ({"a": 1, "c": 2}, {"a": 1}, "c is only in the journal"),
+        ({"w": [1, 2]}, {"w": [1, 2, 3]}, "w has 2 entries in the journal and 3 in this run"),
+        ({"a": 1}, {"a": True}, "a is 1 in the journal and true in this run"),
+        ({"a": None}, {"a": {}}, "a is null in the journal and {} in this run"),
     ],
 )
 def test_another_question_is_refused_with_the_first_difference(
@@ -670,7 +670,7 @@ def test_a_cluster_of_another_version_is_refused(cluster: Any, monkeypatch: pyte
     monkeypatch.setattr("geartrain.numerics.work.cluster.version", lambda _: "9.9" if os.getpid() == here else "9.8")
     with pytest.raises(GearTrainError, match=r"runs another version of geartrain than 9\.9") as caught:
         dask_pool(cluster.scheduler_address)
-    assert caught.value.problems[0].why == "it runs 9.8"
+    assert caught.value.problems[0].why == "its workers run 9.8"
     assert "9.9" in caught.value.problems[0].fix
 
 

@@ -369,7 +369,7 @@ def test_a_radius_is_a_length_where_modules_are() -> None:
     assert not passed(rules, z1=75, z2=75, z3=41, z4=40)
     with pytest.raises(QuestionError, match="cannot be compared with 30"):
         rules_of(data, largest_radius=length("30"))
-    with pytest.raises(QuestionError, match="its module is not declared"):
+    with pytest.raises(QuestionError, match="the module of the wheel is not declared"):
         rules_of(reverted([None] * 4), largest_radius=length("30 mm"))
 
 

@@ -464,7 +464,7 @@ MISTAKES = {
     "a spread of nothing": (EVIDENCE.replace("5 %", "0 %"), "must be greater than 0"),
     "a module of nothing": (
         EVIDENCE.replace("module: 1 mm}}}", "module: 0 mm}}}"),
-        "module of 'p' must be greater than 0",
+        "module of 'p' is not greater than 0",
     ),
     "a mesh that cannot be": (EVIDENCE + "gears: [{pair: [v, x]}]\n", "the known mesh 'v~x' is impossible"),
 }

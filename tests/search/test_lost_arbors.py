@@ -160,7 +160,7 @@ def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:
     [
         ("four-gear-loop", "close a loop"),
         ("gm-4t60", "has several states"),
-        ("lantern-mill", "it has contrate wheels"),
+        ("lantern-mill", "the link has contrate wheels"),
         ("rv-reducer", "it has couplings other than pin and slot"),
     ],
 )
@@ -173,10 +173,10 @@ def test_a_train_that_is_not_taken_says_why(name: str, why: str) -> None:
     ("lost", "why"),
     [
         (["a"], "'a' carries the input"),
-        (["d"], "'d' cannot be left out"),
-        (["frame"], "'frame' cannot be left out"),
-        (["x"], "'x' cannot be left out"),
-        (["b", "b"], "'b' is left out twice"),
+        (["d"], "'d' cannot be lost"),
+        (["frame"], "'frame' cannot be lost"),
+        (["x"], "'x' cannot be lost"),
+        (["b", "b"], "'b' is lost twice"),
     ],
 )
 def test_only_arbors_of_the_tree_can_be_lost(lost: list[str], why: str) -> None:
@@ -251,13 +251,13 @@ def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
 @pytest.mark.parametrize(
     ("name", "lost", "why"),
     [
-        ("freeth-2008", ["a"], "it has contrate wheels"),
+        ("freeth-2008", ["a"], "the link has contrate wheels"),
         ("freeth-2021", ["venus"], "mean ratio is 0"),
         ("freeth-2021", ["frame"], "a reconstruction begins at the input"),
-        ("norton-compound", ["F"], "it has a ring"),
-        ("freeth-2008-doubt", ["c"], "it leads to no pointer of known speed"),
-        ("freeth-2008", ["k1", "k2"], "'k1' is left out twice"),
-        ("freeth-2008", ["c", "k1"], "'c' and 'k1' cannot be left out together"),
+        ("norton-compound", ["F"], "the arbor has a ring"),
+        ("freeth-2008-doubt", ["c"], "the link leads to no pointer of known speed"),
+        ("freeth-2008", ["k1", "k2"], "'k1' is lost twice"),
+        ("freeth-2008", ["c", "k1"], "'c' and 'k1' cannot be lost together"),
     ],
 )
 def test_what_cannot_be_lost_is_told_with_the_reason(name: str, lost: list[str], why: str) -> None:

@@ -247,7 +247,7 @@ def test_a_range_of_any_length_stays_a_range() -> None:
         ("12-40", "is not a tooth count"),
         ("12.5", "is not a tooth count"),
         ("12:40:2", "is not a tooth count"),
-        ("40:12", "write for example 12:40"),
+        ("40:12", "for example, write 12:40"),
         ("1000000000001", "tooth counts are from 1 to"),
         ("9" * 200, "is not a tooth count"),
     ],

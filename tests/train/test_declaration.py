@@ -188,7 +188,7 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
         ("{value: 60, range: [61, 65]}", "outside its range or choices"),
         ("{value: 60, range: [65, 55]}", "empty"),
         ("{value: 60, choices: [50, 55]}", "outside its range or choices"),
-        ("{value: 60, range: [59, 61], weights: [1, 2]}", "2 weights for 3 counts"),
+        ("{value: 60, range: [59, 61], weights: [1, 2]}", "2 weights are given for 3 counts"),
         ("{range: [59, 61]}", "no value"),
         ("{value: 0}", "'0' is not a tooth count"),
         ("20.0", "not a tooth count"),

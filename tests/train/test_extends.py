@@ -203,13 +203,13 @@ def test_a_turning_pair_is_removed_by_its_two_links(child: Child) -> None:
 @pytest.mark.parametrize(
     ("remove", "said"),
     [
-        ("{links: [cc]}", "`remove` names the unknown 'cc'"),
+        ("{links: [cc]}", "`remove` names the unknown part 'cc'"),
         ("{gears: [secnd]}", "did you mean 'second'"),
-        ("{wheels: [zz]}", "`remove` names the unknown 'zz'"),
-        ("{outputs: [nothing]}", "`remove` names the unknown 'nothing'"),
+        ("{wheels: [zz]}", "`remove` names the unknown part 'zz'"),
+        ("{outputs: [nothing]}", "`remove` names the unknown part 'nothing'"),
         ("{revolutes: [[a, b]]}", "an unknown turning pair of a and b"),
-        ("{couplings: [pin]}", "`remove` names the unknown 'pin'"),
-        ("{states: [s]}", "`remove` names the unknown 's'"),
+        ("{couplings: [pin]}", "`remove` names the unknown part 'pin'"),
+        ("{states: [s]}", "`remove` names the unknown part 's'"),
         ("{colours: [red]}", "colours"),
     ],
 )

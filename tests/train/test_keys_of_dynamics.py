@@ -158,7 +158,7 @@ SLIPS = {
     "drive: {wieght: 4 kg}": "did you mean 'weight'",
     "drive: {hand: {torque: 1 N m, stiffness: 2 N m/rad}}": "`stiffness` applies only to a hand with a `rate`",
     "rate: 2\ndrive: {rate: 1}": "the rate is declared twice",
-    "loads: {a: 1 N m}\ndrive: {torque: 2}": "torques mix units",
+    "loads: {a: 1 N m}\ndrive: {torque: 2}": "torques with and without units are mixed",
     "escapement: {link: c, teeth: 30, beat: 1 s}": "no link 'c'",
     "escapement: {link: frame, teeth: 30, beat: 1 s}": "which does not turn",
     "links: {a: {inertia: -1 kg m2}}": "-1 kg m2 is below 0",
@@ -190,7 +190,7 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
     assert found.restitution_of(found.couplings[0]) == 0.2
     assert "a clearance of -1 mm is negative" in refusal(train.format(text.format("-1 mm")))
     assert "passes the slot's axis" in refusal(train.format(text.format("16 mm")))
-    assert "lengths mix numbers without a unit and units" in refusal(train.format(text.format("1")))
+    assert "lengths with and without units are mixed" in refusal(train.format(text.format("1")))
 
 
 def test_editors_are_told_of_every_key() -> None:

@@ -73,15 +73,15 @@ def _incompatible_kinds(pair: PitchPair) -> Problem:
     first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
     return Problem(
         f"pair '{pair.name}': {first} meshes with {second}",
-        "bevels mesh with bevels; contrates and worms mesh with spur wheels",
-        "give both wheels kinds that mesh: both `bevel`, or one `contrate` or `worm`",
+        "bevel wheels mesh with bevel wheels; contrate wheels and worms mesh with spur wheels",
+        "declare `kind: bevel` for both wheels, or `kind: contrate` or `kind: worm` for only one of them",
         pair.place,
     )
 
 
 def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
     return Problem(
-        f"bevels '{one}' and '{other}' of one axis meet '{shared}' from the same side",
+        f"bevel wheels '{one}' and '{other}' on one axis mesh with '{shared}' from the same side",
         "their pitch cones have the same apex and axis, so the wheels would overlap",
         f"declare `facing: -1` for the wheel on the negative side of the axis, such as '{other}'",
         train.place("links", train.wheels[other][0], "wheels", other),
@@ -109,14 +109,17 @@ def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) ->
         return Problem(
             f"pair '{pair.name}': the axes '{first}' and '{second}' of two spur wheels are not parallel",
             "spur teeth touch along their width only if the axes are parallel",
-            "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
+            "make the axes parallel, or declare `kind: bevel` for both wheels, `contrate` or `worm` for one, "
+            "or a `helix_angle`",
             pair.place,
         )
     # worms and crossed helical wheels need skew axes, bevel and crown wheels intersecting axes
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
     far = f"pass each other at a distance of {offset * 1000:.6g} mm" if offset else "intersect"
-    fix = "move one of the axes" + (", or declare one wheel `kind: worm`" if offset else ", or declare both `bevel`")
+    fix = "move one of the axes" + (
+        ", or declare one wheel `kind: worm`" if offset else ", or declare both wheels `kind: bevel`"
+    )
     return Problem(
         f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}", _NEEDS[shape], fix, pair.place
     )
@@ -150,6 +153,7 @@ def _triangle(
     sizes: PitchDistances, axes: tuple[str, str, str], pairs: tuple[PitchPair, PitchPair, PitchPair]
 ) -> Iterator[BuildFinding]:
     found = [sizes.distance(pair.axis_pair) for pair in pairs]
+    # multiples of unrelated lengths cannot be compared
     if len({root for root, _ in found}) > 1:
         return
     order = sorted(range(3), key=lambda at: found[at][1])
@@ -183,8 +187,8 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes, each once for all
-    states.
+    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes. A clutch or brake that
+    occurs in several states is reported once.
     """
     reported = set()
     for case in train.cases:
@@ -204,7 +208,9 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
         fix = "lock coaxial links, or join the two by a pair of equal wheels"
     else:
         why = f"a brake acts on links that turn about an axis of the frame, and would have to block the joints {joints}"
-        fix = f"fix {' or '.join(repr(link) for link in between)} too, or instead" if between else "fix another link"
+        fix = (
+            f"fix {' or '.join(repr(link) for link in between)} as well, or instead" if between else "fix another link"
+        )
     what = f"{case.says(*rigid.links)} across the axes {axes}"
     return Problem(what, why, fix, train.place(*rigid_place(train, case, rigid.links)))
 
@@ -215,7 +221,7 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
 def check_mates(train: Train) -> Iterator[BuildFinding]:
     """Yield findings of rule W1: wheels without a gear pair.
 
-    Wheels are exempt on a link with a pin or slot, as escape wheel, or with a note.
+    A wheel is exempt if its link has a pin or slot, if it is the escape wheel, or if it has a note.
     """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
     coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
@@ -243,7 +249,7 @@ _SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have
 def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rule P2 for non-conjugate teeth, such as triangular ones: a wheel needs the same size in both
+    """Yield findings of rule P2 for non-conjugate teeth, such as triangular teeth: a wheel needs the same size in both
     of its pairs.
     """
     free = [
@@ -263,9 +269,9 @@ def check_shared_wheels(
                 "P2",
                 "error",
                 Problem(
-                    f"pairs '{one.name}' and '{other.name}' need different distances of their axes: {first:.6g} and "
-                    f"{second:.6g} modules",
-                    f"the teeth of '{wheel}' have the same size in both, and two axes have only one distance",
+                    f"pairs '{one.name}' and '{other.name}' need different distances between their axes: {first:.6g} "
+                    f"and {second:.6g} modules",
+                    f"the teeth of '{wheel}' have the same size in both pairs, and two axes have only one distance",
                     "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with the "
                     f"same radius of '{wheel}'",
                     other.place,
@@ -313,15 +319,15 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
-"""Function that returns the outlines of the pairs with declared teeth, by name; it is called only if planets are
-compared.
+"""Function that returns the outlines of the pairs with declared teeth, by name. It is called only if equal planets, or
+two pairs that share a wheel, are compared.
 """
 
 
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """Yield the findings of all rules that need only the declaration (docs/buildability.md), ordered by rule."""
+    """Yield the findings of all rules that need only the declaration (docs/buildability.md), one rule after another."""
     yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)

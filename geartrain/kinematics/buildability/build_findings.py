@@ -10,12 +10,14 @@ from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result
 
 BuildLevel = Literal["error", "note"]
-"""Severity: an error cannot be built; a note can be built, and is inadvisable or undecided."""
+"""Severity: `error` if the train cannot be built, `note` if it can be built but is inadvisable or the rule is
+undecided.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class BuildFinding(Result):
-    """Violation of one buildability rule by a train.
+    """Violation of one buildability rule by a train: the rule, its severity and a description of the problem.
 
     `geartrain check`, reports, drawings and exports print the text of the problem.
 

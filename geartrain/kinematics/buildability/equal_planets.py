@@ -56,11 +56,11 @@ class AssemblyMesh:
     measure: Measure
     """Unit of the common module; empty if no module is declared."""
     module: Fraction | None
-    """Common module in the unit `measure`; 1 if none is declared, None if different ones are declared."""
+    """Common module in the unit `measure`; 1 if none is declared, None if different modules are declared."""
 
     @property
     def is_free(self) -> bool:
-        """True if at least one of its tooth counts is free."""
+        """True if at least one tooth count of the pair is free."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
@@ -72,7 +72,7 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet with its meshes. Planets that mesh with each other form a tree; the first one is its root."""
+    """Planet and its meshes: a node in the tree of planets that mesh with each other. The first planet is the root."""
 
     link: str
     inward: AssemblyMesh | None
@@ -120,7 +120,9 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; usually one planet."""
+    """Planets of one carrier that mesh with each other, usually one planet; the unit in which equal planets are
+    compared.
+    """
 
     carrier: str
     planets: Planet | None
@@ -190,10 +192,10 @@ class TrainAssembly:
         )
 
     def module(self, *wheels: str) -> tuple[Measure, Fraction | None]:
-        """Return the unit and value of the common module of wheels, declared for them or for wheels that must share
-        it.
+        """Return the unit and value of the common module of some wheels, declared for these wheels or for wheels that
+        must have the same module.
 
-        Without a declared module the value is 1. If different ones are declared it is None.
+        Without a declared module the value is 1. If different modules are declared it is None.
         """
         found = {one for wheel in wheels for one in self._modules.get(self.kin[wheel], ())}
         if len(found) > 1:
@@ -260,6 +262,7 @@ class TrainAssembly:
 
     def _set(self, carrier: str, links: list[str]) -> PlanetSet:
         among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]
+        # a connected graph of n planets is a tree only if it has n - 1 meshes
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
         # start at the planet whose central wheels come first, so that equal sets have isomorphic trees
@@ -317,7 +320,7 @@ class PhaseArithmetic:
     count: Callable[[CountRef], Any]
     """Function that returns the value of a tooth count: a number or an array."""
     gcd: Callable[[Any, Any], Any]
-    """Function gcd(a, b)."""
+    """Function gcd(a, b) that returns the greatest common divisor."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
     """Extended Euclidean algorithm: returns g, u, v with u a + v b = g = gcd(a, b)."""
     reduced: Callable[[Any], Any]
@@ -329,10 +332,9 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
     integer.
 
     The rotation is about the carrier's axis. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a
-    pitch (angles in
-    turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the position of another
-    set, and rotates the central wheels by t too; they must return to their positions, because they are shared. So the
-    planets must have angles phi with
+    pitch (angles in turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the
+    position of another set, and rotates the central wheels by t too; they must return to their positions, because they
+    are shared. So the planets must have angles phi with
 
         z_p phi_p + z_c t integer for every central wheel c (minus for a ring),
         z_p phi_p + z_q phi_q integer for planets that mesh.
@@ -432,6 +434,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
            (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
+    # 2 A B sin(delta), because Q = 2 A B cos(delta)
     sines = root(4 * A * A * B * B - Q * Q)
     return A * A, B * B, -c * Q, -s * sines, -tips * tips
 
@@ -519,7 +522,8 @@ class _EqualPlanets:
             return
         at = off.index(worst)
         what = (
-            f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are off by {worst:.3g} of a pitch"
+            f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are misaligned by "
+            f"{worst:.3g} pitch"
         )
         why = (
             f"relative to '{self.one.carrier}' it is {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
@@ -549,7 +553,11 @@ class _EqualPlanets:
         if not fits:
             why += "; with uneven spacing, planets would collide"
         others = f"use {_enumerated(even)} planets, which can be evenly spaced" if even else "change a tooth count"
-        spread = f"space them by {whole} and {whole + 1} of these steps ({rest} times {whole + 1}), or " if fits else ""
+        spread = (
+            f"space neighbours by {whole} or {whole + 1} of these steps ({rest} of the gaps with {whole + 1}), or "
+            if fits
+            else ""
+        )
         return BuildFinding(
             rule,
             "note" if fits or rule == "A2" else "error",
@@ -597,6 +605,7 @@ class _EqualPlanets:
         )
         if self.points is not None:
             why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
+        # evenly spaced planets of the declared number are too close, so fewer are suggested
         most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
@@ -605,6 +614,7 @@ class _EqualPlanets:
         teeth, else a note.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
+        # addendum at which the tips just touch if all undeclared teeth are shortened equally
         fits = _FULL + gap / free if free else 0.0
         if gap <= 0 and fits >= _STUB:
             what += f" unless their addenda are at most {floor(1000 * fits) / 1000:g}"
@@ -622,6 +632,7 @@ class _EqualPlanets:
         unknown.
         """
         tips = self._tip_diameter(planet, mesh)
+        # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
             module = self._module(planet.own(mesh))
             if module is None:
@@ -634,7 +645,9 @@ class _EqualPlanets:
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return whether a wheel is much larger than the distance of its axis from the carrier's axis."""
+        """Return True if a wheel is on an eccentric: the distance of its axis from the carrier's axis is less than
+        `ON_ECCENTRIC` pitch radii, but not 0.
+        """
         wheel = planet.own(mesh)
         reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
@@ -664,8 +677,8 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the tip clearance between a planet and the mates of its neighbours [modules]; None if it is
-        unknown.
+        """Return the minimum tip clearance between a planet and the mates of its neighbours [modules]; None if it is
+        unknown, for a pair with a ring, and for planets with declared positions.
         """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
@@ -694,7 +707,9 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap."""
+        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if their
+        distances are unknown.
+        """
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number

@@ -1,4 +1,4 @@
-"""Checks of modules and centre distances: wheels in mesh need one module, and axes the distances of their wheels.
+"""Checks of modules and centre distances: wheels in mesh must have the same module, and two axes one centre distance.
 
 Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance between two
 axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
@@ -39,15 +39,16 @@ def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float
     pressure   pressure angle [rad]
     h1, h2     addenda [modules]
 
-    Teeth have no backlash. The angle is negative if the corners collide: trochoid interference (Elements of
-    Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at
-    theta1 about its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from
-    the position in which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth
-    is thinner at its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 +
-    inv(alpha) - inv(alpha_a2).
+    Teeth have no backlash. The angle is negative if the corners collide: trochoid interference (Elements of Metric Gear
+    Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at theta1 about
+    its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from the position in
+    which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth is thinner at
+    its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 + inv(alpha) -
+    inv(alpha_a2).
 
-    -inf if the ring's tip circle lies within its base circle, or within the planet's tip circle. At 20 degrees and full
-    depth a ring of 34 to 77 teeth needs 9 teeth more than the planet, a larger one 8; the source gives "larger than 9".
+    The result is inf if the planet's tips never reach the ring's tip circle, and -inf if the ring's tip circle lies
+    within its base circle or within the planet's tip circle, or z2 <= z1. At 20 degrees and full depth a ring of 34 to
+    77 teeth needs 9 teeth more than the planet, a larger ring 8; the source gives "larger than 9".
     """
     r1, r2, a = z1 / 2 + h1, z2 / 2 - h2, (z2 - z1) / 2
     if a <= 0:
@@ -57,6 +58,7 @@ def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float
         return inf
     if r2 <= r1 - a or 2 * r2 < z2 * cos(pressure):
         return -inf
+    # law of cosines in the triangle of both centres and the corner; rounding may leave [-1, 1]
     theta1 = acos(max(out, -1.0))
     theta2 = acos(max(-1.0, min((a * a + r2 * r2 - r1 * r1) / (2 * a * r2), 1.0)))
     tip1, tip2 = acos(z1 * cos(pressure) / (2 * r1)), acos(min(z2 * cos(pressure) / (2 * r2), 1.0))
@@ -68,9 +70,9 @@ def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float
 def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     """Return the angle about the planet's axis by which its teeth clear the ring's teeth during radial assembly [rad].
 
-    Parameters are those of `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
-    SDP/SI equations 5-9
-    to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, one of 80 or 100 teeth 16.
+    The parameters are as in `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
+    SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80
+    or 100 teeth 16.
     """
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
     lean = cos(tip2) / cos(tip1)
@@ -85,7 +87,9 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count of the smallest ring without trochoid interference with a planet of standard teeth."""
+    """Return the tooth count of the smallest ring without trochoid interference with a planet, both with standard
+    teeth; at least 34.
+    """
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
     return next(z for z in count(first) if tip_margin(planet, z, PRESSURE, 1.0, 1.0) > 0)
@@ -181,7 +185,7 @@ class PitchPair:
 
     @property
     def is_crossed(self) -> bool:
-        """True for crossed helical wheels: spur wheels on non-parallel axes, at least one of them helical."""
+        """True for crossed helical wheels: spur wheels on non-parallel axes, of which at least one is helical."""
         return not self.parallel and any(wheel.is_helical for wheel in self.declared)
 
     @property
@@ -197,7 +201,9 @@ class PitchPair:
 
     @property
     def has_distance(self) -> bool:
-        """True for spur wheels on parallel axes, whose centre distance follows from module and tooth counts."""
+        """True if the centre distance follows from module and tooth counts: spur wheels on parallel axes, any ring
+        being larger than its mate.
+        """
         return self.parallel and self.kinds == ("spur", "spur") and self.touching > 0
 
     @property
@@ -230,8 +236,7 @@ class PitchPair:
         """Minimum and maximum centre distance at which these teeth can run, possibly with more backlash [modules].
 
         Profiles may be shifted if no tooth form is declared. If no size is declared either, the two wheels may have
-        been cut
-        with slightly different pitches. Declared involutes can run at distances with more backlash.
+        been cut with slightly different pitches. Declared involutes can run at distances with more backlash.
         """
         wanted, form = self.distance, self.form
         low = high = SLACK
@@ -386,7 +391,7 @@ class PitchDistances:
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Record the distance between two parallel axes if positions of both are declared."""
+        """Record the distance between two parallel axes if the positions of both axes are declared."""
         declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
         if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
@@ -459,7 +464,7 @@ class PitchDistances:
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
         """Yield the finding on a pair whose required centre distance differs from another pair's on the same two axes.
 
-        The other pair is the one whose required distance differs most.
+        The pair between these axes whose required distance differs most is chosen.
         """
         wheel = ("wheel", pair.wheels[0])
         best: tuple[Fraction, PitchPair, Fraction] | None = None
@@ -510,8 +515,8 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return a fix text with the profile shifts that give involutes no backlash at a distance [modules]; "" if none
-    do.
+    """Return the profile shifts that give involutes no backlash at a distance [modules], as the text of a fix; "" if
+    the sum of the shifts would exceed `_SHIFTS`, or no involute pair fits.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
     cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.

@@ -53,7 +53,7 @@ class Circuit(NamedTuple):
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
-    """Note on a sense of rotation that is only a convention; empty if no such note is necessary."""
+    """Note that the sense of rotation is only a convention; empty if it is determined."""
 
     @property
     def swings(self) -> bool:
@@ -166,6 +166,7 @@ def _carrier(tree: Tree, i: str, j: str) -> str | None:
     axis_i = parent[i][1] if i in parent else None
     axis_j = parent[j][1] if j in parent else None
     top_i, top_j = top.get(i), top.get(j)
+    # coaxial links have no centre distance, and so no carrier
     if axis_i == axis_j:
         return None
     if top_i is not None and top_i == top_j:
@@ -233,7 +234,9 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     if passing_distance(axes, labels):
         raise RangeError(
             Problem(
-                "its axes do not intersect", "axes of bevel wheels must intersect", "correct the positions of its axes"
+                "the axes of the pair do not intersect",
+                "axes of bevel and contrate wheels must intersect",
+                "correct the positions of the axes",
             )
         )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing

@@ -29,7 +29,9 @@ from geartrain.train import StateCase, Train, Wheel
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """Turning pairs as a spanning tree rooted at the frame."""
+    """Turning pairs of a train as a spanning tree rooted at the frame; it determines the carriers of pairs and their
+    axes.
+    """
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
@@ -91,6 +93,7 @@ def find_tree(train: Train) -> Tree:
                 problems.append(_cycle(train, Tree(train.frame, parent, top), link, other, at))
                 continue
             parent[other] = (link, axis)
+            # a link on the axis of its parent has the carrier of its parent
             top[other] = top[link] if link in parent and parent[link][1] == axis else link
             first_top, first_at = bearer.setdefault(axis, (top[other], at))
             if first_top != top[other]:
@@ -115,7 +118,7 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
 def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
     return Problem(
         f"axis label '{axis}' names two axes",
-        f"one is carried by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
+        f"one axis is carried by '{first}' ({train.place('revolutes', first_at)}), the other by '{second}'; "
         "joints with one label must be coaxial",
         "give the second axis a different label",
         train.place("revolutes", at),
@@ -127,7 +130,7 @@ def _no_joints(train: Train) -> Problem:
     return Problem(
         "no turning pair is declared",
         f"every link but '{train.frame}' turns on an axis that another link carries",
-        f"add for example `revolutes: {{A: [{train.frame}, {link}]}}`, with an entry for each axis",
+        f"for example, add `revolutes: {{A: [{train.frame}, {link}]}}`, with an entry for each axis",
         train.place("revolutes") if "revolutes" in train.model_fields_set else train.place("links"),
     )
 
@@ -136,7 +139,7 @@ def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
         f"link '{link}' is not joined to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
-        f"add it to an axis of `revolutes`, or an axis of its own: `{link}: [{train.frame}, {link}]`",
+        f"add it to an axis of `revolutes`, or declare an axis of its own: `{link}: [{train.frame}, {link}]`",
         train.place("links", link),
     )
 
@@ -150,24 +153,27 @@ _SAME = 1e-6  # rad: tolerance of angles, because written angles are rounded
 def check_parallel(first: Wheel, second: Wheel) -> None:
     """Raise `GearTrainError` for wheels on parallel axes whose helix angles or hands do not match.
 
-    Teeth in contact have the same direction, so the hands of an external pair are opposite and those of a ring and its
-    mate are equal. An undeclared hand is assumed to match.
+    Teeth in contact have the same direction, so the hands of an external pair are opposite, and the hands of a ring and
+    its mate are equal. An undeclared hand is assumed to match.
     """
     angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
     if abs(angles[0] - angles[1]) > _SAME:
         angles_text = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
         what = f"helix angles of {angles_text} deg on parallel axes do not match"
-        fix = "give both wheels the same `helix_angle`, or `axes` that cross"
+        fix = "give both wheels the same `helix_angle`, or declare `axes` that are not parallel"
         raise GearTrainError(Problem(what, "the teeth would touch only at their corners", fix))
     ring = first.internal or second.internal
     if first.hand and second.hand and (first.hand == second.hand) != ring:
         what = f"a {first.hand}-hand wheel meshes with a {second.hand}-hand wheel"
         why = "a ring and its mate have the same hand" if ring else "wheels on parallel axes have opposite hands"
-        raise GearTrainError(Problem(what, why, f"make one of them {'right' if first.hand == 'left' else 'left'}"))
+        raise GearTrainError(
+            Problem(what, why, f"declare `hand: {'right' if first.hand == 'left' else 'left'}` for one of them")
+        )
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note.
+    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note,
+    which is empty unless the sense is only a convention.
 
     With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
     the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
@@ -210,8 +216,8 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
 def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
     """Return the helix angles of two wheels on skew axes [rad], positive for right hands; None if none is declared.
 
-    The helix angle of a worm and the shaft angle determine that of its wheel by (12a); it may also be declared. A worm
-    without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
+    The helix angle of a worm and the shaft angle determine the helix angle of its wheel by (12a); it may also be
+    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
 
     Raises
     ------
@@ -280,7 +286,9 @@ class Axes:
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """Return 1, or -1 if the axis is opposite to the first declared direction that is parallel to it."""
+        """Return -1 if an axis is opposite to the reference direction of the axes parallel to it, else 1. The reference
+        is z, or for other directions the first declared axis.
+        """
         return self._senses.get(label or "", 1)
 
     @property
@@ -313,7 +321,9 @@ class Axes:
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return True if all these axes have the same or opposite directions in the pose in which all angles are 0."""
+        """Return True if all axes in `labels` have the same or opposite directions in the pose in which all angles are
+        0.
+        """
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
@@ -384,6 +394,7 @@ class Axes:
         """Return a, b and the note for a worm drive, whose sense of rotation follows from hand and positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
+        # a worm without a declared hand is right-handed
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
         label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
@@ -499,7 +510,7 @@ class JointLines:
         return one == other or self._axes.are_one_line(one, other)
 
     def rigid(self, labels: Sequence[str]) -> bool:
-        """Return whether a closed chain of turning pairs with these axes has no mobility."""
+        """Return True if a closed chain of turning pairs with these axes has no mobility, False if it may move."""
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
             return True

@@ -1,10 +1,9 @@
 """Rational functions of tooth counts in textbook notation: in factors, as text, LaTeX or a SymPy expression.
 
 Polynomials in tooth counts are written as products in which no two factors have a wheel in common.
-
 Two variables i and j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for values a and
-b with P(a, b) not 0, because P is then a product of a polynomial without i and one without j, over a constant. For gear
-trains this is almost always the complete factorisation, because carriers in series have separate wheels.
+b with P(a, b) not 0, because P is then, up to a constant, the product of a polynomial without i and one without j. For
+gear trains this is almost always the complete factorisation, because carriers in series have separate wheels.
 """
 
 from __future__ import annotations
@@ -75,6 +74,7 @@ class FactoredPolynomial:
 
 def _positive_at_point(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
     terms = p.sorted_terms()
+    # a sum that is 0 at the point gets the sign of its first term
     value = whole(terms, point) or terms[0].coefficient
     found = terms if value > 0 else (-p).sorted_terms()
     return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # positive terms first
@@ -99,6 +99,7 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
         at_i, at_j = _substitute(p, i, value), _substitute(p, j, value + 1)
         both = _substitute(at_i, j, value + 1)
         if both:
+            # criterion of the module's docstring with (a, b) = (value, value + 1)
             return p * both == at_i * at_j
     return False
 
@@ -193,7 +194,8 @@ class ClosedForm(Result):
         return self._format(_LATEX)
 
     def sympy(self) -> Expr:
-        """Return a SymPy expression, factored numerator over denominator; symbols are named `z_` plus the wheel.
+        """Return a SymPy expression: factored numerator divided by factored denominator; symbols are named `z_` plus
+        the wheel.
 
         Raises
         ------
@@ -246,15 +248,17 @@ class ClosedForm(Result):
 
     @property
     def poles(self) -> tuple[str, ...]:
-        """Conditions for a zero denominator, as equations between products of tooth counts; empty if it cannot
-        vanish.
+        """Conditions for a zero denominator, as equations between products of tooth counts; empty if the denominator
+        cannot be 0.
         """
         sums = self._factored(self.formula.denominator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
     @property
     def zeros(self) -> tuple[str, ...]:
-        """Conditions for a zero numerator, as equations between products of tooth counts; empty if it cannot vanish."""
+        """Conditions for a zero numerator, as equations between products of tooth counts; empty if the numerator
+        cannot be 0.
+        """
         sums = self._factored(self.formula.numerator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
@@ -282,7 +286,9 @@ class ClosedForm(Result):
         return sign + (above if below == "1" else style.over(above, below))
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """Return a short sum over one of its terms as 1 plus quotients, such as 1 + z_r/z_s; "" for other formulas."""
+        """Return a short sum divided by one of its terms as 1 plus quotients, such as 1 + z_r/z_s; "" for other
+        formulas.
+        """
         # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""

@@ -18,8 +18,8 @@ from geartrain.kinematics.formulas import laurent
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step, which take some seconds; longer polynomials are too long to be
-useful.
+"""Maximum number of products of terms in one step, a computation of some seconds; longer polynomials are of no
+practical use.
 """
 
 
@@ -33,7 +33,7 @@ class Term(NamedTuple):
 
 
 class TooLongError(Exception):
-    """Error raised if a polynomial becomes too long to be useful."""
+    """Error raised if a polynomial needs more than `MOST_PRODUCTS` products of terms in one step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +208,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
     low_p, low_q = p.lowest(), q.lowest()
     rest = dict(p.shifted(_negated(low_p)).terms)
     divisor = q.shifted(_negated(low_q)).terms
+    # tuples compare lexicographically: a monomial order that multiplication preserves
     lead = max(divisor)
     found: dict[Exponents, Fraction] = {}
     while rest:
@@ -237,6 +238,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     shared = [at for at in range(p.width) if _degree(p, at) and _degree(q, at)]
     if not shared:
         return Laurent.constant(1, p.width)
+    # tried first, because one polynomial often divides the other
     for whole, other in ((p, q), (q, p)):
         if len(whole) <= len(other) and divide(other, whole) is not None:
             return whole
@@ -279,6 +281,7 @@ def _content(p: Laurent, at: int) -> Laurent:
     found = Laurent.constant(0, p.width)
     for power in {exponents[at] for exponents in p.terms}:
         found = common_divisor(found, _coefficient(p, at, power))
+        # a common divisor only gets smaller, so further coefficients cannot change it
         if found.is_constant:
             break
     return found

@@ -1,7 +1,7 @@
 """Outputs of a declared train as exact rational functions of the free tooth counts.
 
 Relative to one carrier, the speeds of links that mesh are monomial multiples of one unknown. The equations that couple
-these components, and those of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
+these components, and the equations of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
 Markowitz pivoting on monomials, and the remaining core is solved by Cramer's rule.
 """
 
@@ -36,7 +36,7 @@ _Residues = dict[int, int]
 
 
 class SymbolicValue(NamedTuple):
-    """Rational function of tooth counts."""
+    """Value of a linear form as a rational function of tooth counts, not reduced to lowest terms."""
 
     numerator: Laurent
     denominator: Laurent
@@ -244,7 +244,7 @@ class SymbolicEquations:
         return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
-        """Return the speed of every node relative to its carrier, over the unknown speed of its component."""
+        """Return the speed of every node relative to its carrier, divided by the unknown speed of its component."""
         found: dict[int, Laurent] = {}
         for start in range(len(parts.node_link)):
             chain = []
@@ -351,8 +351,8 @@ class Formulas(Mapping[str, Formula], Result):
     outputs: Mapping[str, Formula]
     """Exact speed of each output [unit of the train]; with `relative_to` a difference of speeds."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that are driven or fixed in
-    several ways.
+    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that are driven or fixed by
+    several causes.
 
     The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
     all conditions are satisfied.
@@ -500,6 +500,7 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
         unit = Laurent(left.width, {powers: abs(left.terms[powers])})
         formula, _ = make_formula(label, wheels, left, unit)
+        # conditions with equal numerators have equal zeros
         found.setdefault(formula.numerator, formula)
     return tuple(found.values())
 
@@ -519,7 +520,7 @@ def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
             raise QuestionError(
                 Problem(
                     f"wheel '{name}' has no allowed tooth count",
-                    "its list of counts is empty",
+                    "a free wheel needs a list of at least one count",
                     "allow at least one count",
                     place,
                 )
@@ -539,7 +540,9 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
     for name, count in counts.items():
         if not 0 < count <= MOST_TEETH or count != int(count):
             fix = "give a whole number from 1 to 10^12"
-            raise QuestionError(Problem(f"{count} is not a tooth count", f"it is given for wheel '{name}'", fix))
+            raise QuestionError(
+                Problem(f"{count} is not a tooth count of wheel '{name}'", "wheels have a whole number of teeth", fix)
+            )
 
 
 def _too_coupled(train: Train) -> Problem:

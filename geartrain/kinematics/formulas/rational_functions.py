@@ -33,7 +33,7 @@ class MonomialGroup(Result):
     wheels: tuple[str, ...]
     """Names of the wheels in the order of the declaration."""
     exponents: Exponents
-    """Non-zero exponent of each wheel's count; usually 1 or -1. The first one is positive."""
+    """Non-zero exponent of each wheel's count; usually 1 or -1. The first exponent is positive."""
     degree: int
     """Highest power of x in the numerator or the denominator; for 1 the function is a Moebius transformation of x."""
 
@@ -94,7 +94,7 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
     """Group keys whose integer vectors are multiples of one vector; return this vector, and the factor of each key.
 
     The vectors are primitive (their entries are coprime), and their first non-zero entry is positive. Keys with zero
-    vectors are left out.
+    vectors are omitted.
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
@@ -107,7 +107,7 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
 
 
 def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
-    """Find the coarsest groups of variables such that a quotient of the polynomials depends on each through one
+    """Find the coarsest groups of variables such that a quotient of the polynomials depends on each group through one
     monomial.
 
     Division of all polynomials by one monomial changes no quotient, so only differences of exponents matter. The
@@ -206,7 +206,7 @@ class Formula:
 
     @property
     def has_poles(self) -> bool:
-        """False if the denominator cannot vanish for positive tooth counts, because all its terms are positive."""
+        """True if the denominator has negative terms or is 0; otherwise it cannot vanish for positive tooth counts."""
         return any(term.coefficient < 0 for term in self.denominator) or not self.denominator
 
     def value(self, counts: Mapping[str, int]) -> Fraction | None:
@@ -289,6 +289,7 @@ def make_formula(
 
     wheels   names of the variables of both polynomials, by index
     """
+    # 1/0 in lowest terms: the function has no value anywhere
     if not denominator:
         return Formula(label, (), (Term(1, ()),), (), (), (Term(1, ()),), ()), Laurent.constant(1, len(wheels))
     grouping = find_grouping([numerator, denominator])
@@ -303,7 +304,7 @@ def make_formula(
 
 
 def _listed(terms: Sequence[Term]) -> list[list[Any]]:
-    """Return terms as lists for JSON; coefficients with too many digits for a JSON number are text."""
+    """Return terms as lists for JSON; coefficients with too many digits for a JSON number are strings."""
     return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """Contribution of one input to the speed of an output."""
+    """Contribution of one input to the speed of an output: ratio times speed of the input."""
 
     KEYS = ("input", "speed", "ratio")
 
@@ -52,7 +52,7 @@ class OutputFormula(Result):
     shares: tuple[InputShare, ...]
     """Contribution of each input on which the output depends."""
     conditions: tuple[str, ...] = ()
-    """Equations between tooth counts that must be satisfied if the train is to move, because they close loops."""
+    """Equations between tooth counts that must be satisfied for the train to move, because they close its loops."""
     poles: tuple[str, ...] = ()
     """Equations between tooth counts at which the output is locked or free."""
 
@@ -130,6 +130,7 @@ def _times(ratio: str, speed: str, style: str) -> str:
     if ratio in ("1", "-1"):
         return ratio[:-1] + speed
     dot = " · " if style == "text" else r"\,"
+    # brackets are removed to a depth of two: only signs outside them make the ratio a sum
     outside = re.sub(r"\([^()]*\)|\{[^{}]*\}", "", re.sub(r"\([^()]*\)|\{[^{}]*\}", "", ratio))
     if " + " not in outside and " - " not in outside:
         return ratio + dot + speed
@@ -137,11 +138,10 @@ def _times(ratio: str, speed: str, style: str) -> str:
 
 
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    """Yield the formulas of all outputs of a state, or of the outputs named, in the order of the declaration.
+    """Yield the formulas of all outputs of a state, or of the named `outputs`, in the order of the declaration.
 
-    Undetermined outputs are left out. All wheels with a tooth count are variables. `find_formulas` describes the
-    treatment
-    of other wheels and of couplings, and raises the errors.
+    Undetermined outputs are omitted. All wheels with a tooth count are variables. `find_formulas` describes the
+    treatment of other wheels and of couplings, and raises the errors.
     """
     case = train.case(state)
     for name in outputs:

@@ -84,19 +84,21 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWa
                 if not speeds[there] and not gone[mesh]:
                     speeds[there] = speeds[here] * network.gain(mesh, here) if mesh in gains else speeds[here]
                     queue.append(there)
+    # compared after the search, so that meshes of `without` are tested too
     breaking = [mesh for mesh, (i, j) in enumerate(ends) if speeds[i] * gains.get(mesh, 1) != speeds[j]]
     return GainWalk(speeds, breaking)
 
 
 def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
-    """Return whether every loop has gain product 1 after removal of the meshes `without`."""
+    """Return True if every loop has gain product 1 after removal of the meshes `without`."""
     return set(without).issuperset(walk_gain_graph(network, without).breaking)
 
 
 def inconsistent_loops(network: GainGraph, without: Collection[int] = ()) -> list[GainLoop]:
-    """Return a shortest inconsistent loop near every mesh that contradicts a spanning forest; none twice.
+    """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
 
-    A shortest inconsistent loop of the whole network is among them, because it contains such a mesh.
+    A shortest inconsistent loop of the whole network is among them, because every such loop contains one of these
+    meshes.
     """
     breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
     starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)

@@ -136,8 +136,7 @@ def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
     """Return the links that meshes lock for any tooth counts, after removal of the meshes `gone`.
 
     Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links
-    that
-    are also at rest for other ratios are returned.
+    that are also at rest for other ratios are returned.
     """
     less = _without(part, gone)
     still = _stationary_links(less)
@@ -175,16 +174,16 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
 
 
 def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
-    """Return whether removal of the meshes `gone` makes every loop consistent and every link movable."""
+    """Return True if removal of the meshes `gone` makes every loop consistent and every link movable."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _locked_links(part, gone)
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return meshes of several carriers whose removal frees the train.
+    """Return meshes of several carriers whose removal frees the train; None if no set exists, or if there are too many
+    meshes to try.
 
-    The set is the smallest one if there are few meshes, else a minimal one. None if no set exists, or if there are too
-    many meshes to try.
+    The set is a smallest set if there are few meshes, else a minimal set.
     """
     toothed = _without(part, ())
     bound = {
@@ -213,7 +212,7 @@ def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
     """Return a minimal set of meshes whose removal frees the train; meshes early in the sequence are preferred.
 
     Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
-    Its last mesh is necessary, and the search continues among those before it.
+    Its last mesh is necessary, and the search continues among the meshes before it.
     """
     needed: list[str] = []
     left = list(gears)

@@ -73,7 +73,7 @@ class MeshRemoval(Result):
 
     @property
     def minimum(self) -> bool:
-        """True if no smaller set frees the train."""
+        """True if it is proved that no smaller set frees the train."""
         return self.at_least == len(self.meshes)
 
     def __str__(self) -> str:
@@ -116,7 +116,7 @@ class LockedSubgraph(Result):
     links: tuple[str, ...]
     """Names of all links of the component."""
     meshes: int
-    """Number of meshes in the component."""
+    """Number of gear pairs in the component; couplings, which cannot be disengaged, are not counted."""
     by: Literal["sign", "ratio"]
     """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
     release: MeshRemoval
@@ -185,7 +185,7 @@ class Gridlock(Result):
         Parameters
         ----------
         most : int
-            Maximum number of components that are described; for the others only their number is given.
+            Maximum number of components that are described; only the number of further components is given.
         """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
@@ -211,6 +211,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
         return parts[0]
     return MeshRemoval(
         tuple(mesh for part in parts for mesh in part.meshes),
+        # the weakest proof of all parts counts: `RemovalMethod` is in that order
         max((part.method for part in parts), key=get_args(RemovalMethod).index),
         sum(part.at_least for part in parts),
         (),

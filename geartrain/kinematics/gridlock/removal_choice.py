@@ -3,7 +3,7 @@
 A set of meshes frees a network if it contains a mesh of every inconsistent loop. The smallest such hitting set is an
 integer program. Its loops are generated as they are needed: a smallest set for the loops known so far is proved to be
 the answer if no inconsistent loop is left, otherwise the remaining short loops are added. The dual program finds loops
-that prove the result to a reader: each mesh is in at most one, or in at most two of them.
+that prove the result to a reader: each mesh is in at most one, or in at most two of these loops.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ _STARTS = 300  # nodes from which the shortest loop is searched; in larger netwo
 
 
 class RemovalChoice(NamedTuple):
-    """Choice of meshes whose removal frees a network, with its proof."""
+    """Meshes whose removal frees a locked network, with the loops that prove how few meshes are sufficient."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
-    """Proved lower bound on the number of meshes; a set of this size is a smallest one."""
+    """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
     """Alternatives to `meshes`, if a single mesh is enough."""
     example: GainLoop
-    """Short inconsistent loop."""
+    """Short inconsistent loop, which shows a reader the cause of the lock."""
     proof: list[GainLoop]
     """Loops that prove the lower bound; empty if only the method proves it."""
     sharing: int = 1
@@ -66,6 +66,7 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
         found = _solve(network, loops, 1)
         if found.x is None:
             break
+        # the solver's bound may exceed an integer by its feasibility tolerance
         at_least = max(at_least, ceil(found.mip_dual_bound - 1e-6))
         gone = [mesh for mesh, part in enumerate(found.x) if part > 0.5]
         # beyond a limit, a smaller set may exist

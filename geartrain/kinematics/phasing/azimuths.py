@@ -29,7 +29,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling whose position is unknown, with the reason."""
+    """Gear pair or coupling that the check of phases omits because its position is unknown, with the reason."""
 
     name: str
     """Name of the pair or coupling."""
@@ -136,7 +136,7 @@ class _Axis:
     place: IntegerVector | None
     """Point on the axis, in a unit of length common to all axes; None if not declared."""
     error: Fraction
-    """Maximum error of the point, in the same unit."""
+    """Maximum error of the point, in the unit of `place`."""
 
 
 @collector_paused()
@@ -190,6 +190,7 @@ def _axes(train: Train) -> dict[str, _Axis]:
     points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
     # a common unit of length makes all coordinates integers
     unit = math.lcm(*{part.denominator for point in points.values() for part in point})
+    # z first, because undeclared axes are parallel to z and positive about it
     senses: list[IntegerVector] = [_Z]
     known: dict[tuple[str, ...], tuple[IntegerVector, float, IntegerVector]] = {}
     found: dict[str, _Axis] = {}

@@ -1,7 +1,7 @@
 """Phase closure of the loops of a train: verdict, loops, wheel angles for assembly, and distributed errors.
 
 The result for a loop has its gears in order, the divisibility rule of its tooth counts (a modulus that divides a count
-or a weighted sum of counts), and the error of its last mesh if all others mesh exactly.
+or a weighted sum of counts), and the error of its last mesh if all other meshes are exact.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ Row = dict[str, int]
 
 
 class DivisibilityCondition(NamedTuple):
-    """Condition that `modulus` divides a weighted sum of tooth counts."""
+    """One condition of a `DivisibilityRule`: `modulus` divides a weighted sum of tooth counts."""
 
     modulus: int
     """Divisor of the weighted sum of the tooth counts."""
@@ -49,7 +49,7 @@ class DivisibilityCondition(NamedTuple):
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
-    """Divisibility conditions on the tooth counts of a set of gears.
+    """Divisibility conditions on the tooth counts of a set of gears, under which the teeth mesh around all loops.
 
     See Also
     --------
@@ -178,6 +178,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
             continue
         pivot = min(entries, key=lambda row: math.gcd(row[column], power))
         common = math.gcd(pivot[column], power)
+        # invertible, because the common divisor with a prime power contains every factor p
         turn = pow(pivot[column] // common, -1, power)
         pivot = [value * turn % power for value in pivot]
         rest = []
@@ -260,7 +261,8 @@ class LoopPhase(Result):
     wheels.
     """
     retime: Mapping[str, float]
-    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of these rotations is enough.
+    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; one of the listed rotations is
+    enough.
     """
     together: bool = False
     """True for a condition on several loops that does not follow from the conditions of the single loops."""
@@ -415,7 +417,7 @@ class MeshPhasing(Result):
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
     """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have the same name."""
     unjudged: int = 0
-    """Number of loops that cannot be checked, because a pair or pin in them has no known position."""
+    """Number of loops that cannot be checked, because the position of one of their pairs or pins is unknown."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):
@@ -528,12 +530,13 @@ class MeshPhasing(Result):
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if the backlash of each pair absorbs the phase error in `errors`; None if the backlash of a pair with a
-        phase error is unknown.
+        """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a
+        backlash is too small. None if a loop is unclear, or the backlash of a pair with a phase error is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True
         errors = self.errors
+        # a tooth in the middle of its gap can move by half of the backlash to either side
         if any(abs(error) > self.backlashes[name] / 2 for name, error in errors.items() if name in self.backlashes):
             return False
         # errors below 1e-9 pitch are rounding errors, and need no backlash
@@ -546,6 +549,7 @@ class MeshPhasing(Result):
         forms, kinds = [], self.alike()
         for loop in self.loops:
             form = _by_kind(loop.inside, kinds)
+            # an odd number of meshes adds half a pitch, which no divisibility condition can express
             if form is None or len(loop.meshes) % 2:
                 return None
             forms.append(form)
@@ -647,6 +651,7 @@ def find_phasing(
     if contacts.omitted:
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
+        # loops that are closed only by pairs with unknown positions
         unjudged = max(len(whole.closing) - len(parts.closing), 0)
     return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _equal_wheels(train), unjudged)
 

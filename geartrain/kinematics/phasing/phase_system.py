@@ -177,7 +177,8 @@ Left = Callable[[int, Sequence[Number]], Number]
 
 @dataclass(frozen=True)
 class CarrierCoupling:
-    """Coupling of components through shared links and carriers.
+    """Coupling of components through shared links and carriers, which adds phase conditions and determines angles of
+    links.
 
     rows       weights of meshes of several carriers, with which the left sides of their equations add up to 0
     complete   False if the search for `rows` exceeded its budget
@@ -294,7 +295,7 @@ class PhaseCondition:
     cycle: PhaseCycle | None
     """Loop of the condition; None for a condition on several loops together."""
     row: Mapping[int, int]
-    """Mesh -> integer weight."""
+    """Mesh -> integer weight of its equation in the sum."""
     residue: Fraction | float
     """Weighted sum of the constants minus the nearest integer [pitch]; a Fraction if it is exact."""
     slack: float
@@ -498,7 +499,7 @@ class PhaseSystem:
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links that satisfy the equations of all meshes except those that close loops [turn]."""
+        """Angles of links that satisfy the equations of all meshes except the meshes that close loops [turn]."""
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:

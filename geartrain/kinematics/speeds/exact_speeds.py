@@ -39,8 +39,8 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """Input, brake or lock of a case: its kind (input, fixed, lock), its text, the text of its declaration, and its
-    speed.
+    """Input, brake or lock of a case: its kind (input, fixed or lock), a sentence that describes it, a sentence on the
+    declaration that causes it, and its speed.
     """
 
     kind: str
@@ -79,7 +79,7 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return equation number -> factor from a row of symbols, whose columns are -1 - number."""
+    """Return a mapping from equation number to factor, from a row of symbols with the columns -1 - number."""
     return {-1 - column: value for column, value in row.items()}
 
 
@@ -136,8 +136,8 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then inputs, brakes and
-    locks.
+    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then brakes, locks and
+    inputs; and the statements of the last three.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -197,7 +197,7 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the gear pairs in a contradiction: those on the paths between the shared links of its
+    """Return the names of the gear pairs in a contradiction: the pairs on the paths between the shared links of its
     equations.
     """
     parts = reduced.components
@@ -231,8 +231,8 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """Return the verdict with all undetermined links, and a smallest set of links whose speeds would determine the
-    others.
+    """Return the verdict with all undetermined links, and a smallest set of links (at most 12) whose speeds would
+    determine the other links.
     """
     index = reduced.components.index
     rows: list[LinearForm] = []
@@ -245,6 +245,7 @@ def free_verdict(
         if eliminate([*rows, loose]).rank > len(rows):
             rows.append(loose)
             fixes.append(link)
+        # each suggestion costs an elimination, and a reader needs only a few
         if len(fixes) == min(freedom, 12):
             break
     given = len(case.inputs)
@@ -403,7 +404,7 @@ class FreeForms:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Exact speeds of a train in one case, with the verdict."""
+    """Exact speeds of the determined links of a train in one case, with the verdict and the speed ratios."""
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
@@ -435,7 +436,7 @@ class Solution:
 
 
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """Exact ratios, link -> input -> ratio, which are solved at the first access."""
+    """Exact ratios as a mapping link -> input -> ratio; the equations are solved at the first access."""
 
     def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
         self._part, self._case, self._signs = part, case, signs
@@ -473,6 +474,7 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     budget   maximum number of operations beyond linear work; `TooDenseError` if exceeded, None for no limit
     """
     ratios = _Ratios(part, case, signs)
+    # if all inputs are 0, only the rank shows whether a link can move
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
     if walked is not None:
         return Solution(determined_verdict(case), walked, ratios, signs)
@@ -547,7 +549,7 @@ def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int
 
 
 def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """Return whether no link can move; solution of a case whose inputs are all 0 does not show this."""
+    """Return True if no link can move. The speeds of a case whose inputs are all 0 do not show this."""
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 

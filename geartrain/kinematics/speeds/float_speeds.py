@@ -1,8 +1,7 @@
 """Float64 speeds by sparse LU and iterative refinement with extra-precise residuals, and their error bounds.
 
 The coefficients are integers, so that the residual of a float solution can be computed in twice the working precision
-by
-error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
+by error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
 (docs/accuracy.md), as long as the factors have any correct digit of the inverse. Beyond that no bound from the same
 factors is valid, and the solution is refused (Demmel, Hida, Kahan, Li, Mukherjee and Riedy, Error bounds from
 extra-precise iterative refinement, 2006).
@@ -51,7 +50,7 @@ _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within
 class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds by sparse LU and iterative refinement, with an estimate of their error (docs/theory.md, 11).
 
-    `floats[link]` returns the speed of a link in the first case. Speeds are 0, or between 1e-120 and 1e120.
+    `floats[link]` returns the speed of a link in the first case. Magnitudes of speeds are 0, or 1e-120 to 1e120.
 
     Notes
     -----
@@ -136,6 +135,7 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))
         x = x + step
+        # prescribed speeds remain exact, although each step is rounded
         matrix.prescribe(x, right)
         moved = np.max(np.divide(np.abs(step), np.abs(x), out=np.zeros_like(x), where=x != 0), initial=0.0)
         # steps shrink by a constant factor, so the remaining error is about moved * moved / last
@@ -240,8 +240,8 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Raise `RangeError` if the factors have no correct digit: if the spectral radius of |A^-1| |A| is at least 1 / (4
-    eps).
+    """Raise `RangeError` if the factors may have no correct digit: if the bound on the spectral radius of |A^-1| |A|
+    exceeds 1 / (4 eps).
 
     The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it
     is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A

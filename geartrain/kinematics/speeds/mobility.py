@@ -61,9 +61,9 @@ class Mobility(Result):
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
     still: tuple[str, ...]
-    """Links that cannot move, whichever link drives."""
+    """Links that cannot move, whichever link drives; empty if the system is too dense to determine them."""
     idle: tuple[str, ...]
-    """Names of pairs whose wheels never roll on each other."""
+    """Names of pairs whose wheels never roll on each other; empty if the system is too dense to determine them."""
     certain: bool = True
     """False if the rank was computed modulo two primes (wrong with a probability of 1e-36)."""
 

@@ -78,8 +78,7 @@ class PaddedRows:
         """Return the condition numbers cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|.
 
         Each y is the solution of one transposed system. The number is infinite for a link at rest, whose relative error
-        is not
-        defined.
+        is not defined.
         """
         size = self.size(x[:, None])[:, 0]
         found = dict.fromkeys(links, float("inf"))

@@ -61,6 +61,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
     """
     real = destination(path, force)
     try:
+        # in the same folder, because a rename is atomic only within one file system
         handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:64]}.")
         temporary = Path(name)
         try:
@@ -146,7 +147,10 @@ def _folder(path: Path, real: Path) -> Problem | None:
         )
     if not os.access(folder, os.W_OK | os.X_OK):
         return Problem(
-            "the folder cannot be written to", "its permissions forbid it", "give another folder", str(folder)
+            "the folder cannot be written to",
+            "its permissions do not allow writing",
+            "give another folder",
+            str(folder),
         )
     return None
 
@@ -178,7 +182,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _copy_permissions(old: Path, new: Path) -> None:
-    """Copy the permissions, and the owner if that is allowed, from the old file to the new one."""
+    """Copy the permissions of the old file to the new file, and the owner if that is allowed."""
     found = old.stat()
     if hasattr(os, "chown"):
         with suppress(OSError):
@@ -218,11 +222,20 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
-        raise GearTrainError(Problem("this is not a folder", "several files are to be written", "give a folder", place))
+        raise GearTrainError(
+            Problem(
+                "this is not a folder",
+                "several files are written to one folder",
+                "give the path of a folder",
+                place,
+            )
+        )
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise GearTrainError(
-            Problem("the folder cannot be written to", "its permissions forbid it", "give another folder", place)
+            Problem(
+                "the folder cannot be written to", "its permissions do not allow writing", "give another folder", place
+            )
         )
     there = [name for name in names if os.path.lexists(folder / name)]
     for name in there:
@@ -237,10 +250,11 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write files by name to a folder, either all of them or none, and return their number.
+    """Write files by name to a folder and return their number.
 
-    The files are created in a temporary folder next to the destination, and moved when all files are complete. Existing
-    files are overwritten only with `force`. Raises `GearTrainError`.
+    The files are created in a temporary folder next to the destination and moved when all files are complete, so that
+    an error in creating them leaves the destination unchanged. Existing files are overwritten only with `force`. Raises
+    `GearTrainError`.
     """
     made: list[str] = []
     try:

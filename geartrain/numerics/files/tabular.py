@@ -1,4 +1,4 @@
-"""Tables on disk: long ones as CSV or Parquet, and small text files of points and edges.
+"""Tables on disk: long tables as CSV or Parquet, and small text files of points and edges.
 
 Long tables are written in chunks to a file whose name contains `partial` until they are complete. An interrupted CSV
 file can be resumed. All rows of CSV files are formatted here.
@@ -41,7 +41,10 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
         )
     if found.exists() and not (force or resume):
         destination(found, force=True)  # raises the error for a file that is not regular
-        why, fix = "an interrupted run left it", "give --resume to continue it, or --force to begin again"
+        why, fix = (
+            "it contains the rows of an interrupted run",
+            "give --resume to continue it, or --force to begin again",
+        )
         raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
     return destination(found, force=True)
 
@@ -49,7 +52,7 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
 class LongTable:
     """CSV file that is written row by row as `name.partial.csv` and renamed to `name.csv` when it is complete.
 
-    rows     number of rows, including those of an interrupted run that is resumed
+    rows     number of rows, including the rows of an interrupted run that is resumed
     resume   True to continue the partial file
     force    True to overwrite an existing table
     replay   True to overwrite the partial file of an interrupted run, whose rows are stored elsewhere
@@ -74,6 +77,7 @@ class LongTable:
 
     def _truncate_to_whole_rows(self) -> int:
         """Cut the partial file off after its last complete row; return the number of complete rows."""
+        # -1, because the first line is the header
         rows, end = -1, 0
         with self.partial.open("rb") as file:
             for line in file:
@@ -83,12 +87,13 @@ class LongTable:
                     raise GearTrainError(
                         Problem(
                             "the partial file belongs to another run",
-                            f"its columns are {line.decode('utf-8').rstrip()}",
+                            f"a resumed table must have the same columns as the file: {line.decode('utf-8').rstrip()}",
                             "request the same outputs, or omit --resume to begin again",
                             str(self.partial),
                         )
                     )
                 rows, end = rows + 1, end + len(line)
+        # the resumed run writes the incomplete row again
         os.truncate(self.partial, end)
         return max(rows, 0)
 

@@ -56,7 +56,9 @@ class DaskPool(WorkerPool):
             found = ", ".join(sorted(map(str, theirs)))
             raise GearTrainError(
                 Problem(
-                    f"the cluster at {address} runs another version of geartrain than {ours}", f"it runs {found}", fix
+                    f"the cluster at {address} runs another version of geartrain than {ours}",
+                    f"its workers run {found}",
+                    fix,
                 )
             )
         self._threads: int = sum(self._client.nthreads().values())

@@ -104,6 +104,7 @@ class Journal:
     def _resumable_length(self, question: Any, resume: bool) -> int:
         """Return the number of bytes of the file that can be resumed, 0 for none, and index the tasks in them."""
         first = self._reader.readline(_MOST_HEADER_BYTES)
+        # an incomplete first line: the run was killed while it wrote the header
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _MOST_HEADER_BYTES:
@@ -134,6 +135,7 @@ class Journal:
     def _enter(self, task: int, at: int) -> None:
         if task >= len(self._at):
             self._at.extend([-1] * (task + 1 - len(self._at)))
+        # a task that was stored twice is counted once
         self._count += self._at[task] < 0
         self._at[task] = at
 
@@ -274,16 +276,16 @@ def _another(difference: str, path: Path) -> Problem:
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
-    """Return a text on the first difference between two plain data structures; empty if they are equal.
+    """Describe the first difference between two plain data structures; return an empty string if they are equal.
 
     >>> first_difference({"wheels": [30, 36]}, {"wheels": [30, 48]})
-    'wheels[1] is 36 there and 48 here'
+    'wheels[1] is 36 in the journal and 48 in this run'
     """
     if isinstance(theirs, dict) and isinstance(ours, dict):
         for key in [*theirs, *(key for key in ours if key not in theirs)]:
             step = f"{place}.{key}" if place else key
             if key not in ours or key not in theirs:
-                return f"{step} is only {'there' if key in theirs else 'here'}"
+                return f"{step} is only in {'the journal' if key in theirs else 'this run'}"
             if said := first_difference(theirs[key], ours[key], step):
                 return said
         return ""
@@ -291,10 +293,14 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
         for number, (left, right) in enumerate(zip(theirs, ours, strict=False)):
             if said := first_difference(left, right, f"{place}[{number}]"):
                 return said
-        return "" if len(theirs) == len(ours) else f"{place} has {len(theirs)} entries there and {len(ours)} here"
+        return (
+            ""
+            if len(theirs) == len(ours)
+            else f"{place} has {len(theirs)} entries in the journal and {len(ours)} in this run"
+        )
     if type(theirs) is type(ours) and theirs == ours:
         return ""
-    return f"{place or 'it'} is {json.dumps(theirs)} there and {json.dumps(ours)} here"
+    return f"{place or 'it'} is {json.dumps(theirs)} in the journal and {json.dumps(ours)} in this run"
 
 
 def _valid_line(line: bytes) -> re.Match[bytes] | None:

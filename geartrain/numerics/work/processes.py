@@ -46,7 +46,7 @@ class ProcessPool(WorkerPool):
         return self._workers
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """Return whether the function can be pickled; local functions cannot."""
+        """Return True if the function can be pickled, False if not, as for local functions."""
         try:
             pickle.dumps(work)
         except (AttributeError, TypeError, pickle.PicklingError):

@@ -1,7 +1,7 @@
 """Ordered results of independent tasks, the same for every executor, even if workers die.
 
 Results are converted to JSON text in the process that computes them, so that they are the same from this process,
-another process, another machine or a journal: tuples become lists and keys become texts.
+another process, another machine or a journal: tuples become lists and keys become strings.
 """
 
 from __future__ import annotations
@@ -268,7 +268,7 @@ class _Run:
             raise GearTrainError(
                 Problem(
                     "the executor is broken",
-                    "one of its workers died, and it does not start new ones",
+                    "one of its workers died, and it does not start new workers",
                     "use the executor of open_executor, which survives the death of workers",
                 )
             ) from None
@@ -296,7 +296,7 @@ class _Run:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
             raise GearTrainError(
                 Problem(
-                    "the work was interrupted", why, "run it again; finished work is in the journal, if there is one"
+                    "the work was interrupted", why, "run it again; finished tasks are in the journal, if there is one"
                 )
             ) from None
         else:
@@ -318,6 +318,7 @@ class _Run:
         submission.deaths += times
         if submission.deaths >= _MOST_DEATHS:
             raise _killer_error(submission)
+        # fewest deaths first, so that innocent tasks finish before a suspect runs by itself
         self.again = deque(sorted([*self.again, submission], key=lambda each: (each.deaths, each.index)))
 
     def _cancel(self) -> None:
@@ -360,7 +361,7 @@ class RemoteFailure:
     kind: type[GearTrainError] | None = None
     """Class of the exception if it is a `GearTrainError`, else None."""
     problems: tuple[Problem, ...] = ()
-    """Problems of a `GearTrainError`."""
+    """Problems of the exception if it is a `GearTrainError`; empty for other exceptions."""
     pickled: bytes = b""
     """Pickled form of any other exception; empty if it cannot be pickled without loss."""
 

@@ -13,7 +13,7 @@ Announcement = Callable[[int, int], None]
 
 
 class WorkerDiedError(BrokenExecutor):
-    """Workers died during a task, `times` of them one after another."""
+    """Error of a task during which workers died, `times` of them one after another."""
 
     def __init__(self, text: str, times: int = 1) -> None:
         super().__init__(text)
@@ -36,7 +36,7 @@ class WorkerPool(Executor, ABC):
         """Number of tasks that run at the same time, at least 1."""
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """Return whether workers can receive this function; if not, tasks run in this process."""
+        """Return True if workers can receive this function, False if its tasks must run in this process."""
         del work
         return True
 

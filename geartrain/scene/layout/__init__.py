@@ -1,6 +1,6 @@
 """Positions of axes and wheels, as declared, or chosen so that meshing wheels touch and other wheels do not collide.
 
-`lay_out` in `train_layout` runs the steps below in this order, and each hands a record to the next.
+`lay_out` in `train_layout` runs the steps below in this order. The right column is the result of each step.
 
     declared_geometry   axes as lines, pairs of wheels               DeclaredGeometry
     wheel_modules       union-find of ratios; closed chains          WheelModules
@@ -9,7 +9,7 @@
     parallel_groups     groups of parallel axes, one by one          Arrangement
                         broad wheels, by backtracking                AxialSlots
         plan_search     distances that a plan must satisfy           PlanProblem
-                        beam search: order, clearance                places in plan
+                        beam search: order, clearance                positions in plan
         swept_overlap   distances while carriers turn                SweptDistances
         wheel_stacks    local search of the order of levels          StackProblem
                         heights of levels                            WheelStack

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.lantern import Lantern
 
 Point = tuple[float, float]
-"""Point in plan: coordinates (mm) perpendicular to parallel axes."""
+"""Point in plan: coordinates [mm] perpendicular to parallel axes."""
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
 _TOUCHING = 1e-12  # relative distance below which pitch circles touch
@@ -33,7 +33,7 @@ WORM = Fraction(5)  # default pitch radius of a worm over its axial module
 
 @dataclass(frozen=True, slots=True)
 class AxisLine:
-    """Axis of a train as declared."""
+    """Axis of a train as declared: a line in space, with the links that carry it."""
 
     label: str
     direction: Vector
@@ -43,9 +43,9 @@ class AxisLine:
     bearers: tuple[str, ...]
     """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
-    """Axes about which these links turn, without the frame."""
+    """Axes about which the links in `bearers` turn, in the same order; the frame has none."""
     given: Vector | None
-    """Declared point of the axis (mm)."""
+    """Declared point of the axis [mm]; None if no position is declared."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Parallels:
 
     lines: tuple[AxisLine, ...]
     up: Vector
-    """Unit vector along the axes, in which heights increase: z upwards, or the coordinate nearest to it."""
+    """Unit vector along the axes, in which heights increase; its last nonzero coordinate is positive."""
     x: Vector
     """Unit vector across the axes, along the first coordinate of the plan."""
     y: Vector
@@ -62,18 +62,18 @@ class Parallels:
 
     @classmethod
     def of(cls, lines: Sequence[AxisLine]) -> Parallels:
-        """Return a group from parallel lines."""
+        """Return the group of the given parallel axes."""
         up = upwards(lines[0].direction)
         return cls(tuple(lines), up, *frame(up))
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Index of each axis."""
+        """Index of each axis in `lines`, by label."""
         return {line.label: at for at, line in enumerate(self.lines)}
 
     @property
     def frame(self) -> str:
-        """Link that carries all other links."""
+        """Link that carries all other links: the frame of the train."""
         return self.lines[0].bearers[-1]
 
     def flat(self, vector: Vector) -> Point:
@@ -86,7 +86,7 @@ class Parallels:
 
 
 def upwards(direction: Vector) -> Vector:
-    """Return a direction or its opposite, whichever points upwards along z, or its last nonzero coordinate."""
+    """Return a direction or its opposite, whichever has a positive last nonzero coordinate."""
     last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # smaller ones are rounding errors
     return direction if last > 0 else (-direction[0], -direction[1], -direction[2])
 
@@ -103,7 +103,7 @@ class ContactSide:
 
 @dataclass(frozen=True, slots=True)
 class PitchContact:
-    """Gear pair: wheels with their axes, and their kind of contact."""
+    """Gear pair with the axes of its wheels and the kind of contact of their pitch surfaces."""
 
     name: str
     wheels: tuple[str, str]
@@ -128,19 +128,19 @@ class PitchContact:
 
     @property
     def sides(self) -> tuple[ContactSide, ContactSide]:
-        """Pair from the side of its first and of its second wheel."""
+        """Gear pair from the side of its first wheel, and from the side of its second wheel."""
         (first, second), (axis, other) = self.wheels, self.axes
         return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of the pair in a fixed order, which is the same for all pairs between these axes."""
+        """Axes of the pair in alphabetical order, which is the same for all pairs between the two axes."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """Pin in a slot: links and axes of pin and slot, and the distance between the axes [mm] if it is declared."""
+    """Coupling by a pin: links and axes of pin and slot, and the distance between the axes [mm] if it is declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]
@@ -150,12 +150,12 @@ class PinSlotTie:
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of pin and slot in a fixed order, which is the same for all pairs between these axes."""
+        """Axes of pin and slot in alphabetical order, which is the same for all pairs between the two axes."""
         return min(self.axes), max(self.axes)
 
 
 class DialEnds(NamedTuple):
-    """Ends (low and high) at which an arbor extends beyond the stack to a dial."""
+    """Flags for the low and the high end of an arbor: True if that end extends beyond the stack to a dial."""
 
     low: bool = False
     high: bool = False
@@ -173,7 +173,7 @@ class DeclaredGeometry:
     wheels: Mapping[str, tuple[str, Wheel]]
     """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
-    """Thickness of the wheels for which it is declared [mm]."""
+    """Declared thickness by wheel [mm], for wheels with a declared thickness."""
     strays: tuple[tuple[str, str, str], ...]
     """Wheels that a pair has on another axis than earlier pairs have: wheel, pair and axis."""
     front: int
@@ -181,9 +181,9 @@ class DeclaredGeometry:
     dial_ends: Mapping[str, DialEnds]
     """Ends that extend to a dial, by link."""
     driven: str | None
-    """Axis of the first input, which is at the origin if no position is declared."""
+    """Axis of the first input, which is at the origin if no position is declared; None without inputs."""
     discs: Mapping[str, float]
-    """Extent (modules) of the discs of lantern pinions beyond the pitch circle, by wheel."""
+    """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -198,19 +198,19 @@ class DeclaredGeometry:
         return self.wheels[wheel][1].count or 1
 
     def radius(self, wheel: str) -> Fraction:
-        """Return the pitch radius of a wheel in normal modules."""
+        """Return the pitch radius of a wheel in normal modules, or of a worm in axial modules."""
         if self.wheel(wheel).kind == "worm":
             return WORM
         return Fraction(self.count(wheel), 2) * Fraction(self.wheel(wheel).slant)
 
     def distance(self, contact: PitchContact) -> Fraction:
-        """Return the centre distance of a pair with parallel or skew axes in modules."""
+        """Return the centre distance of a pair with parallel or skew axes [modules]."""
         first, second = (self.radius(wheel) for wheel in contact.wheels)
         return contact.stretch * (abs(first - second) if contact.kind == "ring" else first + second)
 
 
 def read_geometry(train: GearTrain) -> DeclaredGeometry:
-    """Return the declared geometry of a train."""
+    """Return the declared geometry of a train: its axes, wheels, gear pairs and couplings."""
     declared, tree = train.declaration, train.kinematics.tree
     lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}
@@ -230,6 +230,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         contacts.append(_contact(train, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))
+    # a positive rotation about z is clockwise only for a viewer on the side of -z
     front = -1 if declared.view.positive == "clockwise" else 1
     return DeclaredGeometry(
         lines,
@@ -281,14 +282,15 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield lantern wheels with the extent of their discs beyond the pitch circle (modules).
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle [modules].
 
-    It is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
+    The extent is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
     """
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
             lantern = cast("Lantern", form)
+            # a diameter in mm cannot be given in modules here, because modules are determined later
             if lantern.pin_diameter.unit is None:
                 yield gear.pair[lantern.pins - 1], 1.5 * float(lantern.pin_diameter.value)
 
@@ -342,4 +344,5 @@ def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> in
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
         flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1
+    # a (w_i - w_k) + b (w_j - w_k) = 0: with equal signs of a and b the relative speeds are opposite
     return (-1 if circuit.a * circuit.b > 0 else 1) * flip

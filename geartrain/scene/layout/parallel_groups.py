@@ -1,12 +1,13 @@
 """Groups of parallel axes, placed one after the other. Each group is planned and stacked subject to the axes that are
 already placed.
 
-Stacks: wheels that mesh are at one height, or at fixed relative heights. A weighted union-find of heights groups them
-into stacks. A wheel on a crossing axis has a fixed height relative to its mate, and occupies space in its stack.
+Stacks: wheels that mesh are at one height, or at fixed relative heights. A weighted union-find of heights groups these
+wheels into stacks. A wheel on a crossing axis has a fixed height relative to its mate, and occupies space in the stack
+of its mate.
 
 Broad wheels: two wheels that share a mate and would collide get separate slots along its width, by depth-first search
 with backtracking. Each mesh is assigned to a slot, a wheel spans the slots of its meshes, and no two wheels that
-overlap share one. The number of slots is minimised.
+overlap in plan share a slot. The number of slots is minimised.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from geartrain.scene.layout.wheel_stacks import StackProblem, WheelStack
 _GAP = 0.4  # gap between levels divided by the median thickness
 
 Node = tuple[str, str]
-"""Wheel, ("wheel", name), or crossing axis, ("axis", label)."""
+"""Node of the union-find structure: a wheel ("wheel", name) or a crossing axis ("axis", label)."""
 
 
 class _HeightSets:
@@ -45,7 +46,7 @@ class _HeightSets:
         self._above: dict[Node, tuple[Node, float]] = {}
 
     def find(self, node: Node) -> tuple[Node, float]:
-        """Return the root of a node, and its height above the root (mm)."""
+        """Return the root of a node, and the height of the node above the root [mm]."""
         total = 0.0
         while (step := self._above.setdefault(node, (node, 0.0)))[0] != node:
             total += step[1]
@@ -53,7 +54,7 @@ class _HeightSets:
         return node, total
 
     def join(self, node: Node, other: Node, above: float) -> None:
-        """Place a node at a distance `above` another [mm], unless their relative height is already known."""
+        """Place a node at a distance `above` another node [mm], unless their relative height is already known."""
         (root, height), (base, low) = self.find(node), self.find(other)
         # an existing relation is kept: contradictory heights become collisions, which are reported
         if root != base:
@@ -67,9 +68,9 @@ def build_wheel_stack(
     swept: SweptDistances,
     known: Mapping[str, float],
 ) -> WheelStack:
-    """Return the stack with blocks of all upright wheels of these axes, and of crossing wheels that mesh with them.
+    """Return the stack of all upright wheels of a group of parallel axes, and of crossing wheels that mesh with them.
 
-    known   heights (mm) of wheels that are determined by parts that are already placed
+    known   heights [mm] of wheels that are determined by parts that are already placed
     """
     builder = _BlockBuilder(geometry, parallels, places)
     blocks = builder.blocks()
@@ -113,9 +114,9 @@ def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
 
 
 class _BlockBuilder:
-    """Builder of the blocks of one group of parallels.
+    """Builder of the blocks of one group of parallel axes.
 
-    crossing   pairs with one of these axes, from the side of the wheel on it
+    crossing   pairs with one wheel on an axis of the group, from the side of this wheel
     met        crossing axis -> point in plan from which its height is counted: its given point, or that of its first
                pair
     number     numbers of stacks, in the order of their first use
@@ -139,7 +140,7 @@ class _BlockBuilder:
         self._join_concurrent()
 
     def blocks(self) -> list[WheelBlock]:
-        """Return blocks of upright wheels, then traces of crossing wheels."""
+        """Return the blocks of upright wheels, then the blocks of crossing wheels."""
         seat = {each.side.wheel: each.seat for each in self.crossing}
         found = []
         for wheel, axis in self.declared.axis.items():
@@ -155,7 +156,7 @@ class _BlockBuilder:
         return [*found, *(self._across(each) for each in self.crossing)]
 
     def given(self, known: Mapping[str, float]) -> dict[int, float]:
-        """Return heights of stacks that are determined by placed parts, or by declared points of crossing axes."""
+        """Return heights of stacks [mm] that are determined by placed parts, or by declared points of crossing axes."""
         found: dict[int, float] = {}
         for wheel, height in known.items():
             stack, offset = self._stack(("wheel", wheel))
@@ -177,21 +178,25 @@ class _BlockBuilder:
         return dot(line.direction, self.parallels.up)
 
     def _hold_to_axis(self, each: CrossingSide) -> None:
-        """Fix the height of a wheel relative to the crossing axis."""
+        """Fix the height of a wheel relative to the crossing axis of its mate."""
         side = each.side
         above = each.seat.far * self._rise(self.declared.lines[side.axis])
         above += self._height_at(self.declared.lines[side.mate_axis], self.places[side.axis])
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan relative to its reference point."""
+        """Return the height of a crossing axis at a point in plan, relative to the height at its reference point
+        [mm].
+        """
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Fix crossing axes that also mesh with each other at one point of the axis that both intersect."""
+        """Fix the heights of crossing axes that mesh with each other and with one axis: they intersect this axis at one
+        point.
+        """
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
@@ -210,9 +215,9 @@ class _BlockBuilder:
                         self.heights.join(("axis", mate), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of the crossing mate of an upright wheel, a strip in plan.
+        """Return the block of the crossing mate of an upright wheel: a strip in plan.
 
-        If a carrier moves it relative to the wheel, the block is the whole space that it sweeps.
+        If a carrier moves the mate relative to the wheel, the block is the whole space that the mate sweeps.
         """
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
@@ -246,17 +251,17 @@ _TRIES = 20_000  # maximum number of trials for one group of wheels; then they s
 
 
 class AxialSlots(NamedTuple):
-    """Lowest and highest slot that a wheel occupies."""
+    """Lowest and highest slot that a wheel occupies along the width of its mates, counted from 0."""
 
     low: int
     high: int
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Return the slots of the wheels that need slots; other wheels of their level are omitted.
+    """Return the slots of the wheels that must be axially separated or broadened; other wheels are omitted.
 
     meshes   pairs of wheels of parallel axes
-    overlap  whether two wheels at one height would collide
+    overlap  function that returns True if two wheels at one height would collide
     """
     found: dict[str, AxialSlots] = {}
     for group in _groups(meshes):
@@ -285,12 +290,13 @@ def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
 
 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
-    """Return the slots of one group of wheels; empty if no assignment exists, or if none was found within the limit.
+    """Return the slots of one group of wheels; empty if no assignment exists, or if the search limit is reached.
 
     Iterative deepening: the first success of a depth-first search has the minimum number of slots. It has an explicit
     stack, because a chain of meshes may exceed Python's recursion limit.
     """
     tries = 0
+    # one slot is not sufficient, because some wheels clash
     for count in range(2, len(meshes) + 1):
         stack: list[tuple[int, Mapping[str, AxialSlots]]] = [(0, {})]
         while stack and tries < _TRIES:
@@ -323,25 +329,25 @@ _ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Positions of all axes and wheels [mm]."""
+    """Result of `arrange`: positions of all axes and wheels [mm], with the stacks of wheels."""
 
     geometry: SizedGeometry
-    """Declared geometry; wheels whose mates are at different heights have been widened."""
+    """Declared geometry; wheels whose mates are at different heights are widened."""
     points: Mapping[str, Vector]
     """Points of axes by label. `centres` are the centres of wheels by name."""
     centres: Mapping[str, Vector]
     stacks: Sequence[WheelStack]
     """Stack of each group of parallels."""
     main: int
-    """Number of the group of parallel axes with the most wheels."""
+    """Number of the group of parallel axes with the most wheels; -1 without axes."""
     up: Vector
     """Upward direction of the main group."""
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the positions of all groups of parallel axes.
+    """Return the positions of the axes and wheels of all groups of parallel axes.
 
-    The group with most wheels is placed first, then those that mesh with placed groups.
+    The group with the most wheels is placed first, then repeatedly the largest group that meshes with a placed group.
     """
     declared = geometry.declared
     order = _order(geometry)
@@ -372,7 +378,7 @@ def _order(geometry: SizedGeometry) -> list[int]:
 
 
 class _Placing:
-    """Groups that are placed so far; `place` adds a group.
+    """Positions of the groups that are placed so far; `place` adds a group.
 
     Broadened wheels change `geometry`, so that later groups and diagnostics use their final sizes.
     """
@@ -400,7 +406,9 @@ class _Placing:
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
     def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
-        """Yield new axes that mesh with a placed axis: the pair from the new side, and a point of the axis."""
+        """Yield new axes that mesh with a placed axis: the pair from the side of the new axis, and a point of the new
+        axis [mm].
+        """
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -412,7 +420,9 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return points in plan of the axes that cannot move; if no axis is fixed, the point of one axis."""
+        """Return points in plan of the axes that cannot move [mm]; if no axis is fixed, points of axes that are
+        chosen.
+        """
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))
@@ -444,7 +454,7 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Widen wheels whose mates are one above the other."""
+        """Widen wheels whose mates would collide at one height, so that the mates can be placed one above the other."""
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:

@@ -20,18 +20,18 @@ _CARRIED = 1.2  # from an axis to that of its carrier
 
 @dataclass(frozen=True)
 class PlanProblem:
-    """Conditions on the plan of a group of parallel axes."""
+    """Conditions on the plan of a group of parallel axes, as the input of `plan_axes`."""
 
     labels: Sequence[str]
-    """Labels of the axes."""
+    """Labels of the parallel axes, in the order of their indices."""
     bearers: Mapping[str, str]
     """Link that carries each axis."""
     pivots: Mapping[str, str]
-    """Axes of carriers, which are placed before the axes that the carriers carry."""
+    """Axis -> axis of the carrier that carries it, which is placed first."""
     fixed: Mapping[str, Point]
-    """Given points of axes."""
+    """Points in plan of the axes that cannot move [mm]."""
     distances: Mapping[tuple[str, str], float]
-    """Required distances between pairs of axes (mm)."""
+    """Required distances between pairs of axes [mm]."""
     discs: Mapping[str, Mapping[str, WheelSize]]
     """Upright wheels of each axis, by name."""
     cluster: Mapping[str, int]
@@ -41,19 +41,19 @@ class PlanProblem:
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
     """Pairs of axes that must lie on a line, with the direction of the line as a unit vector."""
     sides: Mapping[str, Point] = field(default_factory=dict)
-    """Direction in which an axis meshes with a wheel of a perpendicular axis, preferably on the outside of the plan."""
+    """Axis -> direction in which it meshes with a wheel of a crossing axis, preferably on the outside of the plan."""
     places: Mapping[str, int] = field(default_factory=dict)
-    """Axis -> number of positions around its pivot at which its teeth mesh with both its mates."""
+    """Axis of a planet -> number of positions around its pivot at which its teeth mesh with both sun and ring."""
 
     def radius(self, label: str) -> float:
-        """Return the radius of the widest wheel of an axis (mm)."""
+        """Return the radius of the widest wheel of an axis [mm]."""
         return max((disc.outer for disc in self.discs[label].values()), default=0.0)
 
 
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """Return the problem of a group of parallels.
+    """Return the conditions on the plan of a group of parallel axes.
 
     fixed      given points in plan by axis
     standing   points of axes that are already placed
@@ -65,6 +65,7 @@ def plan_problem(
             discs[axis][wheel] = geometry.sizes[wheel]
     pivots = {line.label: line.pivots[0] for line in parallels.lines if line.pivots}
     forced = {pair: far for pair, far in geometry.modules.distances.items() if parallels.index.keys() >= set(pair)}
+    # 1 mm for an axis without wheels, because chosen distances are relative to radii
     radius = {label: max((disc.outer for disc in discs[label].values()), default=1.0) for label in labels}
     chosen = _chosen_distances(declared, forced, pivots, radius)
     crossing = [each for each in geometry.crossing if each.side.axis in parallels.index]
@@ -89,8 +90,8 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return distances for pins without dimensions, and for carried axes that are not connected to their carrier's
-    axis.
+    """Return chosen distances [mm] for pins without dimensions, and for carried axes that no distance connects to the
+    axis of their carrier.
     """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
@@ -115,7 +116,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect the same crossing axis, and therefore lie on a line along it.
+    """Yield pairs of axes that intersect the same crossing axis, each with the direction of the line on which they lie.
 
     A worm does not intersect its wheel's axis.
     """
@@ -140,7 +141,9 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield planets between a sun and a ring with their number of assembly positions, z_sun + z_ring."""
+    """Yield the axes of planets between a sun and a ring, each with its number of assembly positions, z_sun +
+    z_ring.
+    """
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

@@ -1,12 +1,12 @@
-"""Plan of parallel axes: points of a plane at given distances, with clearance between their wheels.
+"""Plan of parallel axes: points of a plane at given distances, with clearance between the wheels of the axes.
 
 `PlanProblem` contains distances, rows, sides, and discs that need clearance. `plan_axes` finds the points by beam
 search: axes are placed one after the other, each at an intersection of circles or in one of 48 directions, and the
 plans of lowest cost are continued. Distances that cannot all be satisfied are fitted by least squares.
 
-The order is greedy: axes that most distances determine come first. An axis of a closed chain of
+The order is greedy: the axis that the most distances to placed axes determine comes first. An axis of a closed chain of
 distances must stay near enough to placed axes for the rest of the chain to close. Shortest paths (Dijkstra's algorithm)
-give those bounds. The cost of a place is the overlap of wheels of parallel axes.
+give the bounds of its distance. The cost of a position is the overlap of wheels of parallel axes.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ class PlanClearance:
 
     Axes that carriers move relative to each other are separated by levels instead.
 
-    still    (axes, axes): True if the distance between two is constant
-    radius   radius of the widest wheel of each axis (mm), without rings
-    need     (axes, axes): minimum distances between axes whose wheels share a level and do not mesh (mm)
-    meet     (axes, axes): True if wheels of two mesh
+    still    (axes, axes): True if the distance between the two axes is constant
+    radius   radius of the widest wheel of each axis [mm], without rings
+    need     (axes, axes): minimum distances between axes whose wheels share a level and do not mesh [mm]
+    meet     (axes, axes): True if wheels of the two axes mesh
     """
 
     def __init__(self, problem: PlanProblem) -> None:
@@ -67,7 +67,7 @@ class PlanClearance:
                 self.meet[both[0], both[1]] = self.meet[both[1], both[0]] = True
 
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
-        """Return the cost of each candidate position of an axis among the placed axes."""
+        """Return the cost of each candidate position of an axis, from its overlap with the placed axes."""
         near = self._within_reach(at, placed[self.still[at, placed]], candidates, points)
         apart = candidates[:, None, :] - points[near][None, :, :]
         far = np.hypot(apart[:, :, 0], apart[:, :, 1])
@@ -79,7 +79,7 @@ class PlanClearance:
         return np.asarray(cost, float)
 
     def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
-        """Return the axes that a candidate may overlap; other axes cause no cost."""
+        """Return the axes that a candidate position may overlap; other axes cause no cost."""
         low, high = candidates.min(axis=0), candidates.max(axis=0)
         spots = points[near]
         away = np.maximum(np.maximum(low - spots, spots - high), 0)
@@ -88,7 +88,7 @@ class PlanClearance:
 
 
 def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanProblem) -> Floats:
-    """Return minimum distances between axes whose wheels share a level and do not mesh; 0 without a requirement."""
+    """Return minimum distances [mm] between axes whose wheels share a level and do not mesh; 0 for other axes."""
     need = np.zeros((len(discs), len(discs)))
     clusters: dict[int, list[tuple[int, str]]] = {}
     for at, own in enumerate(discs):
@@ -108,7 +108,7 @@ _NEAR = 60  # maximum number of axes on closed chains for which bounds are found
 
 
 class Bar(NamedTuple):
-    """Distance between two axes [mm], which are given by index."""
+    """Required distance between two axes [mm], which are given by index."""
 
     first: int
     second: int
@@ -116,7 +116,7 @@ class Bar(NamedTuple):
 
 
 class DistanceBound(NamedTuple):
-    """Minimum and maximum distance (mm) from an axis, given by index."""
+    """Minimum and maximum distance from a placed axis [mm], which is given by index."""
 
     axis: int
     minimum: float
@@ -125,23 +125,23 @@ class DistanceBound(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """Axis to be placed, by index."""
+    """Step of the search: the axis to be placed, by index, and the placed axes that restrict its position."""
 
     axis: int
     placed: Indices
-    """Axes that are already placed."""
+    """Indices of the axes that are already placed."""
     tied: tuple[DistanceBound, ...]
-    """Placed axes at a given distance from the axis."""
+    """Placed axes at a required distance from the axis."""
     bounds: tuple[DistanceBound, ...]
-    """Placed axes that must be reached by a chain of axes that are not placed yet."""
+    """Placed axes to which a chain of axes that are not placed yet must connect the axis."""
 
 
 class PlanOrder:
-    """Order in which the axes are placed, as joints of bars.
+    """Order in which the axes are placed. Axes are joints, and required distances are bars between them.
 
     index    index of each axis
-    radius   radius of the widest wheel of each axis (mm)
-    bars     all distances
+    radius   radius of the widest wheel of each axis [mm]
+    bars     all required distances
     alike    axis -> all equivalent axes on its carrier, including itself, each with only one bar, of one length, to the
              carrier's axis
     steps    axes in the order in which they are placed
@@ -184,10 +184,10 @@ class PlanOrder:
         return found
 
     def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
-        """Return the priority of an axis, of which the minimum is placed first.
+        """Return the rank of an axis; the axis with the minimum rank is placed first.
 
-        An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars
-        come first.
+        An axis comes after the axis of its carrier. Among other axes, the one with the most placed neighbours comes
+        first, then the one with the largest radius, or without placed neighbours the one with the most bars.
         """
         late = at in self._pivot and self._pivot[at] not in placed
         tied = len(self._joined[at].keys() & placed)
@@ -196,7 +196,9 @@ class PlanOrder:
         return late, -tied, -round(weight, 9)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
-        """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it is too large."""
+        """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it has more than 60
+        axes.
+        """
         left = set(range(len(self._joined)))
         count = [len(joined) for joined in self._joined]
         ends = [at for at in left if at not in placed and count[at] < 2]
@@ -210,9 +212,10 @@ class PlanOrder:
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds from the shortest paths to placed axes, over axes that are not placed yet.
+        """Return bounds from the shortest paths to placed axes over axes that are not placed yet.
 
-        The ends of a chain of bars are at most its length apart, and at least the longest bar minus the rest.
+        The ends of a chain of bars are at most the length of the chain apart, and at least its longest bar minus the
+        rest.
         """
         ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
@@ -224,6 +227,7 @@ class PlanOrder:
             done.add(here)
             if here in placed:
                 if here not in self._joined[at]:
+                    # polygon inequality: the longest bar minus all other bars is 2 longest - length
                     found.append(DistanceBound(here, max(0.0, 2 * longest - length), length))
                 continue
             for other, bar in self._joined[here].items():
@@ -248,8 +252,9 @@ _ROW = 1.2  # default distance between two axes on a line divided by the sum of 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
     """Return the intersections of two circles.
 
-    Without an intersection it is the nearest point between them, and nothing for concentric circles. With the distance
-    d of the centres they intersect at x = (d^2 + r^2 - s^2) / 2d along it, sqrt(r^2 - x^2) aside.
+    For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty
+    for concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d
+    along the line of centres and at sqrt(r^2 - x^2) on either side of it.
     """
     apart = hypot(b[0] - a[0], b[1] - a[1])
     if apart < 1e-12 * (radius + other):
@@ -267,9 +272,9 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the intersections of a line, given by a point and a unit vector, with a circle.
+    """Return the two intersections of a line, given by a point and a unit vector, with a circle.
 
-    Without an intersection both are the point of the line nearest to the centre.
+    Without an intersection both points are the point of the line nearest to the centre.
     """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
@@ -281,8 +286,9 @@ def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: fl
 
 
 def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> Floats:
-    """Return points (n, 2) that minimise the squared errors of distances, from given initial points; `fixed` points do
-    not move.
+    """Return points (n, 2) that minimise the squared errors of distances, from given initial points.
+
+    The `fixed` points do not move. More than 400 points are returned unchanged.
     """
     free = np.setdiff1d(np.arange(len(points)), list(fixed))
     if not bars or not len(free) or len(points) > _MOST:
@@ -304,12 +310,14 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
         return points
     from scipy.optimize import least_squares
 
+    # to rounding accuracy, because pitch circles with larger gaps are reported as notices
     return fitted(least_squares(misses, start, xtol=1e-15, ftol=1e-15, gtol=1e-15).x)
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points of all axes at the given distances, or fitted to them by least squares; the result is
-    deterministic.
+    """Return points in plan of all axes [mm], at the required distances or fitted to them by least squares.
+
+    The result is deterministic.
     """
     return _BeamSearch(problem).found()
 
@@ -322,7 +330,7 @@ class _BeamSearch:
         self.width = next((wide for most, wide in _BEAM if len(problem.labels) <= most), 1)
 
     def found(self) -> dict[str, Point]:
-        """Return the points of the best plan."""
+        """Return the points in plan [mm] of the plan with the lowest cost, by label."""
         problem, index = self.problem, self.order.index
         points = np.zeros((len(problem.labels), 2))
         for label, point in problem.fixed.items():
@@ -356,7 +364,7 @@ class _BeamSearch:
         return [(float(costs[at]), candidates[at]) for at in best]
 
     def _candidates(self, step: PlanStep, points: Floats) -> Floats:
-        """Return candidate positions of an axis."""
+        """Return candidate positions of an axis, shape (n, 2)."""
         row = self._in_row(step, points)
         if row:
             return np.array(row)
@@ -371,8 +379,9 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on a line with a placed axis, at the required distance from another axis, or at free
-        distances.
+        """Return points on a line with a placed axis, at the required distance from another axis, or at free distances.
+
+        The result is empty for an axis without such a line.
         """
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
@@ -394,7 +403,7 @@ class _BeamSearch:
         return []
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points outside all placed axes, in eight directions."""
+        """Return points outside all placed axes, in eight directions; the origin if no axis is placed."""
         if not len(step.placed):
             return [(0.0, 0.0)]
         radius = self.order.radius
@@ -407,8 +416,8 @@ class _BeamSearch:
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
         """Return points on the circle about the first axis to which the axis is tied.
 
-        They are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are evenly
-        spaced from the first of them.
+        The points are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are
+        evenly spaced from the first of these axes.
         """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()
@@ -430,7 +439,7 @@ class _BeamSearch:
 
 
 def _distance_cost(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
-    """Return the cost of the distances that each candidate violates, or makes impossible."""
+    """Return the cost of the distances that each candidate position violates, or makes impossible."""
     total = np.zeros(len(candidates))
     for bound in (*step.tied, *step.bounds):
         apart = candidates - points[bound.axis]

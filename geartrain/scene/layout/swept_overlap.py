@@ -1,7 +1,7 @@
 """Wheels of parallel axes that overlap in plan at some angles of the carriers that move them.
 
-Relative to the nearest link that carries both, each of two axes stays in an annulus about the axis of a carrier. The
-whole of both annuli is used, as if the angles of carriers were independent, which gives an interval of distances for
+Relative to the nearest link that carries two axes, each of them stays in an annulus about the axis of a carrier. All
+points of both annuli are used, as if the angles of carriers were independent, which gives an interval of distances for
 every two axes.
 """
 
@@ -44,12 +44,14 @@ class SweptDistances:
     far: Floats
 
     def overlap(self, disc: Disc, axis: int, other: Disc, other_axis: int) -> bool:
-        """Return True if wheels of two axes at one height collide."""
+        """Return True if wheels of two axes at one height collide at some angles of the carriers."""
         return overlap(disc, other, float(self.near[axis, other_axis]), float(self.far[axis, other_axis]))
 
 
 class _Swept(NamedTuple):
-    """Position of an axis relative to a link that carries it: from `low` to `high` (mm) from the axis `centre`."""
+    """Position of an axis relative to a link that carries it: at a distance from `low` to `high` [mm] from the axis
+    `centre`.
+    """
 
     at: int
     centre: str
@@ -58,9 +60,10 @@ class _Swept(NamedTuple):
 
 
 def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> SweptDistances:
-    """Return distances of parallel axes at any angles of their carriers.
+    """Return the distances between parallel axes over all angles of their carriers.
 
-    Axes carried by a link that turns about another direction are infinitely far from all that it does not carry.
+    Axes carried by a link that turns about another direction are infinitely far from all axes that this link does not
+    carry.
     """
     seen: dict[tuple[str, ...], list[_Swept]] = {}  # by link, with all links that carry it
     for at, line in enumerate(lines):
@@ -72,6 +75,7 @@ def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> S
                 break
             (x, y), (u, v) = places[centre], places[pivot]
             arm = hypot(x - u, y - v)
+            # the annulus of radii low and high, swept as its centre revolves at the distance arm
             low, high = max(0.0, low - arm, arm - high), high + arm
             centre = pivot
     count = len(lines)
@@ -100,11 +104,11 @@ def _fill(found: SweptDistances, members: Sequence[_Swept], places: Mapping[str,
 
 @dataclass(frozen=True, slots=True)
 class WheelBlock:
-    """Wheel in a stack [mm]."""
+    """Wheel as a disc in a stack, with its height and radii [mm]."""
 
     wheel: str
     axis: int
-    """Index of its axis. `link` is the link of its arbor."""
+    """Index of the wheel's axis. `link` is the link of its arbor, empty for a crossing wheel."""
     link: str
     stack: int
     """Number of the stack: a set of wheels with fixed relative heights because they mesh."""
@@ -133,7 +137,7 @@ def find_plan_overlap(
 ) -> tuple[Flags, Flags]:
     """Return the pairs of blocks that must not be at the same height, and the blocks that links and pins would pierce.
 
-    Their shapes are (blocks, blocks), and (links and pins, blocks).
+    The shapes of the two masks are (blocks, blocks) and (links and pins, blocks).
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     pins     wheel of a pin and wheel of its slot
@@ -156,6 +160,7 @@ def find_plan_overlap(
     axis_of = {block.link: block.axis for block in blocks}
     arbor: Indices = np.array([axis_of[link] for link in links], np.intp)
     pierce = off[arbor] < outer[None, :]
+    # an arbor that is always inside a ring does not pierce the ring
     pierce &= (swept.far[np.ix_(arbor, axis)] >= inner[None, :]) | (inner[None, :] == 0)
     pierce &= axis[None, :] != arbor[:, None]
     named = {block.wheel: at for at, block in enumerate(blocks) if not block.across}
@@ -167,10 +172,11 @@ def find_plan_overlap(
 
 
 def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
-    """Return blocks of other links that a pin may hit between its wheel and the slot's wheel."""
+    """Return a mask of the blocks of other links that a pin may hit between its wheel and the slot's wheel."""
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])
     own = np.array([block.link in (pin.link, slot.link) for block in blocks])
+    # the radius of the pin is not known here: it may be anywhere on its wheel
     return np.asarray((off[pin.axis] - pin.outer < outer) & ~own)
 
 

@@ -1,10 +1,10 @@
 """Layout of a train: positions of all axes and wheels in space, in the pose in which all angles are 0.
 
-Wheels are rotated on their arbors so that teeth of one mesh with tooth spaces of the other, in a breadth-first search
-over the gear pairs: the first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches
-by which a tooth is past the pitch point, positive as the wheel turns, teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1)
-when positive angles move the pitch point in opposite senses, and s_1 - s_2 = 1/2 otherwise. Conditions that a layout
-could not satisfy are reported as notices.
+Wheels are rotated on their arbors so that teeth of one wheel mesh with tooth spaces of its mate, in a breadth-first
+search over the gear pairs: the first wheel of a train has a tooth at a pitch point, and the angle of each mate follows.
+Let s be the number of pitches by which a tooth is past the pitch point, positive in the positive sense of rotation.
+Teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1) when positive angles move the pitch point in opposite senses, and if
+s_1 - s_2 = 1/2 otherwise. Conditions that a layout could not satisfy are reported as notices.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Return pairs whose pitch circles do not touch, with the gap [mm], negative for an overlap."""
+    """Return the gap of each pair whose pitch circles do not touch [mm], negative for an overlap."""
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -52,6 +52,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
     if contact.parallel:
         first, second = (found.points[axis] for axis in contact.axes)
         apart = pitch_distance(declared, found.geometry.modules.module, contact)
+        # heights do not matter: only the distance in plan determines whether pitch circles touch
         far = size(across(minus(second, first), lines[0].direction)) - apart
         # a wheel too far from the centre of a ring overlaps it
         return -far if contact.kind == "ring" else far
@@ -74,8 +75,8 @@ def notices(
 ) -> Iterator[Problem]:
     """Yield all notices on a layout; notices that prevent a build are first.
 
-    gaps     gaps of pairs whose pitch circles do not touch (mm)
-    misses   phase errors of pairs whose teeth do not mesh (pitches)
+    gaps     gaps of pairs whose pitch circles do not touch [mm]
+    misses   phase errors of pairs whose teeth do not mesh [pitches]
     """
     # what cannot be built at all comes first
     yield from (each.problem for each in train.build_findings)
@@ -92,7 +93,7 @@ def notices(
             yield Problem(
                 f"the teeth of '{name}' do not mesh: their phase is wrong by {abs(miss):.3g} of a pitch",
                 "the pair closes a loop of wheels, whose positions determine the phases of all teeth",
-                "declare positions of the axes at which teeth mesh, or change tooth counts",
+                "declare axis positions at which the teeth mesh, or change tooth counts",
                 place[name],
             )
 
@@ -104,7 +105,7 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
         + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
         f"the centre distance that pair '{contact.name}' requires between axes '{axis}' and '{other}' is incompatible "
         "with other pairs, declared positions, modules or offsets",
-        "change a tooth count, a position or a module; speeds are not affected",
+        "change a tooth count, a position or a module; the gap itself does not affect speeds",
         place,
     )
 
@@ -126,8 +127,8 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they and their mates are on one level, and their axes are too close together",
-            "declare positions of their axes, or change the order of their pairs",
+            "the axes are too close together for wheels at overlapping heights",
+            "declare positions of the axes, or change the order of the gear pairs",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:
@@ -151,17 +152,18 @@ _NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def reference(direction: Vector) -> Vector:
-    """Return the unit vector perpendicular to an axis from which angles are measured: x if the axis is z."""
+    """Return the unit vector perpendicular to an axis from which angles are measured; it is x if the axis is z."""
     return frame(direction)[0]
 
 
 def pitch_directions(
     wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
 ) -> tuple[Vector, Vector]:
-    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to its axis.
+    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to the wheel's
+    axis.
 
     ways    declared directions of the axes
-    rings   whether each wheel is a ring
+    rings   for each wheel, True if it is a ring
     """
     first, second = wheels
     between = minus(second.centre, first.centre)
@@ -178,10 +180,10 @@ def pitch_directions(
 def align_meshes(
     declared: DeclaredGeometry, places: Mapping[str, WheelPlace]
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the angles at which wheels mesh.
+    """Return the angles at which wheels mesh, and phase errors.
 
-    They are the angle of the first tooth of each wheel (rad, from 0 to a pitch), and the phase errors of pairs that
-    close a loop (pitches).
+    The angles are those of the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are those
+    of pairs that close a loop and do not mesh.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
     angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel
@@ -248,8 +250,8 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from wheels that mesh, or `free` (placed without
-    overlap).
+    """Origin of the position: `given` in the declaration, `found` from wheels that mesh or from the offset of a pin, or
+    `free` (placed without overlap).
     """
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
@@ -275,18 +277,18 @@ class WheelPlace(Shown):
     radius: float
     """Pitch radius [mm]; for a bevel wheel, at the wide end."""
     module: float
-    """Pitch diameter divided by the tooth count [mm]."""
+    """Transverse module [mm], the pitch diameter divided by the tooth count; axial module of a worm."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False
-    """True if the module of this wheel, or of a wheel that meshes with it, is declared."""
+    """True if the module of the wheel, or of a wheel that meshes connect with it, is declared."""
     cone: float = 0.0
     """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
     """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of the level, from 0 for the level nearest to the origin, increasing along the axis; None for wheels that
-    are not on the main axes.
+    """Number of the level, from 0 for the lowest level along the main axes; None for wheels that are not on the main
+    axes.
     """
     turn: float = 0.0
     """Angle of the wheel's first tooth about the direction of the axis, measured from `reference` [rad]. At this
@@ -315,7 +317,8 @@ class Layout(Shown):
     wheels: Mapping[str, WheelPlace]
     """Wheels by name."""
     notices: tuple[Problem, ...] = ()
-    """Problems with wheels and axes that could not be placed as declared or that collide, with reasons and remedies."""
+    """Problems with wheels and axes that could not be placed as declared, or that collide, with reasons and remedies.
+    """
     front: int = 1
     """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
@@ -411,7 +414,7 @@ def _axis_places(found: Arrangement) -> dict[str, AxisPlace]:
 
 
 def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
-    """Return the places of all wheels, not yet rotated so that teeth mesh."""
+    """Return the positions of all wheels, not yet rotated so that teeth mesh."""
     geometry, declared = found.geometry, found.geometry.declared
     layers, coned = _layers(found), _coned_seats(found)
     places = {}
@@ -437,14 +440,16 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seat of each wheel with a cone. A wheel that also meshes about a parallel axis has none."""
+    """Return the seat of each wheel in a pair with non-parallel axes, except wheels that also mesh about a parallel
+    axis.
+    """
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lower end."""
+    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lowest slot."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

@@ -1,11 +1,12 @@
 """Modules and sizes of wheels, which are determined by the train, declared, or chosen.
 
-Wheels that mesh share a module, so each cluster of them has one. Two pairs between the same two axes force the ratio of
-their clusters' modules. These ratios are a weighted union-find in exact fractions. The scale of a group of clusters is
-a declared module, else a least squares fit of declared distances, else the median of all known modules.
+Wheels that mesh share a module, so each cluster of meshing wheels has one module. Two pairs between the same two axes
+force the ratio of the modules of their clusters. These ratios are stored in a weighted union-find structure as exact
+fractions. The scale of a group of clusters is a declared module, else a least squares fit of declared distances, else
+the median of all known modules.
 
 Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
-than all others together (polygon inequality). Relaxation: each distance that is longer than the shortest path between
+than the sum of the rest (polygon inequality). Relaxation: each distance that is longer than the shortest path between
 its ends is shortened, or that path is lengthened, repeatedly.
 
 `SizedGeometry` is the input of all placements: the declared geometry with modules, sizes of wheels, and seats of
@@ -48,14 +49,17 @@ class AxisDistance:
     root: int | None
 
     def length(self, modules: Mapping[int, Fraction]) -> float:
-        """Return the distance (mm) at given modules."""
+        """Return the distance [mm] at given modules."""
         return self.times * (1.0 if self.root is None else float(modules[self.root]))
 
 
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return modules of roots. The modules in `free` are multiplied by simple factors until all chains can close."""
+    """Return modules of roots, with the modules in `free` multiplied by simple factors until all chains can close.
+
+    At most 12 passes are made. With more than 300 distances the modules are unchanged.
+    """
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -67,9 +71,9 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the path round it, or lengthen the path.
+    """Shorten a distance that is longer than the path round it, or lengthen the path, by changing `modules` in place.
 
-    Return whether a module was changed.
+    Return True if a module was changed, False if not.
     """
     one = distances[at]
     way = _way_round(distances, at, modules)
@@ -88,6 +92,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
     part = sum(other.length(modules) for other in loose)
     if not part:
         return False
+    # only the free part of the path grows: way_length + (factor - 1) part = length / _LOOSE
     factor = 1 + (length / _LOOSE - way_length) / part
     for root in {other.root for other in loose if other.root is not None}:
         modules[root] *= _simple(factor)
@@ -95,7 +100,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return a short fraction near a factor, so that modules have simple values; it may be 0."""
+    """Return the nearest fraction with a denominator up to 1000, so that modules have simple values; it may be 0."""
     return Fraction(factor).limit_denominator(1000)
 
 
@@ -138,16 +143,18 @@ _MODULE = Fraction(1)  # mm: default module
 
 @dataclass(frozen=True, slots=True)
 class WheelModules:
-    """Modules of a train, and the resulting distances."""
+    """Modules of the wheels of a train, and the distances between axes that result from them."""
 
     cluster: Mapping[str, int]
-    """Wheel -> number of its cluster, the wheels connected by meshes."""
+    """Wheel -> number of its cluster; a cluster is a set of wheels that meshes connect."""
     module: Mapping[str, float]
-    """Wheel -> module (mm)."""
+    """Wheel -> module [mm]."""
     declared: frozenset[str]
     """Wheels of clusters whose module is declared."""
     distances: Mapping[tuple[str, str], float]
-    """Pairs of axes -> required distance (mm), the mean of the requirements of their pairs."""
+    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
+    pairs.
+    """
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
@@ -163,9 +170,9 @@ class _ModuleSearch:
     A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
 
     cluster   number of the cluster of each wheel
-    between   gear pairs by their axes, for pairs with a distance: parallel ones, and worms
+    between   gear pairs with parallel axes and worm gear pairs, by their axes
     own       declared modules by wheel
-    given     declared module by cluster, that of the first of its wheels
+    given     declared module by cluster: that of its first wheel with a declared module
     """
 
     def __init__(self, geometry: DeclaredGeometry) -> None:
@@ -203,7 +210,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root of each cluster, and the ratio of its module to the module of the root."""
+        """Root of each cluster, and the module of the cluster divided by the module of the root."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -221,7 +228,8 @@ class _ModuleSearch:
             ratios.join(*ends, far / other)
 
     def _join_nearby(self, ratios: RatioSets[int], tie: PinSlotTie) -> None:
-        """Record equal distances of an axis from the axes of a pin and its slot, which are close together.
+        """Record that the axes of a pin and its slot, which are close together, are equally far from each axis that
+        both mesh with.
 
         This is a choice and not a constraint, so it comes after all constraints.
         """
@@ -253,8 +261,9 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance between two axes from their declared points, otherwise from the offset of a pin;
-        otherwise None.
+        """Return the distance between two axes [mm] from their declared points, otherwise from the offset of a pin.
+
+        It is None if neither is declared.
         """
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
@@ -265,9 +274,10 @@ class _ModuleSearch:
         return next((tie.offset for tie in self.geometry.ties if set(tie.axes) == set(axes)), None)
 
     def _chained(self) -> Iterator[AxisDistance]:
-        """Yield distances of parallel axes relative to the module on which they depend."""
+        """Yield distances of parallel axes, each as a multiple of the module on which it depends or in mm."""
         lines = self.geometry.lines
         placed = [label for label, line in lines.items() if line.given is not None]
+        # a chain of the fixed axes is sufficient to find the paths between all of them
         for pair in pairwise(placed):
             if lines[pair[0]].group == lines[pair[1]].group:
                 yield AxisDistance(pair, float(self._declared_distance(pair) or 0), None)
@@ -285,6 +295,7 @@ class _ModuleSearch:
             yield axes, sum(far) / len(far)
         for tie in self.geometry.ties:
             if tie.offset is not None:
+                # after the gear pairs, so that a declared offset replaces their distance
                 yield tie.axis_pair, float(tie.offset)
 
 
@@ -300,16 +311,16 @@ _WORM = 12.0  # length of a worm in modules
 
 @dataclass(frozen=True, slots=True)
 class Seat:
-    """Position of a wheel of a pair whose axes are not parallel."""
+    """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
     """Distance along the axis from the point where the axes intersect, or are nearest, to the centre of the
     wheel [mm].
     """
     cone: float
-    """Half angle of its pitch cone (rad)."""
+    """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
     out: Vector
-    """Unit vector across its axis, towards the pitch point."""
+    """Unit vector perpendicular to the wheel's axis, towards the pitch point."""
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
@@ -349,9 +360,9 @@ def opposite(v: Vector) -> Vector:
 
 
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Return the unit vector from the axis of a worm to the axis of its wheel.
+    """Return the unit vector from the axis of a worm to the axis of its wheel, along their common perpendicular.
 
-    Without declared positions it is the side on which a right-hand worm reverses.
+    Without declared positions it is the cross product of the directions of wheel and worm.
     """
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
@@ -362,14 +373,14 @@ def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class WheelSize:
-    """Sizes of a wheel (mm)."""
+    """Sizes of a wheel in a layout [mm]."""
 
     radius: float
     """Pitch radius."""
     module: float
-    """Transverse module: pitch diameter divided by the tooth count."""
+    """Transverse module: pitch diameter divided by the tooth count; axial module of a worm."""
     thickness: float
-    """Thickness of its rim along the axis."""
+    """Thickness of the wheel's rim along the axis."""
     inner: float
     """Radius of the free space inside a ring; 0 for other wheels."""
     outer: float
@@ -377,10 +388,10 @@ class WheelSize:
     slot: float = 0.0
     """Height of the middle of the wheel above the lowest slot, if its level is divided into slots."""
     plain: float = 0.0
-    """Thickness before it was broadened to mesh with several mates."""
+    """Thickness before the wheel was broadened to mesh with several mates."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
-        """Return the wheel broadened to occupy the slots from `low` to `high`, counted from the lowest."""
+        """Return the wheel broadened to occupy the slots from `low` to `high`, counted from 0 for the lowest slot."""
         step = _SLOT * self.thickness
         broad = (high - low) * step + self.thickness
         return replace(self, thickness=broad, slot=(low + high) / 2 * step)

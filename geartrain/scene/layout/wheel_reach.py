@@ -19,7 +19,7 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the ratio of the size of a bevel wheel's teeth at the narrow end to the size at the wide end.
+    """Return the size of a bevel wheel's teeth at the narrow end divided by their size at the wide end.
 
     Parameters
     ----------
@@ -33,15 +33,16 @@ def taper(cone: float, radius: float, thickness: float) -> float:
     Returns
     -------
     float
-        Between 0 and 1; 1 for teeth without length.
+        Ratio from 0.55 to 1; 1 for a face width of 0.
     """
+    # the cone distance is radius / sin(cone)
     return 1 - min(_MOST_FACE, thickness * sin(cone) / radius)
 
 
 def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> float:
     """Return the distance between a point of a tooth and the plane of the pitch circle [mm], positive towards the apex.
 
-    depth   height above the pitch cone, along the back cone at the wide end (mm)
+    depth   height above the pitch cone, along the back cone at the wide end [mm]
     scale   1 at the wide end, `taper` at the narrow end
     """
     apex = radius / tan(cone)
@@ -51,22 +52,24 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
     """Return the position of the back of a bevel wheel's body [mm], in the coordinate of `height_on_cone`.
 
-    root   height of the roots above the pitch cone (mm)
+    root   height of the roots above the pitch cone [mm]
     """
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of `reach` for a wheel whose teeth are not known, with usual heights for its module [mm]."""
+    """Return the extents of `reach` [mm] for a wheel whose teeth are not known, with standard tooth heights for its
+    module.
+    """
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 
 def reach(cone: float, radius: float, thickness: float, root: float, tip: float) -> tuple[float, float]:
-    """Return the axial extents (mm) of a wheel's body from its pitch circle, away from the apex and towards it.
+    """Return the axial extents [mm] of a wheel's body from its pitch circle, away from the apex and towards it.
 
-    cone        half angle of its pitch cone (rad), 0 for a cylinder
-    root, tip   heights above the pitch cone (mm)
+    cone        half angle of its pitch cone [rad], 0 for a cylinder
+    root, tip   heights above the pitch cone [mm]
     """
     if not cone:
         return thickness / 2, thickness / 2
@@ -75,7 +78,7 @@ def reach(cone: float, radius: float, thickness: float, root: float, tip: float)
 
 
 def web(cone: float, radius: float, thickness: float, root: float) -> tuple[float, float]:
-    """Return the extents of `reach` for the disc within the teeth."""
+    """Return the axial extents [mm], as `reach` does, of the disc inside the ring of teeth."""
     if not cone:
         return thickness / 2, thickness / 2
     front = height_on_cone(cone, radius, root - LAND * radius, taper(cone, radius, thickness))
@@ -83,5 +86,5 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return extents as positions along the direction of the axis from the pitch circle, in ascending order."""
+    """Return the extents of `reach` as positions along the axis relative to the pitch circle, in ascending order."""
     return (-towards, away) if facing > 0 else (-away, towards)

@@ -1,9 +1,9 @@
 """Heights of the wheels of parallel axes without collisions, and the collisions that could not be avoided.
 
-The order of levels is found first, so that few arbors pass through wheels and all arbors are short. It is a local
-search on keys, one for each stack, which increase upwards; stacks with one key share a level. Each stack in turn is
-moved to its place of minimum cost, then runs of levels are moved or reversed together, until nothing improves. In a
-very large train each stack is put into the first level that fits, and stays there.
+The order of levels is found first, so that few arbors pass through wheels and all arbors are short. The method is a
+local search on keys, one for each stack, which increase upwards; stacks with equal keys share a level. Each stack in
+turn is moved to its position of minimum cost, then runs of levels are moved or reversed together, until nothing
+improves. With more than 80 stacks, each stack is put into the first level that fits, and stays there.
 """
 
 from __future__ import annotations
@@ -38,21 +38,21 @@ _SEARCHED = 80  # maximum number of stacks for the local search
 
 @dataclass(frozen=True)
 class StackProblem:
-    """Stacking problem of one group of parallel axes."""
+    """Problem of stacking the wheels of one group of parallel axes in levels."""
 
     blocks: Sequence[WheelBlock]
     clash: Flags
     """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Wheels through which an arbor or a pin would pass at their height, shape (links and pins, blocks)."""
+    """Wheels through which an arbor or a pin would pass if it crossed their height, shape (links and pins, blocks)."""
     arbors: Sequence[str]
     """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
-    """Ends of arbors that extend beyond the stack to a dial."""
+    """Link -> ends of its arbor that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
     """Arbor -> wheel that carries the axis of the arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheels with a pin and with its slot, in the order of the rows of `pierce` after those of arbors."""
+    """Wheel with a pin and wheel with its slot, in the order of the rows of `pierce` after the rows of arbors."""
     still: str = ""
     """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
 
@@ -63,7 +63,8 @@ class StackProblem:
 
 
 class _OrderSearch:
-    """Search for the order of the stacks of one problem: a key for each, increasing upwards, equal on one level.
+    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and equal keys
+    are one level.
 
     clash     stacks that must not share a level, by stack
     carried   stacks of each arbor, and of the wheel that carries its axis
@@ -97,7 +98,7 @@ class _OrderSearch:
 
     @cached_property
     def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
-        """Stacks of fixed wheels by axis, if there are several on an axis, which are then one piece."""
+        """Stacks of fixed wheels by axis, for axes with several such stacks, whose wheels are one piece."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:
@@ -105,7 +106,7 @@ class _OrderSearch:
         return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
 
     def _mates(self, at: int) -> Iterator[int]:
-        """Return stacks that share an arbor with a stack, repeated for each shared arbor, including itself."""
+        """Yield stacks that share an arbor with a stack, repeated for each shared arbor, including the stack itself."""
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
 
     @cached_property
@@ -127,7 +128,9 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Place all stacks, then improve each again and move runs of levels until the order does not improve."""
+        """Return the key of each stack: all stacks are placed, then each stack and runs of levels are moved until no
+        move improves the order.
+        """
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
@@ -146,7 +149,7 @@ class _OrderSearch:
         return keys
 
     def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
-        """Return the best order with one run of levels moved or reversed, and whether it is an improvement."""
+        """Return the best order with at most one run of levels moved or reversed, and True if it is an improvement."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = self._costs(ranks, fixed_cost)
@@ -206,11 +209,11 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return the number of times that arbors interleave with fixed wheels on their axis, so that these wheels
-        cannot be one piece.
+        """Return a measure of how often arbors interleave with fixed wheels on their axis, which then cannot be one
+        piece.
 
-        Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further
-        one counts as half.
+        From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation means an
+        arbor beside the fixed wheels; each further alternation counts as half.
         """
         found = np.zeros(keys.shape[1])
         below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
@@ -231,7 +234,7 @@ class _OrderSearch:
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
         """Rows (arbor, stack) of each arbor with each stack of another arbor on its axis, as three arrays.
 
-        They are the arbors, the stacks, and the first row of each ordered pair of arbors.
+        The arrays are the arbors, the stacks, and the first row of each ordered pair of arbors.
         """
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
@@ -258,14 +261,16 @@ class _OrderSearch:
 
     @cached_property
     def _stack_table(self) -> Indices:
-        """Stacks of every arbor, shape (maximum number, arbors); the first is repeated for arbors with fewer."""
+        """Stacks of every arbor, shape (maximum number, arbors); arbors with fewer stacks repeat their first stack."""
         most = max(map(len, self.carried), default=1)
         filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
         return np.array(filled, np.intp).reshape(-1, most).T
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, stacks through which they pass at the same height, and the number of wheels of each."""
+        """Arbors, the stacks whose wheels they would pierce at the same height, and the number of such wheels in each
+        stack.
+        """
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -324,7 +329,7 @@ _SLACK = 1e-9  # relative to the radii: touching wheels must not collide by roun
 
 
 def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
-    """Return the height of each stack (mm), the lowest upright wheel at 0, with a `gap` between levels."""
+    """Return the height of each stack [mm], with the lowest upright wheel at 0 and a `gap` [mm] between levels."""
     if not problem.count:
         return {}
     search = _OrderSearch(problem)
@@ -338,9 +343,9 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return heights of levels from the lowest.
+    """Return heights of levels from the lowest [mm].
 
-    Each level is above all blocks that clash with it, and above the level before.
+    Each level is above all blocks that clash with it, and above the previous level.
     """
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
@@ -359,29 +364,30 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
 
 
 def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
-    """Return the maximum thickness of a set of blocks at the height of their stack."""
+    """Return the maximum thickness [mm] of the blocks without an offset in their stack; 0 if there are none."""
     sizes = [blocks[at].low + blocks[at].high for at in which.tolist() if not blocks[at].offset]
     return max(sizes, default=0.0)
 
 
 @dataclass(frozen=True)
 class WheelStack:
-    """Wheels of a group of parallel axes, one above the other."""
+    """Wheels of a group of parallel axes, with the problem that determines their heights."""
 
     up: Vector
     """Direction of increasing heights."""
     problem: StackProblem
     gap: float
-    """Gap between levels (mm)."""
+    """Gap between levels [mm]."""
     swept: SweptDistances
-    """Distances between the axes."""
+    """Distances between the axes while carriers turn."""
     given: Mapping[int, float]
     """Stack -> height [mm] that is determined by parts that are already placed."""
 
     def heights(self) -> dict[str, float]:
-        """Return heights of upright wheels (mm).
+        """Return heights of upright wheels [mm].
 
-        Given heights are kept, and all other stacks are shifted by the same amount as the first given one.
+        Given heights are kept, and all other stacks are shifted by the same amount as the first stack with a given
+        height.
         """
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)
@@ -390,7 +396,7 @@ class WheelStack:
 
     @property
     def upright(self) -> list[WheelBlock]:
-        """Wheels that turn about these axes."""
+        """Blocks of wheels that turn about the axes of this group."""
         return [block for block in self.problem.blocks if not block.across]
 
     def collisions(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
@@ -411,8 +417,8 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except for pins and slots, whose axes share
-        one stud.
+        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, whose axes
+        share one stud.
         """
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}

@@ -1,6 +1,6 @@
 """Parts that connect the wheels of a mechanism: plates, pillars, arbors, pipes and studs, with their fits.
 
-The input is wheels as cut, their places, and the axes that the frame and the carriers carry. The output is a
+The input is wheels as cut, their positions, and the axes that the frame and the carriers carry. The output is a
 `FramePlan`: every part with its link, wheels moved along their axes to make space for plates, the hole of every wheel,
 and notices on parts that could not be placed.
 
@@ -12,7 +12,7 @@ and notices on parts that could not be placed.
     eccentrics       eccentric discs on arbors for wheels carried close to the centre; circles of pins; cups of waves
     turned_parts     arbors, pipes, studs, pillars as bodies of revolution
     sleeves          spacers between wheels, collars and collets; the barrel of a weight
-    pillar_places    places of pillars, and of posts that hold rings
+    pillar_places    positions of pillars, and of posts that hold rings
     frame_plates     outlines and holes of plates
-    frame_plan       places of the plates, then all of these in order, with heights as built and plates of shafts
+    frame_plan       positions of the plates, then all parts in order, with heights as built and plates of shafts
 """

@@ -26,14 +26,14 @@ INTEGRAL = 0.6  # modules between roots and arbor: with less a pinion is cut fro
 HAND = 1.6  # mm by which an arbor extends beyond its pipe if both carry hands
 _MINIMUM = 0.8  # mm: minimum diameter of an arbor
 USUAL = 2 / 3
-"""Diameter of an arbor relative to the root radius of its smallest wheel."""
+"""Default diameter of an arbor divided by the root radius of its smallest wheel."""
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: diameters of arbors that are tried to avoid obstacles
 _PIVOT = 0.55  # diameter of a pivot divided by that of its arbor, which leaves a shoulder
 _WIDEST = 6.0  # mm: maximum default diameter
 
 
 class AxisBearing(StrEnum):
-    """Bearing of an axis in the plates of the frame."""
+    """Kind of bearing of an axis in the plates of the frame."""
 
     THROUGH = "through"
     BACK_STUD = "stud in the back plate"
@@ -43,7 +43,7 @@ class AxisBearing(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class FramePlaces:
-    """Heights of the lower and upper face of both plates [mm]."""
+    """Heights of the lower and upper face of the back plate and of the front plate [mm]."""
 
     back: tuple[float, float]
     front: tuple[float, float]
@@ -64,7 +64,7 @@ class ColumnMember:
 
 @dataclass(frozen=True, slots=True)
 class AxisColumn:
-    """All arbors, pipes and studs on one axis."""
+    """All arbors, pipes and studs on one axis, with their obstacles."""
 
     axis: str
     at: Point
@@ -72,7 +72,7 @@ class AxisColumn:
     core: float
     """Diameter of the central arbor or stud [mm], which extends from `low` to `high`."""
     pivot: float
-    """Diameter (mm) of an arbor's pivots."""
+    """Diameter of the arbor's pivots [mm]."""
     low: float
     high: float
     members: tuple[ColumnMember, ...]
@@ -80,7 +80,7 @@ class AxisColumn:
     hit: tuple[tuple[StackDisc, float], ...] = ()
     """Obstructing discs of other axes, with their gaps (below `APART`) [mm]."""
     tangled: tuple[str, str] | None = None
-    """Two links of which neither can be inside the other."""
+    """Two links of which neither can be inside the other; None if all links can be nested."""
     on: str = ""
     """Axis of the stud on whose end this stud is turned; empty for other columns.
 
@@ -99,35 +99,38 @@ class AxisColumn:
         return any(each.low < middle < each.high for each in self.members)
 
     def radius(self, low: float, high: float) -> float:
-        """Return the radius of the widest part between two heights (mm)."""
+        """Return the radius of the widest part between two heights [mm]."""
         wide = [each.outer / 2 for each in self.members if each.low < high and low < each.high]
         return max([*wide, self.core / 2 if self.low < high and low < self.high else 0.0])
 
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Problem of one axis: its discs, the discs of other axes, and the links that extend to dials."""
+    """Problem of one axis: its discs, the discs of other axes, and the links that extend to dials.
+
+    Its solution is an `AxisColumn` for given positions of the plates.
+    """
 
     axis: str
     at: Point
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> whether it extends below and above the stack."""
+    """Link -> True or False for an end below the stack and for an end above the stack."""
     span: tuple[float, float]
-    """Lowest and highest point of the stack, including the space of dials (mm)."""
+    """Lowest and highest point of the stack, including the space of dials [mm]."""
     frame: str
     process: Process
     core: float | None = None
-    """Diameter of the arbor (mm), if it is given."""
+    """Diameter of the arbor [mm], as given; None if it may be chosen."""
     pivot: float | None = None
-    """Diameter of its pivots (mm), if it is given."""
+    """Diameter of the arbor's pivots [mm], as given; None if it may be chosen."""
     head: float = SHAKE + HEAD
     """Length of a stud beyond the parts on it [mm]."""
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes with their gaps, which do not depend on the positions of the plates."""
+        """Discs of other axes, each with its gap [mm], which does not depend on the positions of the plates."""
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
@@ -136,21 +139,23 @@ class ColumnProblem:
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column with a single bearing, in a bridge, between two collars."""
+        """Return the column with a single bearing, in a bridge, with a collar at either side of the bridge."""
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core, or with the thickest standard core that has clearance to
-        all wheels.
+        """Return the column with the given core, or with the thickest standard core that has clearance to all wheels.
+
+        If no thinner core has clearance either, the column has the default core.
         """
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
             return self._column(bearing, places, self._members(order, core, stud), tangled, core)
 
+        # the preferred diameter, which does not take obstacles into account
         first = column(self._core(order, stud))
         thinner = [core for core in _CORES if core < first.core]
         # the radius of a column increases with its core at every height: an obstacle of the thinnest blocks all
@@ -175,7 +180,9 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return pieces from the innermost, and two links of which neither can be inside the other, if any."""
+        """Return pieces from the innermost, and two links of which neither can be inside the other; None if all can be
+        nested.
+        """
         if not self._fixed_discs:
             return self._turning_order
         tangled = None
@@ -214,7 +221,9 @@ class ColumnProblem:
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
     def _single_piece(self, places: FramePlaces) -> CoaxialLink:
-        """Return fixed wheels as one piece, held by the nearer plate, ignoring obstacles."""
+        """Return fixed wheels as one piece without a hub in its plate, the nearer plate, so that it has no obstacle
+        there.
+        """
         held = self._fixed_piece(self._fixed_discs, self._nearer(places)[0])
         return replace(held, hubs=held.hubs[:-1])
 
@@ -224,9 +233,10 @@ class ColumnProblem:
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield ways to hold fixed wheels: as one piece, or as two pieces, one of them with no obstacle before a plate.
+        """Yield the fixed pieces that can hold the fixed wheels: one piece, or two, of which one is next to its plate.
 
-        hubs   heights of all turning discs on the axis
+        hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
+        plate
         """
         own, plates = self._fixed_discs, self._nearer(places)
         yield from ([self._fixed_piece(own, plate)] for plate in plates)
@@ -239,7 +249,10 @@ class ColumnProblem:
                 )
 
     def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """Return a fixed piece that extends from its discs into a plate, with its hubs there."""
+        """Return a fixed piece that extends from its discs into a plate.
+
+        Its hubs are the middles of the discs and of the plate.
+        """
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
@@ -276,6 +289,7 @@ class ColumnProblem:
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
         found = [_WIDEST, *(USUAL * root for root in roots)]
         thick = [each.outer for each in self._members(order, 0.0, stud)]  # thickness added by pipes
+        # the outside diameter of a pipe is core + outer, and at most the root diameter of its smallest wheel
         found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
         return max(_MINIMUM, round(min(found), 2))
 
@@ -294,7 +308,9 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Return the ends of each piece. Among pieces that carry hands, inner pieces extend farther."""
+    """Return the ends of each piece [mm]. Of pieces that carry hands, an inner piece extends farther than an outer
+    piece.
+    """
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends
@@ -309,12 +325,14 @@ def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool
 
 
 def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[StackDisc, float]]:
-    """Return discs of other axes, each with the gap (mm) between it and the middle of an axis."""
+    """Return discs of other axes, each with its gap to the middle of an axis [mm]."""
     return [(disc, disc.clearance_to(at, 0.0)) for disc in discs if disc.axis != axis]
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """Return the column with its obstacles, the discs at its heights with too small a gap."""
+    """Return the column with its obstacles: discs of other axes that are at its heights and nearer than the
+    clearance.
+    """
     # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
@@ -327,18 +345,18 @@ def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> 
 
 @dataclass(frozen=True, slots=True)
 class CoaxialLink:
-    """Piece of one link on an axis, with its ends at a dial or a plate."""
+    """Piece of one link on an axis, which becomes an arbor or a pipe from `low` to `high` [mm]."""
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which the piece carries discs or is held: the heights of its discs, and for fixed wheels the height of
-    the plate.
+    """Heights at which the piece carries discs or is held [mm]: the heights of its discs, and for fixed wheels the
+    height of the plate.
     """
     low: float
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on the piece. `ends` states whether it extends beyond the stack, below and above."""
+    """Discs on the piece. `ends` is True for each end, below and above, that extends beyond the stack."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:
@@ -349,7 +367,7 @@ class CoaxialLink:
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
     """Return links from the innermost, each outside all earlier links, and two links that conflict, or None.
 
-    The order is a topological sort. If there is a cycle, the links are returned as given.
+    The order is a topological sort. If the graph has a cycle, the links are returned as given.
     """
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()

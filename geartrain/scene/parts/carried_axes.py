@@ -21,14 +21,14 @@ _BLADE = 0.1  # mm: minimum metal between two holes, or round the foot of a stud
 
 @dataclass(frozen=True, slots=True)
 class TurningPlate:
-    """Plate to be inserted into a gap of the stack, with the axes that it carries."""
+    """Plate of a carrier or a turning ring, to be inserted into a gap of the stack, with the axes that it carries."""
 
     disc: StackDisc
     """Cylinder that the plate sweeps, at the height of its gap."""
     spots: tuple[str, ...] = ()
     """Axes that the plate carries; empty for the disc of a ring."""
     ring: str = ""
-    """Name of the ring wheel that the plate holds."""
+    """Name of the ring wheel that the plate holds; empty for other plates."""
     round: bool = False
     """True if the outline is the full circle that the plate sweeps."""
     flange: bool = False
@@ -45,13 +45,17 @@ class CarrierSeat:
 
     @property
     def is_bearing(self) -> bool:
-        """False for the disc of a ring, for an arm, and for the flange of a shaft, which carry no axis."""
+        """True if the link carries axes or pins here; False for the disc of a ring, for an arm, and for the flange of a
+        shaft.
+        """
         return not any(plate.ring or plate.disc.apart or plate.flange for plate in self.plates)
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """Axis that a link carries; `through` are wheels of other links with holes for the parts on its arbor."""
+    """Axis that a link carries, with its discs; `through` are wheels of other links with holes for the parts on its
+    arbor.
+    """
 
     label: str
     carrier: str
@@ -68,7 +72,10 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return the seat on a plate at a height in a gap: a disc whose heights are not known yet."""
+    """Return the seat on a plate at a height in a gap of the stack.
+
+    The faces of the plate are only a nominal distance apart until the heights of all plates are known.
+    """
     disc = replace(disc, low=height - _THIN, high=height + _THIN)
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
 
@@ -81,7 +88,9 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return the possible seats of the carried axes; seats on a wheel are first."""
+    """Return the possible seats of the axes that a link carries: on its wheels, then on a plate on either side of the
+    wheels of these axes.
+    """
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
@@ -89,19 +98,20 @@ def carrier_seats(
     low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
     spots = tuple(each.label for each in carried)
     plate = StackDisc(f"{link} carrier plate", link, axis, at, 0.0, 0.0, reach + WIDEST)
+    # off the middle of the gap, so that several plates in one gap have a fixed order
     heights = gap_beside(slab_gaps, low, -1) + _NEAR, gap_beside(slab_gaps, high, 1) - _NEAR
     return [*found, *(plate_seat(plate, height, spots) for height in heights)]
 
 
 def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
-    """Return discs that hold a turning ring, behind it or before it."""
+    """Return the seats on a disc that holds a turning ring, above the ring or below it."""
     disc = replace(ring, name=f"{ring.name} disc", outer=rim, inner=0.0, root=rim, hub=True)
     heights = gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR
     return [plate_seat(disc, height, (), ring.name, round_=True) for height in heights]
 
 
 def gap_beside(slab_gaps: Sequence[float], face: float, side: int) -> float:
-    """Return the height of the gap nearest to a face on one side of it."""
+    """Return the height of the gap nearest to a face, above it for side 1 or below it for side -1 [mm]."""
     return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
 
 
@@ -113,10 +123,11 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """Return the columns of the axes that one carrier carries, in order, relative to the carrier.
+    """Return the columns of the axes that one carrier carries, in the order of `axes`, relative to the carrier.
 
     With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
-    farther one is on the end of the nearer, as one stud turned with a step.
+    stud of the axis whose wheels are farther from the seat starts at the end of the other, as one stud turned with a
+    step.
     """
     seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
     found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]
@@ -135,7 +146,7 @@ def carried_columns(
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
     """Return the stud of the nearer axis without a head, and the stud of the other axis, which starts at the end of the
-    first.
+    first stud.
     """
     up = max(each.high for each in far.members) > max(each.high for each in near.members)
     if up:
@@ -148,7 +159,7 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """Return the distance between a carried axis's seat and its nearest wheel [mm]."""
+    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 without wheels."""
     return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
 
 
@@ -160,7 +171,7 @@ def _carried_column(
     core: float | None,
     head: float,
 ) -> AxisColumn:
-    """Return the preferred column of an axis, with only one plate."""
+    """Return the preferred column of a carried axis, which has only one plate: its seat."""
     ends: Mapping[str, tuple[bool, bool]] = {}
     faces = seat.low, seat.high
     others = _others(axis, seen)

@@ -1,11 +1,11 @@
 """Eccentrics, circles of pins in plates, and the cups of strain waves.
 
-An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It is needed for an axis so close
-to that of its carrier that a wheel on it surrounds both, where a stud is impossible. The wheel has a hole for the
+An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It replaces a stud where the
+carried axis is so close to the axis of its carrier that a wheel on it surrounds both. The wheel has a hole for the
 eccentric, and two washers keep it in place.
 
-Circles of pins are fixed in a plate: those of a ring of pins, and those that work in round holes of a disc. The cup of
-a strain wave is the wall that connects a flexible wheel to the body that it turns.
+Circles of pins are fixed in a plate: the pins of a ring of pins, and the pins that work in round holes of a disc. The
+cup of a strain wave is the wall that connects a flexible wheel to the body that it turns.
 """
 
 from __future__ import annotations
@@ -34,19 +34,19 @@ KIND = "wall"
 
 @dataclass(frozen=True, slots=True)
 class FlexibleCup:
-    """Flexible wheel with the link of its cup."""
+    """Wall that connects a flexible wheel to another link, the bottom of the cup."""
 
     name: str
-    """Name of the coupling that makes both turn equally."""
+    """Name of the coupling that makes wheel and bottom turn equally."""
     link: str
     """Link with the bottom of the cup; `slot` is the link with the wheel."""
     slot: str
     wheel: str
-    """Name of the wheel."""
+    """Name of the flexible wheel."""
     at: Point
-    """Position of the cup's axis in the stack (mm)."""
+    """Position of the cup's axis in the stack [mm]."""
     reach: float
-    """Outside radius of the wall [mm]; `wall` is its thickness [mm]."""
+    """Outside radius of the wall [mm]; `wall` is the thickness of the wall [mm]."""
     wall: float
 
     def part(self, plate: tuple[float, float], wheel: StackDisc) -> TurnedPart:
@@ -56,7 +56,7 @@ class FlexibleCup:
         return TurnedPart(self.link, f"{self.link} wall", KIND, self.at, (band,), f"one piece with {self.wheel}")
 
     def notices(self) -> Iterator[Problem]:
-        """Yield a notice on the properties that no drawing can show."""
+        """Yield a notice that the wheel and its wall cannot be cut from sheet."""
         what = f"'{self.wheel}' and the wall of '{self.link}' are one thin part, which cannot be cut from sheet"
         why = f"a wave generator deforms it, and its wall is {self.wall:.3g} mm thick"
         solids = f"wheels/{self.wheel}.stl and {self.link} wall in assembly.stl"
@@ -79,20 +79,20 @@ _OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """Strain wave of a flexible wheel: amplitude (mm), number of lobes, and wall thickness of the wheel (mm)."""
+    """Strain wave of a flexible wheel: amplitude [mm], number of lobes, and wall thickness of the wheel [mm]."""
 
     rise: float
     lobes: int
     wall: float
     towards: float
-    """Angle of the first lobe, in the plane of the stack (rad)."""
+    """Angle of the first lobe, in the plane of the stack [rad]."""
     length: float
-    """Length of the wall that connects the wheel to its cup (mm)."""
+    """Length of the wall that connects the wheel to its cup [mm]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Eccentric:
-    """Eccentric disc on the arbor of a link."""
+    """Eccentric disc on the arbor of a link, on which wheels turn, or the wave generator of a strain wave."""
 
     name: str
     """Name of the eccentric."""
@@ -101,19 +101,19 @@ class Eccentric:
     axis: str
     """Label of the arbor's axis."""
     at: Point
-    """Position of the arbor in the stack (mm)."""
+    """Position of the arbor in the stack [mm]."""
     centre: Point
-    """Centre of the disc (mm)."""
+    """Centre of the disc [mm]."""
     radius: float
-    """Radius of the disc (mm)."""
+    """Radius of the disc [mm]."""
     wheels: tuple[str, ...]
     """Wheels that turn on the eccentric."""
     carried: str
-    """Label of the axis about which these wheels turn."""
+    """Label of the axis about which the wheels in `wheels` turn."""
     middle: float = 0.0
-    """Radius (mm) of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
+    """Radius [mm] of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
     coupling: str = ""
-    """Name of the coupling of parallel cranks that it implements; empty for other eccentrics."""
+    """Name of the coupling of parallel cranks that the eccentric implements; empty for other eccentrics."""
     wave: Wave | None = None
     """Strain wave, if the eccentric is a wave generator; None for a round disc."""
 
@@ -124,17 +124,17 @@ class Eccentric:
 
     @property
     def wall(self) -> float:
-        """Distance from the arbor's axis to the nearest point of its edge (mm)."""
+        """Distance from the arbor's axis to the nearest point of the eccentric's edge [mm]."""
         return self.radius - self.rise
 
     @property
     def rise(self) -> float:
-        """Radial amplitude of its edge (mm)."""
+        """Radial amplitude of the eccentric's edge about the arbor's axis [mm]."""
         return self.offset if self.wave is None else self.wave.rise
 
     @property
     def edge(self) -> Contour:
-        """Outline in the plane of the stack."""
+        """Outline of the eccentric in the plane of the stack [mm]."""
         if self.wave is None:
             return Contour.circle(self.radius, self.centre)
         wave, half = self.wave, self.wave.wall / 2
@@ -149,7 +149,7 @@ class Eccentric:
         return [disc for disc in discs if disc.name in self.wheels]
 
     def disc(self, discs: Iterable[StackDisc], carrier: Point | None) -> StackDisc:
-        """Return the cylinder that the eccentric sweeps in the stack, with its washers."""
+        """Return the cylinder that the eccentric sweeps in the stack, including its washers."""
         own = self.turning(discs)
         low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
         reach, high = self.rise + self.radius, high + (0.0 if self.wave is None else self.wave.length)
@@ -157,7 +157,9 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on each side of the wheels, on the same arbor; a flexible wheel is held by its wall."""
+        """Yield a washer on each side of the wheels, on the same arbor; none for a flexible wheel, which its wall
+        holds.
+        """
         if self.wave is not None:
             return
         radius = max(self.radius, self.wall + _OVER)
@@ -166,18 +168,20 @@ class Eccentric:
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
     def faces(self, disc: StackDisc) -> tuple[float, float]:
-        """Return the faces of the eccentric: between its washers, or in a flexible wheel below the wall of its cup."""
+        """Return the faces of the eccentric [mm]: between its washers, or in a flexible wheel below the wall of the
+        cup.
+        """
         if self.wave is not None:
             return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD
 
 
 def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
-    """Return the radius of an eccentric (mm) on an arbor.
+    """Return the radius of an eccentric [mm] on an arbor.
 
-    offset   distance of its centre from the arbor's axis (mm)
-    arbor    diameter of the arbor (mm), if it is given
-    free     free radius round its centre (mm)
+    offset   distance of its centre from the arbor's axis [mm]
+    arbor    diameter of the arbor [mm], if it is given
+    free     free radius round its centre [mm]
     """
     wanted = offset + (USUAL_ARBOR if arbor is None else arbor) / 2 + WALL
     return round(min(wanted, free - WALL), 2)
@@ -195,7 +199,7 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
 
 
 def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:
-    """Yield wheels with the central holes for their eccentrics, then the eccentrics."""
+    """Yield all discs, with central holes in the wheels that turn on eccentrics, then the eccentrics."""
     for disc in discs:
         own = [each for each in eccentrics if disc.name in each.wheels]
         yield replace(disc, inner=own[0].middle or own[0].radius) if own else disc
@@ -220,7 +224,7 @@ class PinCircle:
     """Circle of pins in round holes, as declared."""
 
     name: str
-    """Name of their coupling."""
+    """Name of the coupling of the pins."""
     link: str
     """Link that carries the pins; `slot` is the link with the holes."""
     slot: str
@@ -236,24 +240,24 @@ class PinCircle:
 
     @property
     def free(self) -> float:
-        """Distance from the axis of the disc to its holes (mm)."""
+        """Distance from the axis of the disc to the nearest point of its holes [mm]."""
         return self.radius - self.hole / 2
 
 
 @dataclass(frozen=True, slots=True)
 class StandingPins:
-    """Pins at their positions in a plate."""
+    """Pins fixed in a plate, at their positions, which extend into a wheel."""
 
     name: str
     """Name of the pins."""
     link: str
-    """Link that carries them."""
+    """Link that carries the pins."""
     seat: str
-    """Turning plate in which they are fixed; empty for the nearer plate of the frame."""
+    """Turning plate in which the pins are fixed; empty for the nearer plate of the frame."""
     wheel: str
-    """Wheel through which they extend, from the plate to its far face."""
+    """Wheel into which the pins extend, to its far face."""
     spots: tuple[Point, ...]
-    """Centres in the plane of the stack; `radius` is the radius of a pin [mm]."""
+    """Centres of the pins in the plane of the stack; `radius` is the radius of a pin [mm]."""
     radius: float
     joined: bool = False
     """True if the pins are also fixed in the wheel, instead of moving in its holes."""
@@ -274,9 +278,9 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the plate of pins next to the disc in which they move, or next to a cup.
+    """Return the plate of pins next to the disc in which they move, or the bottom of a cup next to its wheel.
 
-    It is above the disc, or on the side of the axes that its link carries.
+    The plate is above the disc, or on the side of the axes that its link carries.
     """
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]

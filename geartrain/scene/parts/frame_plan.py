@@ -1,8 +1,8 @@
 """Plan of plates, pillars, arbors, pipes and studs of a train, with their positions in the stack.
 
-The two plates of the frame, and those of carriers, are tried in every gap between levels. For each axis the best
-bearing is selected, and the obstacles are counted. Of the places with the fewest obstacles, the one with the fewest
-studs and arbors that pass through a plate is selected.
+The two plates of the frame, and the plates of carriers, are tried in every gap between levels. For each axis the best
+bearing is selected, and the obstacles are counted. Of the positions with the fewest obstacles, the position with the
+lowest cost of studs and of arbors that pass through a plate is selected.
 
 Plates of shafts are arms, which bypass obstacles, and flanges for clutches. Heights of wheels as laid out become
 heights as built, with space for all plates.
@@ -55,7 +55,9 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Heights of both plates in the stack of the layout, seats of carriers, and columns of all axes."""
+    """Choice of the heights of both frame plates, of the seats of carriers, and of the columns of all axes, with its
+    cost.
+    """
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
@@ -78,7 +80,8 @@ def best_places(
 ) -> PlateChoice:
     """Return the best positions of the plates and the best seats of carriers, by branch and bound.
 
-    One plate is at an end of the stack; only if obstacles remain, both may be inside it.
+    At most 64 combinations of seats are tried. One plate is at an end of the stack; only if obstacles remain, both
+    plates may be inside the stack.
 
     blocked   number of obstacles on axes that carriers bear
     cut       number of crossing wheels that a plate at some height would cut
@@ -114,7 +117,8 @@ def _columns(
 ) -> tuple[dict[str, AxisColumn], tuple[int, int]] | None:
     """Return the best column of every axis and their total cost; None as soon as the cost reaches the bound.
 
-    The axis at which it does is moved to the front, because it is likely to exclude the next places too.
+    The axis at which the cost reaches the bound is moved to the front of `problems` in place, because it is likely to
+    exclude the next positions of the plates too.
     """
     found: dict[str, AxisColumn] = {}
     for at, problem in enumerate(problems if cost < bound else ()):
@@ -134,12 +138,14 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """Return the number of obstacles of a set of columns."""
+    """Return the number of obstacles of a set of columns; a pair of links that cannot be nested counts as one
+    obstacle.
+    """
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
 def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:
-    """Return the same axis in another stack."""
+    """Return the problem of the same axis with other discs in the stack."""
     own = [disc for disc in discs if disc.axis == axis.axis]
     others = [disc for disc in discs if disc.axis != axis.axis]
     return replace(axis, discs=own, others=others)
@@ -174,9 +180,9 @@ class FramePlan:
     thickness: float
     """Thickness of plates."""
     core: float | None
-    """Diameter of all arbors; None if it is not given."""
+    """Diameter of all arbors; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> whether it extends to a dial below and above the stack."""
+    """Link -> True or False for an end at a dial below the stack and for an end at a dial above it."""
 
     # --------------------------------------------------------------------------------------------------- as laid out
 
@@ -190,9 +196,10 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Positions of plates with the minimum number of obstacles, then of studs.
+        """Positions of the plates with the fewest obstacles, and of equal positions the one with the lowest cost of
+        studs.
 
-        If a link cannot reach its dial inside or outside of its obstacles, it gets an arm, connected to it by a bar,
+        If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar,
         provided that this leaves fewer obstacles.
         """
         first = self._best([])
@@ -228,13 +235,16 @@ class FramePlan:
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
+        # a requested diameter applies to all arbors, even if the declaration gives others
         if self.core is not None or not declared:
             return self.core, None
         thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the innermost
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Yield the possible seats of each carrier and each turning ring."""
+        """Yield the possible seats of each carrier, of each circle of pins or cup, of each turning ring and of each
+        flange.
+        """
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -280,7 +290,7 @@ class FramePlan:
         )
 
     def _blocked(self, seats: Sequence[CarrierSeat]) -> int:
-        """Return the number of obstacles on all axes that carriers bear, with all plates in their gaps."""
+        """Return the number of obstacles on all axes that carriers carry, with all turning plates in their gaps."""
         plates = [plate for seat in seats for plate in seat.plates]
         return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
 
@@ -310,12 +320,12 @@ class FramePlan:
 
     @cached_property
     def heights(self) -> StackHeights:
-        """Heights with all plates inserted."""
+        """Heights of all parts as built, with all plates inserted."""
         return stack_up(self._slabs, self.choice.places, self.turning, self.thickness)
 
     @property
     def places(self) -> FramePlaces:
-        """Heights of the faces of both plates."""
+        """Heights of the faces of both frame plates, as built."""
         return self.heights.places
 
     @cached_property
@@ -345,8 +355,9 @@ class FramePlan:
 
     @cached_property
     def bridge(self) -> tuple[float, float] | None:
-        """Faces of a plate beyond all wheels on one side, if it supports an axis that the plates of the frame cannot
-        support.
+        """Faces of a plate beyond all wheels on one side, which supports an axis that the frame plates cannot support.
+
+        It is None if no axis needs a bridge, or if no bridge supports such an axis.
         """
         blocked = [axis for axis in self._built_axes(None) if best_column(axis.columns(self.places)).hit]
         low, high = (end(face for disc in self.discs for face in (disc.low, disc.high)) for end in (min, max))
@@ -422,7 +433,10 @@ class FramePlan:
 
     @cached_property
     def bores(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel and turning plate; 0 if it is in one piece with its arbor."""
+        """Diameter of the hole of each wheel and turning plate [mm].
+
+        A pinion that is cut from its arbor has the hole of that arbor, which is 0 for a solid arbor.
+        """
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
@@ -447,7 +461,7 @@ class FramePlan:
 
     @cached_property
     def notices(self) -> tuple[Problem, ...]:
-        """Parts that cannot be made as laid out."""
+        """Notices on parts that cannot be made as laid out."""
         return tuple(self._problems())
 
     def _problems(self) -> Iterator[Problem]:
@@ -455,8 +469,8 @@ class FramePlan:
         for column in self.all_columns:
             if column.tangled:
                 one, other = column.tangled
-                why = f"each has a wheel between two wheels of the other, on axis '{column.axis}'"
-                fix = "move one of them to another axis, or remove one of these wheels"
+                why = f"on axis '{column.axis}' neither can be a pipe around the other without enclosing a wheel of it"
+                fix = "move one of the arbors to another axis, or remove a wheel from one of them"
                 yield Problem(f"arbors '{one}' and '{other}' cannot be nested", why, fix)
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
@@ -488,7 +502,7 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield arms for links that cannot be nested on an axis, and extend to dials on one side.
+    """Yield arms for links that cannot be nested on an axis and extend to a dial on one side.
 
     An arm turns beyond all wheels; an eccentric bar connects it to the widest disc of its link.
     """
@@ -506,7 +520,7 @@ def arm_seats(
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
-    """Yield flanges, before or behind all wheels, on shafts that only have brakes or clutches."""
+    """Yield the seats of a flange, below or above all wheels, for each shaft that only has brakes or clutches."""
     train = stack.train
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
@@ -527,7 +541,7 @@ BETWEEN = HEAD_ROOM  # mm between a turning plate and its neighbours
 
 @dataclass(frozen=True, slots=True)
 class StackHeights:
-    """Heights of all parts with plates inserted."""
+    """Heights of all parts as built, with plates inserted into the stack of the layout."""
 
     starts: tuple[float, ...]
     """Lower face of each slab in the layout; `shifts` are the distances by which the slabs move up [mm]."""
@@ -544,7 +558,10 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return heights with plates inserted, the lowest slab unchanged; plates below it are placed under it."""
+    """Return heights as built, with plates inserted between the slabs of wheels.
+
+    The lowest slab keeps its height, and plates below it are placed under it.
+    """
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [
@@ -558,6 +575,7 @@ def stack_up(
         low, tall, room, name = row
         if before is not None:
             slabs = before[3][0] == name[0] == "slab"
+            # neighbouring slabs keep their gap of the layout; only plates need other gaps
             top += low - before[0] - before[1] if slabs else max(room, before[2])
         faces[name] = top, top + tall
         top, before = top + tall, row

@@ -38,20 +38,20 @@ class Hole:
 
 @dataclass(frozen=True, slots=True)
 class FlatPlate:
-    """Plate perpendicular to the axis of the stack."""
+    """Plate perpendicular to the axis of the stack, with its edge, its holes and its heights."""
 
     link: str
     """Link to which the plate belongs."""
     name: str
     """Name of the plate."""
     outline: Contour
-    """Edge, in the coordinates of the stack [mm]."""
+    """Edge of the plate, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
-    """Round holes."""
+    """Round holes of the plate."""
     low: float
-    """Height of its lower face along the normal [mm]."""
+    """Height of the plate's lower face along the normal [mm]."""
     high: float
-    """Height of its upper face along the normal [mm]."""
+    """Height of the plate's upper face along the normal [mm]."""
     at: Point = (0.0, 0.0)
     """Origin of the coordinates of the plate [mm]."""
     windows: tuple[Contour, ...] = ()
@@ -59,17 +59,20 @@ class FlatPlate:
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Edge and holes, relative to `at`."""
+        """Edge, round holes and windows, relative to `at` [mm]."""
         circles = (Contour.circle(each.diameter / 2, each.at) for each in self.holes)
         every = (self.outline, *circles, *self.windows)
         return tuple(Contour(each.points - np.array(self.at), each.bulges) for each in every)
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield holes that lighten a wide wave generator, at least six, between its lobes; `bore` is its hole [mm]."""
+    """Yield holes that lighten a wide wave generator, at least six, between its lobes; `bore` is the diameter of its
+    hole [mm].
+    """
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
+    # a multiple of the number of lobes, so that the generator remains balanced
     count = wave.lobes * ceil(6 / wave.lobes)
     out = 0.55 * radius
     diameter = round(min(0.42 * radius, 1.6 * out * sin(pi / count)), 1)
@@ -81,7 +84,7 @@ def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
 
 @dataclass(frozen=True)
 class FramePlates:
-    """Plates, pillars and posts of a plan."""
+    """Plates, pillars, posts and turned parts of a plan, with their outlines and holes."""
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
@@ -89,13 +92,13 @@ class FramePlates:
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
     """Mortises of brackets within the outline of a plate, by the side of the plate."""
     standing: tuple[StandingPins, ...] = ()
-    """Pins fixed in plates."""
+    """Groups of pins that are fixed in plates."""
     barrel: Barrel | None = None
-    """Barrel from which a weight hangs."""
+    """Barrel from which a weight hangs; None for a train without a weight."""
 
     @cached_property
     def pillar(self) -> float:
-        """Radius of a pillar (mm)."""
+        """Radius of a pillar [mm]."""
         places = self.plan.places
         turning = [(each.at, each.radius(places.back[1], places.front[0])) for each in self.plan.columns] + self.circles
         low, high = (
@@ -138,7 +141,7 @@ class FramePlates:
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)
 
     def plates(self) -> Iterator[FlatPlate]:
-        """Yield both plates of the frame, then the turning plates."""
+        """Yield both plates of the frame, a bridge if there is one, the turning plates and the eccentrics."""
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
             mortises = self.mortises.get(side, ())
@@ -181,7 +184,7 @@ class FramePlates:
         return [*own, *self._disjoint(self._bearings(faces), own)]
 
     def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
-        """Return the holes of pillars and posts."""
+        """Return the holes of pillars, and of posts, feet and pins that pass through a plate."""
         press = self.plan.process.press
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
@@ -199,7 +202,9 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """Return the hole in which an axis is supported, or through which it passes."""
+        """Return the hole in which a plate supports an axis, or through which the axis passes; None if the plate has no
+        such hole.
+        """
         process = self.plan.process
         middle = sum(faces) / 2
         passing = [
@@ -219,8 +224,8 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes next to the hub of a wheel or plate, for the studs of the axes that it carries and for
-        posts.
+        """Return the holes next to the hub of a wheel or plate: for studs of the axes that it carries, for posts and
+        pins, and for eccentrics.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
@@ -256,7 +261,9 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """Yield the parts of every axis, spacers and collets, pillars between the plates, and posts of rings."""
+        """Yield all turned parts: parts of every axis, sleeves, a barrel, washers, walls of cups, pillars, posts, pins
+        and feet.
+        """
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
@@ -290,7 +297,7 @@ class FramePlates:
 
     @cached_property
     def pins(self) -> tuple[TurnedPart, ...]:
-        """Pins in plates."""
+        """Pins that are fixed in plates, as turned parts."""
         return tuple(part for each in self.standing for part in self._standing(each))
 
     def _standing(self, pins: StandingPins) -> Iterator[TurnedPart]:
@@ -304,7 +311,7 @@ class FramePlates:
         return ring_posts(self.plan)
 
     def problems(self) -> Iterator[Problem]:
-        """Yield problems for holes that intersect each other, and for posts that collide with wheels."""
+        """Yield problems with holes that would intersect each other, and with posts that collide with wheels."""
         for side, faces in self.sides.items():
             yield from self._missing_holes(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:

@@ -1,6 +1,6 @@
 """Stack of a frame and its carriers: axes perpendicular to the plates, with their wheels as discs.
 
-It includes the eccentrics on which wheels turn, and the pins in plates that work in round holes.
+The stack includes the eccentrics on which wheels turn, and the pins in plates that work in round holes.
 """
 
 from __future__ import annotations
@@ -63,12 +63,16 @@ class AcrossWheel:
     high: float
     circles: tuple[tuple[Point, float], ...]
     section: tuple[Point, Point, float, float, float] | None = None
-    """Section of a wheel that the frame carries, with its axis perpendicular to the normal; None for others. Its items
-    are: centre in the plane of the stack, direction of its axis there, height, radius, and half its thickness (mm).
+    """Section of a wheel that the frame carries, with its axis perpendicular to the normal; None for other wheels.
+
+    The items are: centre in the plane of the stack, direction of the axis in that plane, height, radius, and half the
+    thickness of the wheel [mm].
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return the passage of the wheel through a plate, if it intersects the plate."""
+        """Return the passage of the wheel through a plate; None if it does not intersect the plate or has no
+        section.
+        """
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -78,7 +82,7 @@ class AcrossWheel:
         return Passage((x, y), (-v, u), sqrt((reach + _PASS) ** 2 - near**2), half + _PASS)
 
     def is_between(self, low: float, high: float) -> bool:
-        """Return True if a part of the wheel is between two heights."""
+        """Return True if a part of the wheel is between two heights [mm]."""
         return self.low < high and low < self.high
 
 
@@ -93,7 +97,7 @@ class FrameStack:
 
     @property
     def frame(self) -> str:
-        """Fixed link."""
+        """Fixed link of the train."""
         return self.train.declaration.frame
 
     @cached_property
@@ -109,12 +113,12 @@ class FrameStack:
 
     @cached_property
     def turn(self) -> Floats:
-        """Rotation matrix with right, up and normal of the stack as columns."""
+        """Rotation matrix with right, up and normal of the stack as columns. Shape (3, 3)."""
         assert self.normal is not None
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
-        """Return a point of the stack in space (mm)."""
+        """Return a point of the stack, given in plan view with its height, as a point in space [mm]."""
         x, y, z = (self.turn @ np.array([*at, height])).tolist()
         return x, y, z
 
@@ -132,7 +136,7 @@ class FrameStack:
         return self.normal is not None and abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
 
     def flat(self, point: Vector) -> Point:
-        """Return the coordinates of a point in plan view."""
+        """Return the coordinates of a point in space in plan view of the plates [mm]."""
         assert self.normal is not None
         right, up = basis(self.normal)
         return dot(point, right), dot(point, up)
@@ -205,7 +209,7 @@ class FrameStack:
 
     @cached_property
     def eccentrics(self) -> tuple[Eccentric, ...]:
-        """All eccentrics."""
+        """All eccentrics of the stack."""
         return tuple(StackEccentrics(self).found())
 
     @cached_property
@@ -215,12 +219,14 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Pins in round holes for which no wheel of their own link is wide enough, by coupling."""
+        """Circles of pins in round holes, by name of the coupling, for which no wheel of the pins' link is wide
+        enough.
+        """
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
     def cups(self) -> tuple[FlexibleCup, ...]:
-        """Cups of flexible wheels."""
+        """Walls that connect flexible wheels to other links."""
         return tuple(find_cups(self))
 
     @property
@@ -242,7 +248,10 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights, by inclined axis, between which no plate may be inserted, because mates keep their distance."""
+        """Heights between which no plate may be inserted, by axis of the wheels that are not upright.
+
+        A plate between such a wheel and its mates would change their distance.
+        """
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
         for gear in self.train.declaration.gears:
@@ -273,6 +282,7 @@ class FrameStack:
             return AcrossWheel(place.wheel, low, high, ((centre, dist(centre, (x, y)) + hypot(outer, thick)),))
         if not flat:
             return AcrossWheel(place.wheel, low, high, (((x, y), outer),))
+        # in plan the wheel is a strip: circles with its half width as radius cover it
         count = max(1, ceil(outer / thick))
         steps = [outer * k / count / flat for k in range(-count, count + 1)]
         circles = tuple(((x - v * step, y + u * step), thick) for step in steps)
@@ -281,7 +291,11 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """Return the layout with heights shifted along the normal, wheels of crossing axes with their mates."""
+        """Return the layout with wheels shifted along the normal; wheels of axes that are not upright move with their
+        mates.
+
+        shift   function of the height [mm] that returns the shift [mm]
+        """
         normal, old = self.normal, self.layout
         assert normal is not None
         rise = {disc.name: shift(disc.middle) for disc in self.discs}
@@ -297,7 +311,9 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """Return the stack with space for the heads of studs next to the wheels that carriers carry."""
+        """Return the stack with space for the heads of studs next to the wheels that carriers carry, and for
+        washers.
+        """
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
@@ -312,13 +328,13 @@ class FrameStack:
         return replace(self, layout=self.raised(lambda height: shifts[max(bisect_right(starts, height) - 1, 0)]))
 
     def omitted(self) -> Iterator[Problem]:
-        """Yield problems for axes without bearings."""
+        """Yield a problem for each axis that has wheels but no bearings."""
         for label, axis in self.layout.axes.items():
             used = any(place.axis == label for place in self.layout.wheels.values())
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
                 upright = self.is_upright(axis)
                 why = (
-                    f"its carrier '{axis.carrier}' turns on another carrier"
+                    f"its carrier '{axis.carrier}' does not turn about a frame axis perpendicular to the plates"
                     if upright
                     else "it is not perpendicular to the plates"
                 )
@@ -327,12 +343,12 @@ class FrameStack:
 
 
 def rim(blank: Blank) -> float:
-    """Return the outside radius of a ring, or of a lantern's discs (mm)."""
+    """Return the outside radius of a ring, or of a lantern's discs [mm]."""
     return float(abs(blank.contours[0].points).max())
 
 
 def _ends(discs: Sequence[StackDisc]) -> tuple[float, float]:
-    """Return the lowest and highest face of some discs."""
+    """Return the lowest and highest face of a set of discs [mm]."""
     return min(disc.low for disc in discs), max(disc.high for disc in discs)
 
 
@@ -347,16 +363,16 @@ _BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbo
 
 @dataclass(frozen=True)
 class StackEccentrics:
-    """Eccentrics of one stack.
+    """Search for the eccentrics of one stack.
 
-    A wheel whose axis is carried close to that of its carrier turns on an eccentric of the carrier. If the carrier
-    represents parallel cranks, each crank has one.
+    A wheel whose carried axis is close to the axis of its carrier turns on an eccentric of the carrier. If the carrier
+    represents parallel cranks, each crank has an eccentric.
     """
 
     stack: FrameStack
 
     def found(self) -> Iterator[Eccentric]:
-        """Yield all eccentrics. Several eccentrics of one arbor are numbered, from the second."""
+        """Yield all eccentrics. If several have the same name, they are numbered from the second."""
         count: Counter[str] = Counter()
         for each in self._each():
             count[each.name] += 1
@@ -380,7 +396,7 @@ class StackEccentrics:
                     yield from self._on_arbor(axis.carrier, own, label, discs)
 
     def _wave(self, bent: BentWheel, label: str, at: Point) -> Eccentric:
-        """Return the generator of a strain wave."""
+        """Return the generator of a strain wave, as an eccentric."""
         (x, y), blank = self._place(label), self.stack.blanks[bent.wheel]
         thin = wall(blank.pitch_radius)
         wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
@@ -398,14 +414,16 @@ class StackEccentrics:
         yield Eccentric(f"{link} eccentric", link, own, at, centre, radius, tuple(d.name for d in discs), label)
 
     def _arbor(self, link: str) -> float | None:
-        """Return the diameter of the arbor of a link (mm), if it is given."""
+        """Return the diameter of the arbor of a link [mm], as requested or as declared; None if it may be chosen."""
         declared = self.stack.train.declaration.links[link].arbor
         return self.stack.core if self.stack.core is not None or declared is None else 1000 * declared.diameter.si
 
     # ---------------------------------------------------------------------------------------------- cranks side by side
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-        """Yield the parallel cranks that a link represents, carried about its own axis, as link, axis and coupling."""
+        """Yield the parallel cranks that a link represents, each carried about the link's axis, as link, axis and
+        coupling.
+        """
         tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot
@@ -432,7 +450,7 @@ class StackEccentrics:
 
 
 def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
-    """Yield the walls between flexible wheels and links on axes of the frame."""
+    """Yield the walls that connect flexible wheels to links on axes of the frame."""
     declared, tree = stack.train.declaration, stack.train.kinematics.tree
     for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
         for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):

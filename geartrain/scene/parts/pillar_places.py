@@ -38,13 +38,15 @@ def pillar_places(
     suits: Callable[[Point], bool] = lambda _: True,
     even: bool = False,
 ) -> list[Point]:
-    """Return four, three or five positions whose polygon contains all axes and has the shortest perimeter [mm], in this
-    order of preference.
+    """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    In each direction from the middle of the axes the candidate is the innermost place with free space outwards.
+    Their polygon contains all axes and has the shortest perimeter. Without such a polygon, the result is up to five
+    positions that are far apart.
+
+    In each direction from the middle of the axes the candidate is the innermost position with free space outwards.
     Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
-    same perimeter, some with three places at one end and one at the other. With `even` the places surround it evenly,
-    wider than high.
+    same perimeter, some with three positions at one end and one at the other. With `even` the positions surround a
+    single axis evenly, wider than high.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -72,7 +74,7 @@ def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
-    """Return the point of a ray beyond the last circle that the ray intersects."""
+    """Return the point of a ray just beyond the last circle that the ray intersects."""
     along = np.array([cos(angle), sin(angle)])
     far = 0.0
     for centre, reach in blocked:
@@ -84,7 +86,11 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon of `count` candidates that contains all axes, relative to the middle, or None."""
+    """Return the shortest polygon of `count` candidates that contains all axes, shape (count, 2); None if there is
+    none.
+
+    Candidates and axes are relative to the middle of the axes.
+    """
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
@@ -105,7 +111,9 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance between a point and a set of circles [mm], negative inside a circle."""
+    """Return the minimum distance between a point and a set of circles [mm], negative inside a circle; infinite without
+    circles.
+    """
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -113,14 +121,14 @@ def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
 
 
 TENON = 0.6
-"""Ratio of the radius of the end in a plate to the radius of a pillar or post."""
+"""Radius of the end of a pillar or post in a plate, divided by the radius of the pillar or post."""
 _POSTS, _TRIED = 3, 72
 _POST_WIDEST = 2.0  # mm: maximum radius of a post
 _RIM_PART = 0.3  # radius of a post divided by the width of a ring's rim
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
-    """Return all posts of a plan."""
+    """Return the posts that hold all rings of a plan: fixed rings in a frame plate, turning rings in their discs."""
     found: list[TurnedPart] = []
     discs = {plate.ring: plate.disc.name for plate in plan.turning if plate.ring}
     for disc in plan.discs:
@@ -134,14 +142,14 @@ def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
 
 
 def nearer_plate(plan: FramePlan, height: float) -> tuple[float, float]:
-    """Return the faces of the plate of the frame that is nearer to a height."""
+    """Return the faces of the frame plate whose middle is nearer to a height [mm]."""
     return min((plan.places.back, plan.places.front), key=lambda each: abs(sum(each) / 2 - height))
 
 
 def _posts(
     plan: FramePlan, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...]
 ) -> Iterator[TurnedPart]:
-    """Yield the posts of one ring. In a plate of the frame they are placed with clearance to other parts."""
+    """Yield the posts of one ring. In a frame plate they are placed with clearance to other parts."""
     wide = ring.outer - ring.root
     radius = min(_RIM_PART * wide, _POST_WIDEST)
     away = (ring.outer + ring.root) / 2
@@ -155,25 +163,31 @@ def _posts(
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced positions on a rim, as far as possible from axes and from parts before the plate."""
+    """Return three equally spaced positions on a rim with the maximum clearance, up to 0.5 mm.
+
+    The clearance is that to arbors, and to parts between the ring and the plate.
+    """
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]
     reach = min(plate[0], ring.low), max(plate[1], ring.high)
     circles += [(column.at, column.radius(*reach)) for column in plan.columns]
     tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+    # more than 0.5 mm does not matter: the first such rotation is used, so that the result is stable
     return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
 
 def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Problem]:
-    """Yield problems for posts in the frame that collide with wheels."""
+    """Yield a problem for each post in the frame that collides with a wheel."""
     low, high = plan.places.back[0], plan.places.front[1]
     for post in (each for each in posts if each.link == plan.stack.frame):
         inside = [disc for disc in plan.discs if post.ends[0] < disc.low and disc.high < post.ends[1]]
         for disc in (each for each in inside if low < each.middle < high and each.hub):
             if (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0:
                 what = f"{post.name} collides with '{disc.name}'"
-                yield Problem(what, f"they overlap by {-room:.3f} mm", "support the ring by a bracket at its side")
+                yield Problem(
+                    what, f"post and wheel overlap by {-room:.3f} mm", "support the ring with a bracket at its side"
+                )
 
 
 def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:

@@ -16,7 +16,7 @@ class Process:
     """Manufacturing process of flat parts and of the parts that turn in them; lengths in mm."""
 
     name: str
-    """Name: laser, cnc, fdm or hand."""
+    """Name of the process: laser, cnc, fdm or hand."""
     kerf: float
     """Width of the cut; half of it is added to every outline."""
     web: float
@@ -42,7 +42,7 @@ PROCESSES = {
         Process("hand", 0.0, 0.5, 0.08, 0.0, 0.05, 0.5, "broached to a tight fit, or soldered"),
     )
 }
-"""Processes by name."""
+"""Manufacturing processes by name."""
 
 USUAL = "hand"
 """Default process: nominal sizes, with a clockmaker's fits."""
@@ -55,5 +55,7 @@ def process_named(name: str | None) -> Process:
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         fix = suggest(wanted, PROCESSES)
-        raise QuestionError(Problem(f"'{wanted}' is not a manufacturing process", "", fix, "--process"))
+        raise QuestionError(
+            Problem(f"'{wanted}' is not a manufacturing process", "the processes are predefined", fix, "--process")
+        )
     return PROCESSES[wanted]

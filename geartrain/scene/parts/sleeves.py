@@ -27,9 +27,9 @@ _FREE = 0.3  # mm between a collet and the next turning part
 
 
 def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
-    """Yield the spacers and collets of all arbors and pipes of a plan, if there is space.
+    """Yield the spacers and collets of all arbors and pipes of a plan, where there is space.
 
-    There are none on links with pins and slots, which work beside the wheels.
+    Links with pins and slots have none, because pins and slots work beside the wheels.
 
     held   a wheel that needs no collet, because a barrel is fixed to it
     """
@@ -44,10 +44,9 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return heights next to a wheel between which a drum on its arbor has clearance to all other parts; None without
-    space.
+    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None without space.
 
-    size   radius and length of the drum (mm); the length is reduced if necessary
+    size   radius and maximum length of the drum [mm]; the length is reduced to a quarter if necessary
     """
     around, (radius, longest) = _Obstacles(plan, column), size
     disc = next(each for each in member.discs if each.name == name)
@@ -58,8 +57,8 @@ def free_beside(
 def _beside(
     disc: StackDisc, longest: float, shortest: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Yield the ends of rings on either side of a wheel, the longest first, each with the ends of the space that it
-    needs.
+    """Yield the ends of rings on either side of a wheel from the longest ring, each with the ends of the space that the
+    ring needs.
     """
     for part in (1.0, 0.75, 0.5, 0.25):
         length = max(part * longest, shortest)
@@ -69,14 +68,14 @@ def _beside(
 
 @dataclass(frozen=True)
 class _Obstacles:
-    """Obstacles to rings on an axis."""
+    """Parts that limit the rings on one axis."""
 
     plan: FramePlan
     column: AxisColumn
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Discs and arbors of the train, relative to an axis that may be carried."""
+        """Discs of the train and arbors of other axes, relative to the column's axis, which may be carried."""
         discs = *self.plan.discs, *self._rods()
         if self.column.axis in self.plan.carried:
             carrier = self.plan.stack.carried[self.column.axis].carrier
@@ -85,7 +84,7 @@ class _Obstacles:
         return discs
 
     def _rods(self) -> Iterator[StackDisc]:
-        """Yield arbors and pipes of other axes."""
+        """Yield arbors and pipes of other axes, as discs."""
         for other in self.plan.all_columns:
             if other is not self.column:
                 for each in other.members:
@@ -104,7 +103,7 @@ class _Obstacles:
 
     @cached_property
     def span(self) -> tuple[float, float]:
-        """Lowest and highest face of all discs; dials are beyond these heights."""
+        """Lowest and highest face of all discs [mm]; dials are beyond this interval."""
         faces = [face for disc in self.plan.discs for face in (disc.low, disc.high)]
         return min(faces), max(faces)
 
@@ -112,6 +111,7 @@ class _Obstacles:
         """Return True if a ring on a member between two heights has clearance to all other parts."""
         if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
             return False
+        # a wider member at these heights would be a pipe around the ring
         inner = [each for each in self.column.members if each is not member and each.low < high and low < each.high]
         if any(each.outer > member.outer for each in inner) or any(a < high and low < b for a, b in self.walls):
             return False
@@ -123,7 +123,7 @@ class _Obstacles:
 
 @dataclass(frozen=True)
 class _MemberSleeves:
-    """Arbor or pipe with its wheels."""
+    """Search for the spacers and collets of one arbor or pipe."""
 
     around: _Obstacles
     member: ColumnMember
@@ -148,14 +148,16 @@ class _MemberSleeves:
                 yield self._part(f"collet of {disc.name}", "collet", band, f"{joint}, its wheel against it")
 
     def _ring(self, low: float, high: float) -> Band | None:
-        """Return the thickest ring for which there is space; None without space."""
+        """Return the thickest ring between two heights that has clearance to all other parts; None if no ring fits."""
         bore = self.member.outer / 2
         walls = (wall for wall in _WALLS if self.around.is_free(self.member, low, high, bore + wall))
         wall = next(walls, None)
         return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
 
     def _collet(self, disc: StackDisc) -> Band | None:
-        """Return the longest collet that fits on either side of a wheel with clearance to turning parts, or None."""
+        """Return the longest collet that fits on either side of a wheel with clearance to turning parts; None if none
+        fits.
+        """
         for faces, room in _beside(disc, _LONGEST * self.member.outer, _SHORTEST):
             if (band := self._ring(*room)) is not None:
                 return Band(*faces, band.radius, band.bore)
@@ -173,14 +175,17 @@ _LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """Drum beside a wheel, to which it is fixed; as a collet it fixes the wheel to the arbor."""
+    """Drum for the line of a weight, fixed to a wheel at its side; like a collet it fixes the wheel to the arbor."""
 
     wheel: str
     part: TurnedPart
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters, if a weight and a drum are declared and there is space."""
+    """Return the barrel of the link at which power enters.
+
+    It is None if a weight or a drum is not declared, and if the barrel has no space.
+    """
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None

@@ -30,19 +30,19 @@ class StackDisc:
     link: str
     """Link to which the wheel or plate belongs."""
     axis: str
-    """Label of its axis."""
+    """Label of the disc's axis."""
     at: Point
-    """Position of its axis, perpendicular to the stack."""
+    """Position of the disc's axis in plan view of the stack."""
     low: float
-    """Height of its lower face."""
+    """Height of the lower face of the disc."""
     high: float
-    """Height of its upper face."""
+    """Height of the upper face of the disc."""
     outer: float
-    """Outer radius of its teeth or its rim."""
+    """Outer radius of the teeth or of the rim."""
     inner: float = 0.0
-    """Radius of the free space inside, within the teeth of a ring; 0 for other discs."""
+    """Radius of the free space within the teeth of a ring, or of a central hole for an eccentric; 0 for other discs."""
     root: float = 0.0
-    """Root radius of its teeth."""
+    """Root radius of the teeth; 0 for a plate without a limit on its arbor."""
     hub: bool = True
     """True if the disc is mounted on the arbor of its link; False for a ring."""
     carrier: Point | None = None
@@ -52,26 +52,27 @@ class StackDisc:
 
     @property
     def middle(self) -> float:
-        """Height of its middle plane."""
+        """Height of the middle plane of the disc."""
         return (self.low + self.high) / 2
 
     def clearance_to(self, at: Point, radius: float) -> float:
-        """Return the minimum gap to a fixed column in all positions of a carried disc [mm].
+        """Return the minimum gap between the disc, at all positions of its carrier, and a fixed column [mm].
 
-        It is negative for an overlap.
+        It is negative for an overlap. The column has the given radius and may be inside a ring.
         """
         if self.carrier is None:
             away = dist(at, self.at)
             return max(away - self.outer, self.inner - away if self.inner else -self.outer) - radius
         away, aside = dist(at, self.carrier), dist(self.at, self.carrier)
+        # the column may also be near the carrier axis, inside the circle on which the disc revolves
         inside = self.inner - away - aside if self.inner else aside - self.outer - away
         return max(away - aside - self.outer, inside) - radius
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Return occupied intervals of height, from the lowest.
+    """Return occupied intervals of height [mm], from the lowest.
 
-    Discs that overlap are merged, and so are all between tied ends.
+    Discs that overlap in height are merged, and so are all discs between the ends of a `tied` interval.
     """
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
@@ -83,20 +84,20 @@ def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) 
 
 
 def gaps(taken: Sequence[tuple[float, float]]) -> list[float]:
-    """Return the middle heights of the gaps below, between and above slabs."""
+    """Return the middle heights of the gaps below, between and above slabs [mm]."""
     between = [(below[1] + above[0]) / 2 for below, above in pairwise(taken)]
     return [taken[0][0] - EDGE, *between, taken[-1][1] + EDGE]
 
 
 def swept_circle(disc: StackDisc) -> tuple[Point, float]:
-    """Return the circle that contains a disc in all positions of its carrier, as centre and radius (mm)."""
+    """Return the circle that contains a disc in all positions of its carrier, as centre and radius [mm]."""
     if disc.carrier is None:
         return disc.at, disc.outer
     return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
 
 
 def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[StackDisc]]:
-    """Return the discs of each link in order, with discs that are apart from the link as separate pieces."""
+    """Return the discs by link and piece, in order; discs that are apart from their link are a separate piece."""
     found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
         found.setdefault((disc.link, disc.apart), []).append(disc)
@@ -113,31 +114,31 @@ _WEB = 1.0  # mm: minimum web between a window and the edge, and between two win
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """Rectangular passage in a plate."""
+    """Rectangular passage in a plate, for a wheel or bracket that crosses the plate."""
 
     middle: Point
-    """Centre, in the coordinates of the stack (mm)."""
+    """Centre of the rectangle, in the coordinates of the stack [mm]."""
     way: Point
-    """Unit vector along the length; `length` and `width` are half the sides [mm]."""
+    """Unit vector along the length of the rectangle; `length` and `width` are half its sides [mm]."""
     length: float
     width: float
 
     @property
     def corners(self) -> list[Point]:
-        """Corners, counter-clockwise."""
+        """Corners of the rectangle, counter-clockwise."""
         (x, y), (u, v) = self.middle, self.way
         ends = [(a * self.length, b * self.width) for a, b in _CORNERS]
         return [(x + u * along - v * aside, y + v * along + u * aside) for along, aside in ends]
 
     @property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles in a row that cover nearly all of the passage."""
+        """Circles in a row that cover nearly all of the passage, each as centre and radius [mm]."""
         (x, y), (u, v), count = self.middle, self.way, ceil(self.length / self.width)
         steps = [self.length * k / count for k in range(-count, count + 1)]
         return [((x + u * step, y + v * step), self.width) for step in steps]
 
     def is_clear_of(self, other: Passage) -> bool:
-        """Return True if a web of the plate is left between two passages (separating axis theorem)."""
+        """Return True if at least 1 mm of the plate is left between two passages (separating axis theorem)."""
         for u, v in (self.way, other.way):
             for x, y in ((u, v), (-v, u)):
                 spans = [[a * x + b * y for a, b in each.corners] for each in (self, other)]
@@ -153,7 +154,9 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and the windows within it. Passages that would divide it are omitted."""
+    """Return a convex edge with notches, and the windows within it. Passages that would divide the plate are
+    omitted.
+    """
     windows = []
     for each in passages:
         x, y = each.way
@@ -175,10 +178,11 @@ def _contour(points: Floats) -> Contour:
 
 
 def _is_inside(line: Floats, point: Floats) -> bool:
-    """Return True if a closed line encloses a point (winding number) and leaves a web around it."""
+    """Return True if a closed line encloses a point (winding number) and the point is at least 1 mm from the line."""
     a, b = line - point, np.roll(line, -1, axis=0) - point
     turned = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)).sum()
     edge = b - a
+    # 1e-300 avoids 0/0 where points are repeated
     foot = np.clip(-(a * edge).sum(1) / np.maximum((edge * edge).sum(1), 1e-300), 0.0, 1.0)
     apart = np.hypot(*(a + foot[:, None] * edge).T).min()
     return bool(abs(turned) > np.pi and apart >= _WEB)
@@ -202,9 +206,11 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Return the passages that do not intersect a hole, and between which a web is left.
+    """Return the passages that do not intersect a hole, and between which a web of the plate is left.
 
-    holes   centres and radii (mm)
+    If two passages are too close together, the earlier passage is kept.
+
+    holes   centres and radii [mm]
     """
     there, found = list(holes), list[Passage]()
     for each in passages:

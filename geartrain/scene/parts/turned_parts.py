@@ -28,7 +28,7 @@ _SAME = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """Part of a turned body between two heights along its axis, with outside and inside radius [mm]."""
+    """Section of a turned part between two heights along its axis, with constant outside and inside radius [mm]."""
 
     low: float
     high: float
@@ -38,7 +38,7 @@ class Band:
 
 @dataclass(frozen=True, slots=True)
 class TurnedPart:
-    """Turned part: a body of revolution."""
+    """Turned part of a link, such as an arbor or a pillar: a body of revolution about an axis of the stack."""
 
     link: str
     """Link to which the part belongs."""
@@ -47,14 +47,15 @@ class TurnedPart:
     kind: str
     """Kind of part.
 
-    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, rod, bob or weight.
+    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, wall, rod, bob or
+    weight.
     """
     at: Point
-    """Position of its axis in the stack [mm]."""
+    """Position of the part's axis in the stack [mm]."""
     bands: tuple[Band, ...]
-    """Bands from the lowest. A gap between two bands is a pinion cut from the same piece."""
+    """Bands from the lowest to the highest. A gap between two bands is a pinion cut from the same piece."""
     joint: str = ""
-    """Part to which it is joined, and method of joining."""
+    """Part to which this part is joined, or method of joining."""
     through: tuple[str, ...] = ()
     """Wheels and turning plates with a hole for the part."""
 
@@ -65,12 +66,12 @@ class TurnedPart:
 
     @property
     def diameter(self) -> float:
-        """Diameter of the round stock from which it is turned [mm]."""
+        """Diameter of the round stock from which the part is turned [mm]."""
         return 2 * max(band.radius for band in self.bands)
 
     @property
     def volume(self) -> float:
-        """Volume [mm3], without pinions that are cut from the same piece."""
+        """Volume of the part [mm3], without pinions that are cut from the same piece."""
         return sum(pi * (band.radius**2 - band.bore**2) * (band.high - band.low) for band in self.bands)
 
     def sections(self) -> list[list[Band]]:
@@ -88,7 +89,7 @@ class TurnedPart:
 
 
 def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
-    """Return radius and height of the corners of half a section, counter-clockwise, without collinear corners."""
+    """Return radius and height [mm] of the corners of half a section, counter-clockwise, without collinear corners."""
     outside = [corner for band in bands for corner in ((band.radius, band.low), (band.radius, band.high))]
     inside = [corner for band in bands[::-1] for corner in ((band.bore, band.high), (band.bore, band.low))]
     corners = [*outside, *inside]
@@ -105,7 +106,7 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
 
 
 def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
-    """Return the closed surface of revolution of half a section about z."""
+    """Return the closed surface that half a section generates by revolution about z."""
     turn = 2 * pi * np.arange(SIDES) / SIDES
     rows = [np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SIDES, height)]) for r, height in corners]
     # a corner on the axis is one vertex
@@ -115,8 +116,9 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield the arbor or stud, the pipes and the collars of an axis; `cut` are pinions that are cut from the same
-    piece.
+    """Yield the arbor or stud, the pipes and the collars of an axis.
+
+    cut   names of pinions that are cut from the same piece as their arbor or pipe
     """
     members = column.members
     if column.is_stud or not members or members[0].inner:
@@ -164,7 +166,9 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor from shoulder to shoulder, with a pivot in each plate, or a collar where it passes through."""
+    """Yield an arbor from shoulder to shoulder. It has a pivot in each plate, or a collar where it passes through the
+    plate.
+    """
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)
@@ -205,8 +209,9 @@ def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """Return a pin that is held in one plate, with a head that retains the turning parts, or with another stud on its
-    end.
+    """Return a pin that is held in one plate.
+
+    A head retains the turning parts, unless another stud is on the end of the pin.
     """
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2

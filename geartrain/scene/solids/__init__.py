@@ -1,9 +1,9 @@
 """Wheels, plates and pins as solid bodies for cutting, printing and viewing.
 
-solid_assembly       `SolidModel`: all solids of a train, each with its body and place
+solid_assembly       `SolidModel`: all solids of a train, each with its body and position
 built_scene          the scene of the viewer, with the parts as built
 manufacturing_sizes  `ManufacturingSizes`: module, thickness, bore, backlash and process
-solid_part           one solid and its place
+solid_part           one solid and its position
 triangle_solids      closed surfaces from flat shapes (ear clipping); approximate bevels, crown wheels and worms
 wheel_blanks         the flat shape of every wheel, and windows between its spokes
 bearing_plates       flat drawings to scale; curves round holes; discs of pins and slots

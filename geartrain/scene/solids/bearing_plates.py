@@ -1,6 +1,6 @@
 """Flat drawings to scale with cut contours and marks, curves around holes, and discs of pins and slots.
 
-Lengths are in mm, y upwards.
+Lengths are in mm, and y points upwards.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 CUT, PITCH, ENGRAVE = "CUT", "PITCH", "ENGRAVE"
 LAYERS = (CUT, PITCH, ENGRAVE)
-"""Names of the layers: contours for a laser, circles for orientation, and letters."""
+"""Names of the layers of a drawing: contours to cut, circles for orientation, and engraved letters."""
 
 MARGIN = 2.0  # mm of margin round the part
 _MANY = 64  # number of vertices above which they bound a contour sufficiently
@@ -33,7 +33,7 @@ TOLERANCE = 0.001  # mm: tolerance of chords
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Letters of a given height (mm), with their centre (mm) and the angle of the text from the x axis (degrees)."""
+    """Letters of a given height [mm], with their centre [mm] and the angle of the text from the x axis [degrees]."""
 
     text: str
     at: tuple[float, float]
@@ -43,34 +43,36 @@ class EngravedText:
 
 @dataclass(frozen=True, slots=True)
 class FlatDrawing:
-    """Drawing of one part."""
+    """Drawing of one flat part at scale 1:1, with contours to cut, curves for orientation and engraving [mm]."""
 
     title: str
-    """Title, in one line."""
+    """Title of the drawing, in one line."""
     cut: tuple[Contour, ...]
     """Closed curves to cut: first the outer curve, then holes."""
     pitch: tuple[Contour, ...] = ()
     """Curves that are not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
-    """Engraved letters."""
+    """Letters to be engraved."""
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
-    """Engraved polylines, shape (n, 2) each."""
+    """Polylines to be engraved, shape (n, 2) each."""
 
     @property
     def box(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum of x and y, including a margin."""
+        """Minimum and maximum of x and y of all contours [mm], including a margin."""
         points = np.concatenate([_bounds(each) for each in (self.cut[0], *self.pitch)])
         return points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour within the margin; for a contour with many vertices, its vertices."""
+    """Return points that bound a contour within the margin of a drawing: many vertices, or chords of a contour with
+    few.
+    """
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
 def wheel_drawing(wheel: WheelOutline) -> FlatDrawing:
-    """Return the drawing of a wheel of one pair."""
+    """Return the drawing of one wheel of a gear pair, with its data in the title."""
     what = "pins" if wheel.kind == "pins" else "teeth"
     title = (
         f"{wheel.z} {what}, module {wheel.module:g} mm, pitch diameter {2 * wheel.pitch_radius:.4f} mm, "
@@ -102,7 +104,7 @@ class Plate:
 
 @dataclass(frozen=True, slots=True)
 class Plates:
-    """Plates of a train, and notices on parts that could not be drawn."""
+    """Plates of the couplings of a train, and notices on parts that could not be drawn."""
 
     plates: tuple[Plate, ...]
     notices: tuple[Problem, ...]
@@ -111,9 +113,9 @@ class Plates:
 def coupling_discs(
     couplings: Sequence[Coupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
 ) -> Plates:
-    """Return discs of pins and slots.
+    """Return the discs of pins and slots that are not in wheels, and notices on couplings that are not modelled.
 
-    bores   diameters of holes for arbors by link (mm)
+    bores   diameters of holes for arbors by link [mm]
     holed   couplings whose holes are in a wheel
     """
     plates: list[Plate] = []
@@ -127,11 +129,13 @@ def coupling_discs(
             lacking = "pins" if coupling.name in holed else "pins and holes"
             what = f"the {lacking} of '{coupling.name}' are not modelled"
             why = "they are modelled only if their sizes are declared and both links have sufficiently large wheels"
-            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; otherwise add them by hand"
+            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links, or add these parts by hand"
             notices.append(Problem(what, why, fix))
         elif coupling.pin_radius is None or coupling.offset is None:
-            what = f"pin and slot of '{coupling.name}' are not modelled"
-            notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
+            what = f"the pin and slot of '{coupling.name}' are not modelled"
+            notices.append(
+                Problem(what, "the dimensions of the coupling are not declared", "declare pin_radius and offset")
+            )
         else:
             plates.append(_disc(coupling, coupling.pin, bores, slotted=False))
             plates.append(_disc(coupling, coupling.slot, bores, slotted=True))
@@ -139,7 +143,7 @@ def coupling_discs(
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
-    """Return the curve at the distance `radius` around the convex hull of points: straight edges and arcs."""
+    """Return the convex curve at the distance `radius` from the convex hull of points: straight edges and arcs."""
     corners = _hull(points)
     if len(corners) == 1:
         return Contour.circle(radius, corners[0])
@@ -178,8 +182,9 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors perpendicular to the normal, right and up for a viewer who looks against it; x and y for
-    plus z.
+    """Return two unit vectors perpendicular to a normal, right and up for a viewer who looks against the normal.
+
+    They are x and y for a normal along +z.
     """
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
@@ -193,18 +198,23 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return the default diameter (mm) of a pin at a distance from its axis (mm)."""
+    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of the distance, at most 2
+    mm.
+    """
     return min(2.0, _PIN * radius)
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return a bar from its axis at the origin along x, with a slot for a pin from |r - e| to r + e (mm)."""
+    """Return the edge and the slot of a bar from its axis at the origin along x, for a pin from |r - e| to r + e
+    [mm].
+    """
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 
 
 def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return a bar from its axis at the origin along x, with a round hole in which a pin revolves (mm).
+    """Return the edge and the hole of a bar from its axis at the origin along x, with a round hole in which a pin
+    revolves [mm].
 
     A pin without declared sizes moves its slot uniformly, at the mean of the transmission function. If this mean ratio
     is 1 (r > e), the pin moves relative to the bar on a circle of radius e about (r, 0); if it is 0, on a circle of
@@ -214,18 +224,20 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
     middle, rim = max(r, e), hole + 0.65 * pin
     aside = asin(wide / rim)
     x = middle - rim * cos(aside)
+    # bulge of the arc round the hole, which spans 2 (pi - aside)
     sweep = tan((pi - aside) / 2)
     edge = Contour.of([(0.0, wide, 1.0), (0.0, -wide, 0.0), (x, -wide, sweep), (x, wide, 0.0)])
     return edge, Contour.circle(hole, (middle, 0.0))
 
 
 def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
-    """Return the disc of a pin or of its slot, for distances of the pin from the slot's axis of |r - e| to r + e."""
+    """Return the disc of a pin, or of its slot, which extends from |r - e| to r + e from the slot's axis."""
     assert coupling.pin_radius is not None
     assert coupling.offset is not None
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000
     pin = pin_diameter(r)
     low, high = (abs(r - e), r + e) if slotted else (r, r)
+    # a bore that would meet the slot is reduced
     own = min(diameters.get(link, 0.0), max(2 * (low - pin), 0.0))
     cut = [Contour.circle(high + pin / 2 + _LAND), around([(low, 0.0), (high, 0.0)], pin / 2)]
     if own:

@@ -85,6 +85,7 @@ def build_scene(
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
         dials = _with_seated(dials, pointers)
+        # again, for the hands of dials that are now seated on other hands
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     for at in range(len(dials)):
         dials, pointers = _on_bracket(at, scene, dials, pointers, parts)
@@ -98,7 +99,7 @@ def build_scene(
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """Return a wheel with its slots and its hole for an eccentric; other holes are filled by parts."""
+    """Return a wheel with its slots and its hole for an eccentric; all other holes are filled by parts."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
@@ -112,7 +113,7 @@ def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
 
 
 def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
-    """Return a part without its triangles."""
+    """Return a solid part as a record of the scene, without its triangles."""
     kind = part.kind
     if kind == "plate" and model.frame is not None:
         turning = {plate.disc.name for plate in model.frame.plan.turning}
@@ -153,7 +154,7 @@ def _numbers(points: Floats) -> Iterator[float]:
 
 
 def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
-    """Return the dials in the size of their plates, on the face that is read."""
+    """Return the dials, each in the size of its plate and on the face of the plate that is read."""
     faces = list(scene.dials)
     if model.plan is None:
         return tuple(faces)
@@ -175,7 +176,7 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
 
 
 def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials, with dials that turn with a hand of another dial moved to the position of that hand."""
+    """Return the dials; a dial that turns with a hand of another dial is moved to the position of that hand."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:
@@ -192,9 +193,9 @@ def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tupl
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """Place a dial that has no plate on the bracket of its pointers' arbor, and return all dials and pointers.
+    """Return all dials and pointers, with a dial without a plate placed on the bracket of its pointers' arbor.
 
-    Its radius is limited by neighbouring arbors.
+    Neighbouring arbors limit the radius of the dial. Without a bracket, or without space, the dial is unchanged.
     """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]
@@ -222,12 +223,12 @@ def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float
 
 
 def _widest(body: int, parts: Sequence[ScenePart]) -> float:
-    """Return the diameter of a body's widest turned part (mm)."""
+    """Return the diameter of the widest turned part of a body [mm]; 0 if it has none."""
     return 2 * max((band[2] for part in parts if part.body == body for band in part.bands), default=0.0)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:
-    """Return a pointer whose hand is on the end of its arbor or pipe."""
+    """Return a pointer with its hand on the end of its arbor or pipe, if one extends beyond the dial."""
     face = None if pointer.dial is None else dials[pointer.dial]
     if face is None or not (face.plate or face.seated):
         return pointer

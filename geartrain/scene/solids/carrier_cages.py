@@ -2,10 +2,10 @@
 
 A bracket is a plate perpendicular to an arbor and to the plates of the frame, which bears an end of the arbor.
 
-A cage holds axes of a carrier that are inclined to its own, as those of the pinions of a differential. An eye bears
-the outer end of the pinion's arbor. A post extends from it along the carrier's axis, to a wheel of the carrier of
-sufficient radius, else to an arm beyond all wheels that extends inwards to the carrier's axis. If a plate of the frame
-is before the wheel, the arm is beside the pinion.
+A cage holds axes of a carrier that are inclined to the carrier's axis, such as the axes of the pinions of a
+differential. An eye bears the outer end of the pinion's arbor. A post extends from the eye along the carrier's axis, to
+a wheel of the carrier of sufficient radius, else to an arm beyond all wheels that extends inwards to the carrier's
+axis. If a plate of the frame is before the wheel, the arm is beside the pinion.
 
 The pendulum of an escapement and the driving weight hang on a train in true size.
 """
@@ -61,7 +61,7 @@ _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
 
 @dataclass(frozen=True)
 class HangingParts:
-    """Declared hanging parts of a train with a dial, which defines the downward direction."""
+    """Pendulum and weight of a train with a dial, whose zero mark defines the upward direction."""
 
     scene: Scene
     declared: Train
@@ -69,7 +69,7 @@ class HangingParts:
     barrel: Barrel | None
 
     def found(self) -> tuple[SceneHanger, ...]:
-        """Return the pendulum, then the line and the weight."""
+        """Return the pendulum, then the line and the weight, as far as they are declared; empty without a dial."""
         return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
 
     @property
@@ -79,7 +79,9 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader, and downward direction."""
+        """Direction towards the reader of the first dial on a face, and downward direction; None without such a
+        dial.
+        """
         normal = self.plan.stack.normal
         assert normal is not None
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
@@ -88,7 +90,7 @@ class HangingParts:
 
     @cached_property
     def pendulum(self) -> SceneHanger | None:
-        """Pendulum behind the frame, above the escape wheel."""
+        """Pendulum behind the frame, above the escape wheel; None if none is declared or it cannot be placed."""
         escapement, normal = self.declared.escapement, self.plan.stack.normal
         assert normal is not None
         if self.front is None or escapement is None or escapement.pendulum is None:
@@ -117,13 +119,13 @@ class HangingParts:
 
     @property
     def _last(self) -> float:
-        """Height of the rearmost face."""
+        """Height of the rearmost face of plates and wheels along the normal [mm]."""
         places, way = self.plan.places, max if self._side > 0 else min
         faces = [face for plate in (places.back, places.front, self.plan.bridge or ()) for face in plate]
         return way([*faces, *(face for disc in self.plan.discs for face in (disc.low, disc.high))])
 
     def cock(self) -> Iterator[TurnedPart]:
-        """Yield the stud in the frame on which a pendulum hangs."""
+        """Yield the stud in the frame on which the pendulum hangs, if there is a pendulum."""
         if self.pendulum is None:
             return
         stack, places, side = self.plan.stack, self.plan.places, self._side
@@ -158,7 +160,7 @@ class HangingParts:
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """Yield the turned parts of a hanging part, at rest relative to the frame (its index); a line is not a solid."""
+    """Yield the turned parts of a hanging part, at rest relative to the body with index `frame`; none for a line."""
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)
@@ -177,7 +179,7 @@ def _hung(name: str, band: Band) -> TurnedPart:
 
 
 GAP = 0.5
-"""Axial clearance between the last wheel of an arbor and its support [mm]."""
+"""Axial clearance between the last wheel of an arbor and the support of the arbor [mm]."""
 _ROOM = 1.5  # mm, the same for a bracket, including a web beside the wheel's window in the plate
 LAND = 2.0
 """Width of the metal around a bearing [mm]."""
@@ -186,10 +188,11 @@ _FLAT = 1e-6
 
 @dataclass(frozen=True)
 class Bracket:
-    """Support of one end of an arbor."""
+    """Support of one end of an arbor that is parallel to the plates: a plate with a hole, fixed in a frame plate."""
 
     body: int
-    """Body of the arbor; `reach` is the position of the bracket's outer face along the arbor's direction [mm]."""
+    """Index of the arbor's body; `reach` is the position of the bracket's outer face along the arbor's direction [mm].
+    """
     reach: float
     side: str
     """Side of the frame plate to which the bracket is fixed, through the `mortise` there."""
@@ -198,9 +201,9 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return brackets of every arbor of the frame that is perpendicular to the plates' normal.
+    """Return the brackets of every arbor of the frame that is perpendicular to the plates' normal.
 
-    bores   diameters (mm) of arbors by axis
+    bores   diameters [mm] of arbors by axis
     """
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
@@ -214,7 +217,9 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point [mm]; None if the body has no wheels."""
+    """Return the ends of a body's wheels along its direction, from its point [mm]; None if it has no wheels besides
+    rings.
+    """
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -243,7 +248,7 @@ def _brackets(
 def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
-    """Return the number of wheels before the best plate for a bracket, its distance (mm), and its side."""
+    """Return the number of wheels before the best plate for a bracket, the distance of the plate [mm], and its side."""
     place, stack = _middle(plan, body, face, way), plan.stack
     height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
 
@@ -256,7 +261,7 @@ def _best_plate(
 
 
 def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
-    """Return the centre of a bracket, on the axis that it supports."""
+    """Return the centre of a bracket in space [mm], on the axis that it supports."""
     return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
 
 
@@ -269,8 +274,9 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with the minimum number of wheels before it, then the
-    nearest.
+    """Return the bracket at one end of an arbor.
+
+    It is fixed to the plate with the fewest wheels between plate and bracket; of equal plates, to the nearer plate.
     """
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
@@ -307,7 +313,9 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of the axis of one body; `reach` is the position along its direction to which its arbor extends [mm]."""
+    """Support of one body whose axis is inclined to its carrier's axis; `reach` is the position along the body's
+    direction to which its arbor extends [mm].
+    """
 
     body: int
     reach: float
@@ -317,7 +325,7 @@ class Cage:
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
     """Return the cage of every axis that is carried at an angle to its carrier's axis.
 
-    bores   diameters (mm) of arbors by axis
+    bores   diameters [mm] of arbors by axis
     """
     found = []
     for at, body in enumerate(scene.bodies):
@@ -351,11 +359,11 @@ class _CageBuilder:
 
     @property
     def along(self) -> Floats:
-        """Direction of the carrier's axis."""
+        """Unit vector of the carrier's axis."""
         return np.array(self.carrier.direction)
 
     def height(self, point: object) -> float:
-        """Return the position of a point along the carrier's axis (mm)."""
+        """Return the position of a point along the carrier's axis [mm]."""
         return float((np.asarray(point, dtype=float) - np.array(self.carrier.point)) @ self.along)
 
     def cage(self) -> Cage:
@@ -381,7 +389,9 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels along their arbor, as the side of the carrier's axis and position (mm)."""
+        """Return the outer end of the wheels on their arbor: its side of the carrier's axis, 1 or -1, and its position
+        [mm].
+        """
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -398,14 +408,16 @@ class _CageBuilder:
         return turned_about(self.index, part, self.body.direction, on_axis(self.body, middle))
 
     def _post(self, foot: Floats, ends: Sequence[float], radius: float) -> SolidPart:
-        """Return the post from the eye, with a tenon from the second to the third height."""
+        """Return the post from the first to the second height, with a tenon from the second to the third height."""
         sizes = zip(pairwise(ends), (radius, TENON * radius), strict=False)
         bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
         part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of the carrier's wheels that extend to a post within their teeth, or None."""
+        """Return the nearest face of a wheel of the carrier whose tips are outside of a post; None without such a
+        wheel.
+        """
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)
@@ -420,8 +432,8 @@ class _CageBuilder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the middle of an arm next to the pinion, on the side with the minimum number of obstructing coaxial
-        wheels.
+        """Return the middle height of an arm next to the pinion, on the side with the fewest obstructing coaxial wheels
+        [mm].
         """
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
@@ -441,13 +453,15 @@ class _CageBuilder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Return heights of the `ends` of a wheel about the carrier's axis, which are given relative to its centre."""
+        """Return the heights of the `ends` of a wheel, which are given relative to its centre, along the carrier's axis
+        [mm].
+        """
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the middle of an arm beyond all wheels, on the side with the minimum number of wheels that obstruct
+        """Return the middle height of an arm beyond all wheels [mm], on the side with the fewest wheels that obstruct
         the post.
         """
         wheels = list(self._coaxial())
@@ -466,7 +480,7 @@ class _CageBuilder:
         return beyond(side) + side * (_PAST + _ARM / 2)
 
     def _arm(self, aside: Floats, away: float, level: float, post: float) -> SolidPart:
-        """Return the arm from the axis to a post; its hub turns on the member that passes through it."""
+        """Return the arm from the carrier's axis to a post; its hub turns on the member that passes through the hub."""
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)

@@ -1,6 +1,7 @@
 """Plates of dials before and behind a mechanism: their sizes, heights, holes and scales.
 
-A dial is mounted on feet, pins between it and the plate behind it, which are clear of all turning parts.
+A plate of dials is mounted on feet: pins between the plate and the frame plate behind it, which are clear of all
+turning parts.
 """
 
 from __future__ import annotations
@@ -41,27 +42,27 @@ _SAME = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class DialCircle:
-    """Scales of all dials about one axis."""
+    """Disc of all dials about one axis, with the scales of these dials."""
 
     at: Point
-    """Centre, in the coordinates of the stack [mm]."""
+    """Centre of the disc, in the coordinates of the stack [mm]."""
     radius: float
-    """Radius of the whole engraving [mm]."""
+    """Radius of the disc, slightly larger than the largest scale [mm]."""
     hole: float
-    """Diameter of the hole for the arbors of its pointers [mm]."""
+    """Diameter of the hole for the arbors of the pointers [mm]."""
     scales: dict[str, DialScale]
-    """Scales by dial."""
+    """Scales by name of the dial."""
     radii: dict[str, float]
     """Radius of the scale of each dial [mm]."""
 
     def lines(self) -> Iterator[Floats]:
-        """Yield the engraved lines, including letters, relative to the centre."""
+        """Yield the engraved lines, including letters, relative to the centre of the disc [mm]."""
         for name, scale in self.scales.items():
             for each in engrave(scale):
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials, below the hole."""
+        """Yield the names of dials as letters to be engraved below the hole, relative to the centre of the disc."""
         height = max(_LETTER * self.radius, _SMALLEST)
         for depth, name in enumerate(self.scales):
             yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)
@@ -69,38 +70,38 @@ class DialCircle:
 
 @dataclass(frozen=True, slots=True)
 class DialPlate:
-    """Plate with all dials of one side."""
+    """Plate with all dials on one side of the frame."""
 
     name: str
-    """Name: "dial" and the names of the dials."""
+    """Name of the plate: "dial" and the names of its dials."""
     low: float
-    """Height of its lower face along the plates' normal [mm]."""
+    """Height of the plate's lower face along the normal of the frame plates [mm]."""
     high: float
-    """Height of its upper face along the plates' normal [mm]."""
+    """Height of the plate's upper face along the normal of the frame plates [mm]."""
     circles: tuple[DialCircle, ...]
-    """Dials, by axis."""
+    """Discs of the dials, one for each axis."""
     feet: tuple[TurnedPart, ...]
     """Pins that support the plate before a plate of the frame."""
     right: Point
-    """Unit vector to the right of its reader, in the coordinates of the stack."""
+    """Unit vector to the right of the plate's reader, in the coordinates of the stack."""
     up: Point
-    """Unit vector upwards for its reader, in the coordinates of the stack."""
+    """Unit vector upwards for the plate's reader, in the coordinates of the stack."""
 
     @property
     def at(self) -> Point:
-        """Origin of the coordinates of the plate [mm]: the centre of its first dial."""
+        """Origin of the coordinates of the plate [mm]: the centre of the first dial."""
         return self.circles[0].at
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Edge, and holes for pointers and feet, in the coordinates of the stack relative to `at`."""
+        """Edge of the plate, and holes for pointers and feet, in the coordinates of the stack relative to `at` [mm]."""
         return self._contours(self._own)
 
     def _own(self, point: Point) -> Point:
         return point[0] - self.at[0], point[1] - self.at[1]
 
     def _seen(self, point: Point) -> Point:
-        """Return a point of the stack in the coordinates of its reader, right and up."""
+        """Return the coordinates of a point of the stack to the right and upwards for the plate's reader [mm]."""
         x, y = self._own(point)
         return x * self.right[0] + y * self.right[1], x * self.up[0] + y * self.up[1]
 
@@ -110,7 +111,9 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return a disc if it contains all dials and feet, otherwise the convex curve around them."""
+        """Return the disc of a single dial if it contains all feet, otherwise the convex curve around all dials and
+        feet.
+        """
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
             return Contour.circle(first.radius, place(first.at))
@@ -123,8 +126,9 @@ class DialPlate:
         return around([place(point) for point in (*rims, *(foot.at for foot in self.feet))], wide)
 
     def drawing(self) -> FlatDrawing:
-        """Return the drawing as seen by the reader, with zero marks at the top and scales, numbers and
-        names engraved.
+        """Return the drawing of the plate as seen by the reader, with zero marks at the top.
+
+        Scales, numerals and names are engraved.
         """
         title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, front view; "
         scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
@@ -139,8 +143,10 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return the plates of all dials on the frame that are perpendicular to its normal and that the arbor of a pointer
-    reaches.
+    """Return a plate of dials for each side of the frame.
+
+    It has the dials on the frame that are perpendicular to the normal of the stack, and through which the arbor of a
+    pointer extends.
     """
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     assert stack.normal is not None
@@ -164,7 +170,7 @@ def _plate(
     plan: FramePlan,
     thickness: float,
 ) -> DialPlate | None:
-    """Return the plate of one side; None if no pointer's arbor reaches it."""
+    """Return the plate of dials on one side; None if no pointer's arbor reaches it or its dials have no space."""
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     near = (max(ends) if side > 0 else min(ends)) + side * _AWAY
@@ -194,6 +200,7 @@ def _circle(
     hole = 2 * (through + _ROOM)
     if radius <= hole:
         return None
+    # nested dials keep their relative sizes
     share = _SCALE * radius / max(face.radius for face in faces)
     ordered = sorted(faces, key=lambda each: -each.radius)
     scales, radii = {face.id: face.scale for face in ordered}, {face.id: share * face.radius for face in ordered}
@@ -222,8 +229,8 @@ def dial_feet(
 ) -> list[TurnedPart]:
     """Return the feet of a plate of dials: up to four, far apart inside its dials, otherwise outside all turning parts.
 
-    circles   centres and radii of its dials (mm)
-    faces     heights of its faces (mm)
+    circles   centres and radii of the discs of its dials [mm]
+    faces     heights of its faces [mm]
     """
     above = faces[0] > plan.places.front[1]
     plate = plan.places.front if above else plan.places.back
@@ -254,7 +261,7 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """Return the clearance [mm] between circles and a plate that extends straight from its dials to a foot."""
+    """Return the clearance [mm] between circles `others` and a plate that extends straight from its dials to a foot."""
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):

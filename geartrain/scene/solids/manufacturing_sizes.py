@@ -1,4 +1,4 @@
-"""Manufacturing sizes of a train, and the train with these sizes."""
+"""Manufacturing sizes of a train, and the train with its modules, thicknesses and backlash set to these sizes."""
 
 from __future__ import annotations
 
@@ -27,19 +27,22 @@ _STOCK = (
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Minimum and maximum sizes [mm]. Curves are drawn to 0.001 mm, and arbors and plates are sized to match."""
+"""Minimum and maximum sizes that can be made [mm].
+
+Curves are drawn to 0.001 mm, and arbors and plates are sized to match.
+"""
 _SHEET = (1, 1e5)  # mm: limits of the sides of sheets
 _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
 
 @dataclass(frozen=True, slots=True)
 class ManufacturingSizes(Shown):
-    """Manufacturing sizes of the parts of a train. Sizes that are None are chosen by the layout.
+    """Manufacturing sizes of the parts of a train. Sizes that are None are chosen to suit the train.
 
     Raises
     ------
     QuestionError
-        If a value is not a valid size.
+        If a size is out of the range that can be made, or the process is unknown.
 
     Examples
     --------
@@ -56,19 +59,19 @@ class ManufacturingSizes(Shown):
     bore: float | None = None
     """Diameter of the arbors [mm]. With 0, arbors, plates and the holes of wheels are omitted."""
     backlash: float | None = None
-    """Circumferential backlash at the pitch circle of every pair that does not declare its own [mm], 0 or more.
+    """Circumferential backlash at the pitch circle of every pair whose declaration does not fix it [mm], 0 or more.
 
-    The default is 1/20 of the module.
+    By default it is the backlash of a named process, otherwise 1/20 of the module.
     """
     process: str | None = None
-    """Manufacturing process: laser, cnc, fdm or hand. The process determines kerf, fits and the default backlash."""
+    """Manufacturing process: laser, cnc, fdm or hand, by default hand. It determines kerf and fits."""
     arms: int | None = None
     """Number of spokes of wheels with enough space for windows between them, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None
     """Width and height of the sheets on which flat parts are arranged [mm], above 0; None for no sheets."""
 
     def __post_init__(self) -> None:
-        """Raise `QuestionError` if a size is out of range."""
+        """Raise `QuestionError` if a size is out of range or the process is unknown."""
         process_named(self.process)
         problems = []
         if self.arms is not None and self.arms < 3:
@@ -86,20 +89,21 @@ class ManufacturingSizes(Shown):
 
 
 def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) -> list[Problem]:
-    """Return the problem that a size [mm] is out of the range that can be made."""
+    """Return the problem that a size [mm] is out of the range that can be made; empty if it is within the range."""
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are accurate to 0.001 mm, and their arbors and plates are a few millimetres thick"
+    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 
 def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
     """Return the train with the requested modules and backlash, as if they were declared.
 
-    Without requests it is the same train.
+    Without a requested module and without declared tooth forms, it is the same train.
 
-    Raise `QuestionError` if the declaration gives sizes, which take precedence, and if teeth cannot have the backlash.
+    Raise `QuestionError` if the declaration gives sizes, which take precedence, if a wheel is too small or too large to
+    be made, or if teeth cannot have the backlash.
 
     layout   layout of the train as it is declared
     """
@@ -124,7 +128,7 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
-    """Return the factor by which the layout is enlarged for the requested module.
+    """Return the factor by which the layout is enlarged for the requested module; 1 if no module is requested.
 
     Raise `QuestionError` if the declaration gives sizes, which take precedence.
     """
@@ -156,8 +160,9 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """Return the declaration with the requested backlash, in modules, for every pair whose form does not declare a
-    backlash.
+    """Return the declaration with the requested backlash for every pair whose form does not fix its backlash.
+
+    Raise `QuestionError` if a backlash is requested but every declared form fixes its own.
     """
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
@@ -173,6 +178,7 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
     form = declared.form_of(gear)
     if form is None:
         return gear
+    # from the decimal string: the float itself is not exactly that decimal
     share = Fraction(str(BACKLASH)) if backlash is None else Fraction(backlash) / modules[gear.pair[0]]
     thinner = form.thinned(Quantity(share, None, f"{float(share):.9g}"))
     return gear if thinner is form else gear.changed(tooth_form=thinner)
@@ -185,7 +191,10 @@ def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of the process, if a process is named and no backlash is given."""
+    """Return the sizes with the backlash of the process, if a process is named and no backlash is given.
+
+    The sizes are unchanged if every declared tooth form fixes its backlash.
+    """
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -195,7 +204,7 @@ def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) 
 
 
 def usual_module(layout: Layout) -> float:
-    """Return the module (mm) of most wheels."""
+    """Return the most frequent module of the wheels [mm]."""
     # rounded, so that equal modules count as one
     return Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0][0]
 
@@ -203,7 +212,7 @@ def usual_module(layout: Layout) -> float:
 def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout:
     """Return the layout with wheels of the requested thickness, otherwise with the thickness of standard sheets.
 
-    Levels are moved apart if wheels become thicker.
+    If all axes are along z, levels are moved apart as wheels become thicker.
     """
     wanted = _thicknesses(declared, layout, making)
     if all(wanted[name] == place.thickness for name, place in layout.wheels.items()):
@@ -223,9 +232,9 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the thicknesses of all wheels (mm), as requested.
+    """Return the thicknesses of all wheels [mm], as requested.
 
-    Otherwise wheels without a declared thickness share one stock size.
+    Without a request, wheels without a declared thickness share the nearest stock size, if it is near enough.
     """
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
@@ -234,21 +243,24 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
     if not free:
         return own
     usual = median(own[name] for name in free)
+    # nearest by ratio, because stock sizes are roughly a geometric series
     stock = min(_STOCK, key=lambda each: abs(log(each / usual)))
     return own if abs(log(stock / usual)) > log(_NEAR) else own | dict.fromkeys(free, stock)
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a flat wheel has the default thickness for its module, and is not broadened for several mates."""
+    """Return True if a wheel is a spur wheel with the default thickness for its module, neither declared nor
+    broadened.
+    """
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the diameter of an arbor on each axis that is not supported by a plate [mm].
+    """Return the diameter of the arbor on each axis [mm], which is used where no plate supports the axis.
 
-    It is as given, or a third of the root diameter of its smallest wheel, at most 6 mm.
+    It is as requested, or a third of the root diameter of the smallest wheel on the axis, at most 6 mm.
     """
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)

@@ -55,13 +55,12 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class SolidModel(Shown):
-    """Solid model of a train for exports. Each part is computed at first use.
+    """Solid model of a train for exports. Each property is computed at first use.
 
     Raises
     ------
     QuestionError
-        If the train declares sizes that `making` also gives, or if its teeth cannot have the backlash. It is raised at
-        first use.
+        At first use, if the train declares sizes that `making` also gives, or if its teeth cannot have the backlash.
 
     Examples
     --------
@@ -100,7 +99,7 @@ class SolidModel(Shown):
 
     @cached_property
     def plan(self) -> FramePlan | None:
-        """Positions of plates and arbors; None if the frame carries no axis, or if arbors are not requested."""
+        """Positions of plates and arbors; None if the frame carries no wheel, or if a bore of 0 omits arbors."""
         stack = FrameStack(self.sized, self._spread, self._toothed.wheels, self.making.bore)
         # a bore of 0 requests wheels without arbors and plates
         if self.making.bore == 0 or stack.normal is None:
@@ -113,7 +112,7 @@ class SolidModel(Shown):
 
     @cached_property
     def frame(self) -> FramePlates | None:
-        """Plates, arbors and pillars, and brackets on the plates; None without a plan."""
+        """Plates, pillars, arbors and other turned parts; None without a plan."""
         if self.plan is None:
             return None
         mortises = {side: [each.mortise for each in self.brackets if each.side == side] for side in ("back", "front")}
@@ -137,12 +136,12 @@ class SolidModel(Shown):
 
     @cached_property
     def cages(self) -> tuple[Cage, ...]:
-        """Cages for axes that are at an angle to the axis of their carrier."""
+        """Supports of carried axes that are inclined to the axis of their carrier."""
         return () if self.plan is None else find_cages(self.scene, self.plan, bores(self.layout, self.making))
 
     @cached_property
     def blanks(self) -> Blanks:
-        """Flat shapes of the wheels, with holes for arbors and for other parts that they carry."""
+        """Flat shapes of the wheels, with holes for arbors and for other parts that the wheels carry."""
         holes = self.bores_of_wheels
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
@@ -162,7 +161,7 @@ class SolidModel(Shown):
         return found if self.plan is None else found | self.plan.bores
 
     def _own_holes(self, name: str) -> list[Contour]:
-        """Return holes in a wheel for studs, posts and pins, and its slots, in its own coordinates."""
+        """Return the slots of a wheel and its holes for studs, posts and pins, in the coordinates of the wheel."""
         wheel = next(wheel for wheel in self.scene.wheels if wheel.id == name)
         turn, place = wheel_frame(wheel)
         found = []
@@ -183,7 +182,7 @@ class SolidModel(Shown):
 
     @cached_property
     def couplings(self) -> Plates:
-        """Discs of pins and slots that are not cut into wheels."""
+        """Discs of pins and slots that are not cut into wheels, with notices on couplings that are not modelled."""
         whole = {name for name, each in self.cut_couplings.items() if each.pin is not None}
         if self.plan is not None:
             whole |= self.plan.plated_pins.keys() & self.cut_couplings.keys()
@@ -195,13 +194,13 @@ class SolidModel(Shown):
 
     @cached_property
     def dials(self) -> list[DialPlate]:
-        """Plates of dials; empty if the frame has no plates."""
+        """Plates of dials; empty without a plan."""
         thickness = self.making.thickness or THICKNESS
         return [] if self.plan is None else dial_plates(self.scene, self.plan, thickness)
 
     @cached_property
     def _spread(self) -> Layout:
-        """Positions before plates are inserted."""
+        """Positions of axes and wheels before plates are inserted."""
         laid = self._laid if self.sized is self.train else lay_out(self.sized)
         return thick(self.sized.declaration, laid, self.making)
 
@@ -211,17 +210,17 @@ class SolidModel(Shown):
 
     @cached_property
     def scene(self) -> Scene:
-        """Scene with the motion of the train."""
+        """Scene of the train at the requested sizes, with its motion."""
         return make_scene(self.sized, self.state, self.layout)
 
     @cached_property
     def parts(self) -> tuple[SolidPart, ...]:
-        """All solids: wheels, arbors, plates of the frame and of carriers, pins and slots."""
+        """All solids: wheels, structural parts, and parts that hang on the train."""
         return *_Parts(self).wheels(), *self.structure, *_Parts(self).hanging()
 
     @cached_property
     def structure(self) -> tuple[SolidPart, ...]:
-        """Structural parts: arbors, pipes, studs, plates, pillars, dials, pins and slots."""
+        """Structural parts: all solids except wheels and hanging parts."""
         return tuple(_Parts(self).structure())
 
     @cached_property
@@ -264,11 +263,13 @@ class _Parts:
             )
             return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)
         flat = SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, blank.contours, blank.thickness)
+        # one pitch repeated, with twisted helical teeth, instead of the plain extrusion of the contours
         return replace(flat, drawn=wheel_solid(blank))
 
     def rods(self) -> Iterator[SolidPart]:
-        """Yield for every body whose axis is not supported by a plate an arbor without bearings, as long as its wheels
-        require.
+        """Yield an arbor without bearings for every body with wheels whose axis no plate supports.
+
+        Each arbor is as long as its wheels and its brackets or cages require.
         """
         frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
         borne = set[str]()
@@ -286,7 +287,7 @@ class _Parts:
             yield turned_about(at, part, body.direction, body.point)
 
     def turned(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield arbors, pipes, studs, collars, pillars and posts."""
+        """Yield all turned parts of the frame and of its carriers, such as arbors, pipes, studs and pillars."""
         for part in frame.turned():
             body = self.bodies[part.link]
             turn, place = frame.plan.stack.turn, np.array(frame.plan.stack.in_space(part.at))

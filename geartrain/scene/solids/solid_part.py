@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SolidPart(Shown):
-    """Solid part of a body. The point p of the part is at `turn` p + `place` in the zero pose.
+    """Solid part of a body. A point p of the part is at `turn` p + `place` in the zero pose.
 
     See Also
     --------
-    SolidModel : contains it in `parts`.
+    SolidModel : contains all solids in `parts`.
     """
 
     body: int
@@ -39,7 +39,7 @@ class SolidPart(Shown):
     """Kind of part.
 
     It is one of wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
-    pin, rod, bob or weight.
+    pin, wall, rod, bob or weight.
     """
     turn: Floats
     """Rotation matrix from the part to the zero pose. Shape (3, 3)."""
@@ -52,9 +52,9 @@ class SolidPart(Shown):
     height: float = 0.0
     """Thickness of the flat shape [mm]."""
     turned: TurnedPart | None = None
-    """Turned part about its z axis; None if the solid is not a body of revolution."""
+    """Turned part about the z axis of the solid; None if the solid is not a body of revolution."""
     drawn: Solid | None = None
-    """Surface of a part that is neither flat nor turned: helical teeth, or an approximate wheel."""
+    """Surface of a wheel: with teeth cut from its flat shape, or approximate; None for other parts."""
 
     @cached_property
     def solid(self) -> Solid:
@@ -65,12 +65,12 @@ class SolidPart(Shown):
 
     @property
     def placed(self) -> Solid:
-        """Solid moved to its position in the zero pose."""
+        """Surface of the part moved to its position in the zero pose."""
         return self.solid.moved(self.turn, self.place.tolist())
 
 
 def turned_about(body: int, part: TurnedPart, direction: Vector, place: Sequence[float] | Floats) -> SolidPart:
-    """Return a turned part of a body, with its axis along a direction through a place [mm]."""
+    """Return a turned part of a body, with its axis along a direction through a point [mm]."""
     turn = np.column_stack([*basis(direction), direction])
     return SolidPart(body, part.name, part.kind, turn, np.array(place), turned=part)
 

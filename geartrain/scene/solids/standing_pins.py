@@ -1,8 +1,8 @@
 """Pins, slots and bars: cut into wheels, fixed in plates, or made as separate parts.
 
-A wheel whose root circle extends beyond the pin bears the pin; one that covers the whole path of the pin has the slot.
-Otherwise the slot is in a separate bar. Plates bear the pins of rings of pins, and those that work in holes of a disc.
-An eccentric bar connects an arm to its link; it is fixed in the widest of its wheels.
+A wheel whose root circle extends beyond the pin bears the pin; a wheel that covers the whole path of the pin has the
+slot. Otherwise the slot is in a separate bar. Plates bear the pins of rings of pins, and the pins that work in holes of
+a disc. An eccentric bar connects an arm to its link; the bar is fixed in the widest wheel of the link.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ if TYPE_CHECKING:
 
 
 WIDE = 0.55
-"""Half the width of a slot relative to the diameter of its pin."""
+"""Half the width of a slot divided by the diameter of its pin."""
 _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """Pin in one wheel, and its slot in another wheel.
+    """Coupling that is cut into wheels: a pin in one wheel, and its slot or holes in another wheel.
 
     The pin's wheel is None if no wheel carries the pins of round holes.
     """
@@ -56,10 +56,14 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return couplings that fit into two flat wheels, by name; `bores` are diameters of holes for arbors (mm)."""
+    """Return couplings that can be cut into flat wheels, by name; `bores` are diameters of holes for arbors [mm].
+
+    Without a wheel for pins of round holes, only the holes are cut.
+    """
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
+        # a round hole has a fixed centre, whereas a pin moves in its slot by the offset to either side
         far = coupling.hole / 2 if coupling.hole else e + half
         pins = _wide_wheels(scene, coupling.pin, blanks, bores, (r - half, r + half))
         slots = _wide_wheels(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
@@ -73,14 +77,14 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
 
 
 def pin_width(coupling: SceneCoupling) -> float:
-    """Return the diameter of the pins of a coupling (mm)."""
+    """Return the diameter of the pins of a coupling [mm]."""
     return coupling.pin_diameter or pin_diameter(coupling.pin_radius)
 
 
 def _wide_wheels(
     scene: Scene, body: int, blanks: Mapping[str, Blank], bores: Mapping[str, float], reach: tuple[float, float]
 ) -> list[SceneWheel]:
-    """Return flat wheels of a body with material from one radius to another (mm)."""
+    """Return flat external wheels of a body that have material from one radius to another [mm]."""
     low, high = reach
     return [
         wheel
@@ -94,13 +98,16 @@ def _wide_wheels(
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return the bar with the slot; if no sizes are declared, with a round hole in which the pin moves uniformly."""
+    """Return the edge and the hole of the bar with the slot.
+
+    If no sizes are declared, the slot is a round hole in which the pin moves uniformly.
+    """
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
 
 def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
-    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width (mm)."""
+    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width [mm]."""
     return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
 
 
@@ -114,7 +121,9 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return the holes of a wheel for a pin and for a slot, in its own axes `turn` at `place`."""
+    """Return the holes of a wheel for pins and for a slot, in the coordinates of the wheel with axes `turn` at
+    `place`.
+    """
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:
@@ -146,7 +155,7 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """Parts of all couplings of a scene, including pins that are fixed in plates."""
+    """Parts of the couplings of a scene: pins in wheels, and arms and bars for pins and slots without wheels."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
@@ -154,7 +163,11 @@ class CouplingParts:
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins, from their wheel to the slot's wheel, and bars for slots that are not cut into a wheel."""
+        """Yield pins, from their wheel to the slot's wheel, and arms and bars for couplings that are not cut into
+        wheels.
+
+        Pins that are fixed in plates are omitted.
+        """
         for coupling in self.scene.couplings:
             direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
             along = np.array(direction)
@@ -178,7 +191,9 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the interval from the far face of the pin's wheel to the far face of the slot's wheel."""
+        """Return the interval of height from the far face of the pin's wheel to the far face of the slot's wheel
+        [mm].
+        """
         ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
         return min(ends), max(ends)
 
@@ -201,7 +216,7 @@ class CouplingParts:
         return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", slot_bar(coupling), _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
-        """Return the face of the wheels of a body that is nearest to a height."""
+        """Return the middle height of a plate on the face of a body's wheels that is nearest to a height [mm]."""
         own = [wheel for wheel in self.scene.wheels if wheel.body == body]
         faces = [
             float(np.array(wheel.centre) @ along) + side * (wheel.thickness + _GAP) / 2
@@ -218,7 +233,7 @@ _CHORDS = 13  # points of half a seat
 
 
 def standing_pins(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
-    """Yield all pins in plates of a train, in the coordinates of its stack."""
+    """Yield all groups of pins that are fixed in plates, in the coordinates of the stack."""
     wheels = {wheel.id: wheel for wheel in scene.wheels}
     for name, blank in plan.stack.blanks.items():
         if blank.kind == "ring" and blank.pins is not None and any(disc.name == name for disc in plan.discs):
@@ -254,7 +269,10 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with rings without their pins, which are separate parts; a tooth is then between two seats."""
+    """Return the scene with rings of pins as rings without pins, because the pins are separate parts.
+
+    A tooth of such a ring is the space between two seats of pins.
+    """
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
@@ -274,7 +292,7 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
 
 
 def _tooth_between_seats(blank: Blank) -> tuple[tuple[float, float], ...]:
-    """Return the profile of a ring between the middles of two seats, as relative radius and angle."""
+    """Return the profile of a ring between the middles of two seats, as relative radius and angle [rad]."""
     assert blank.pins is not None
     x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
     R, half, pitch = blank.pins.circle * blank.module, pi / blank.teeth, blank.pitch_radius
@@ -308,8 +326,9 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost position with sufficient clearance relative to wheel and arm, otherwise the position with
-    maximum clearance.
+    """Return the outermost position of a bar with sufficient clearance relative to wheel and arm.
+
+    If no position has it, the position with the maximum clearance is returned.
     """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
@@ -338,7 +357,11 @@ def _round(centre: Point, radius: float) -> Iterator[Point]:
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of both."""
+    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of pin and
+    slot.
+
+    No circle is yielded unless that carrier is the link of `wheel`.
+    """
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack
@@ -348,6 +371,7 @@ def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackD
     if r >= e:  # the bar turns with the pin
         yield (x, y), far + wide
         return
+    # a circle of radius r at the distance e is seen from the slot axis at +- asin(r / e)
     middle, swing = atan2(pin[1] - y, pin[0] - x), asin(r / e)
     for part in range(-_PARTS, _PARTS + 1):
         turn, along = middle + swing * part / _PARTS, 0.0

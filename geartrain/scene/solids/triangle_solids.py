@@ -2,7 +2,8 @@
 
 A polygon with holes is triangulated by ear clipping, its holes first joined to the outside by bridges (Eberly,
 "Triangulation by ear clipping"). A corner is an ear if it is convex and no other point lies in its triangle; every
-polygon has one (Meisters 1975). The ear with the best aspect ratio is cut off first, to avoid slivers.
+polygon with more than three corners has an ear (Meisters 1975). The ear with the best aspect ratio is cut off first, to
+avoid slivers.
 
 Wheels without planar teeth (bevel wheels, crown wheels, worms) are approximate.
 """
@@ -36,10 +37,10 @@ _NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Return points (n, 2), starting with the given points in order, and triangles (m, 3) of their indices,
-    counter-clockwise.
+    """Return points (n, 2) of a polygon with holes, and triangles (m, 3) of their indices, counter-clockwise.
 
-    Polygons (k, 2) may have either orientation. They must not intersect themselves or each other.
+    The points are those of the polygon and then those of its holes. Polygons (k, 2) may have either orientation. They
+    must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
     points = np.concatenate(parts)
@@ -59,9 +60,10 @@ def area(polygon: Floats) -> float:
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point.
+    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point of the
+    loop.
 
-    Only points to the right of the hole are considered.
+    Only points to the right of the hole are considered. Raise `ValueError` if none is visible.
     """
     at = int(np.lexsort(points[hole].T[::-1])[-1])
     hole = hole[at:] + hole[:at]
@@ -75,7 +77,7 @@ def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
         cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)
         if not (cross & away).any():
             return [*loop[: k + 1], *hole, hole[0], *loop[k:]]
-    raise ValueError("a hole is not inside its polygon")
+    raise ValueError("a hole is not inside its polygon, or intersects it")
 
 
 def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
@@ -105,7 +107,9 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Remaining corners of a polygon. A cut changes two of them; the other corners keep their position in a heap."""
+    """Remaining corners of a polygon. A cut changes its two neighbours; the other corners keep their position in a
+    heap.
+    """
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -163,10 +167,13 @@ class _Corners:
             heappush(self.heap, (-self.fatness[k], k))
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of the triangle of a corner, and its ratio to the square of the longest side."""
+        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the square of the longest
+        side.
+        """
         (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
         turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
+        # the sum of two squares bounds the larger one, which is sufficient to rank corners
         longest = max((cx - ax) * (cx - ax) + (cy - ay) * (cy - ay), first + second)
         self.turn[at], self.fatness[at], self.blocker[at] = turn, turn / (longest or 1.0), -1
 
@@ -183,7 +190,9 @@ _SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Vertices (n, 3) in mm, and faces (m, 3) of their indices, counter-clockwise from outside."""
+    """Closed surface of triangles: vertices (n, 3) in mm, and faces (m, 3) of their indices, counter-clockwise from
+    outside.
+    """
 
     vertices: Floats
     faces: Integers
@@ -194,7 +203,7 @@ class Solid:
 
 
 def joined(solids: Iterable[Solid]) -> Solid:
-    """Return several surfaces as one list of triangles."""
+    """Return several surfaces as one surface."""
     parts = list(solids)
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     return Solid(
@@ -211,7 +220,11 @@ def _merged(points: Floats, faces: Integers) -> tuple[Floats, Integers]:
 
 
 def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
-    """Return a wheel from its flat shape, centred at the origin. One pitch is triangulated and repeated if possible."""
+    """Return the solid of a wheel from its flat shape, centred at the origin.
+
+    One pitch is triangulated and repeated if the wheel has no holes besides its bore; otherwise the whole shape is
+    triangulated, without twist.
+    """
     contours = blank.contours
     ring = blank.kind == "ring"
     teeth = contours[1 if ring else 0]
@@ -227,14 +240,14 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
 
 
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
-    """Return a flat part with holes, its middle plane at z = 0."""
+    """Return the solid of a flat part with holes, whose middle plane is at z = 0."""
     outer, *others = contours
     holes = [round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
     return extruded(*fill(outer.flattened(tolerance), holes), thickness)
 
 
 def round_about(circle: Contour) -> Floats:
-    """Return a polygon circumscribed about a circle, so that a part with the size of the circle fits into it."""
+    """Return a polygon circumscribed about a circle, so that a part with the diameter of the circle fits into it."""
     centre = circle.points.mean(axis=0)
     radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
     turn = 2 * pi * np.arange(SIDES) / SIDES
@@ -246,7 +259,7 @@ def extruded(
 ) -> Solid:
     """Return a flat shape (n, 2) extruded by half the thickness to each side, with the top rotated by `twist` [rad].
 
-    Its boundary edges become walls of `layers` layers; by default each layer turns by at most 0.1 rad.
+    The boundary edges become walls of `layers` layers; by default each layer turns by at most 0.1 rad.
     """
     x, y = points.T
     sections = []
@@ -263,7 +276,7 @@ def extruded(
 
 
 def lathed(rows: Sequence[Floats]) -> Solid:
-    """Return the surface through rows of points (n, 3), each counter-clockwise, and from the last row to the first.
+    """Return the closed surface through rows of counter-clockwise points (n, 3), also from the last row to the first.
 
     A row of one point is a pole, in which the surface ends.
     """
@@ -281,7 +294,9 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of one tooth with its sector of the web, closed along the bore or at the centre."""
+    """Return the polygon of one tooth with its sector of the web, closed along the bore, or at the centre without a
+    bore.
+    """
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -312,9 +327,9 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return an approximate wheel of the scene, centred at the origin, its first tooth along x, its axis along z.
+    """Return an approximate solid of a wheel, centred at the origin, with its first tooth along x and its axis along z.
 
-    bore   diameter of its hole, unless it is a ring (mm)
+    bore   diameter of its hole [mm]; a ring has none
     """
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
@@ -327,9 +342,9 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius (mm) and angle of the whole outline, without duplicate points between teeth.
+    """Return radius [mm] and angle [rad] of the whole outline, without duplicate points between teeth.
 
-    Above the maximum tooth count that is drawn it is the pitch circle.
+    Above the maximum tooth count that is drawn, the outline is the pitch circle.
     """
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
@@ -356,8 +371,8 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow end, and the disc within the
-    teeth.
+    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow end, and the disc inside the
+    ring of teeth.
 
     The surface has rows of points, from the bore at the back round the outside to the bore at the front.
     """
@@ -390,8 +405,9 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown wheel's flanks at a radius, for mates with teeth of constant width that pass
-    obliquely.
+    """Return the angles of a crown wheel's flanks at a scale of the radius [rad].
+
+    Its mates have teeth of constant width that pass obliquely.
     """
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch

@@ -1,4 +1,4 @@
-"""Flat shape of every wheel: teeth as cut for all its mates, hole for its arbor, and crossings.
+"""Flat shape of every wheel: its teeth as cut for all mates, the hole for its arbor, and crossings.
 
 Crossings are windows that leave a rim, spokes and a hub, with all inner corners rounded.
 """
@@ -53,11 +53,11 @@ def spoke_windows(
     module : float
         Module of the wheel [mm].
     bore : float
-        Diameter of the hole for its arbor [mm].
+        Diameter of the hole for the arbor [mm].
     spokes : int
         Number of spokes, 3 or more; fewer give no windows.
     corner : float, optional
-        Radius of inner corners [mm], at least that of the tool.
+        Radius of inner corners [mm], at least that of the tool; by default half a module.
     """
     if spokes < 3:
         return ()
@@ -75,7 +75,8 @@ def spoke_windows(
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """Return the window about the x axis between spokes at +-pitch/2 of half width `half`; None if it is too small.
+    """Return the window about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too
+    small.
 
     Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
     """
@@ -87,6 +88,7 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
         along = sqrt(centre**2 - (half + corner) ** 2)
         ends.append((circle, centre, pitch / 2 - lean, along))
     (rim, rim_centre, rim_turn, far), (hub, hub_centre, hub_turn, near) = ends
+    # -1e-9: at the limit the two arcs at one end meet on the x axis
     if min(rim_turn, hub_turn) < -1e-9 or far <= near:
         return None
     upper = [
@@ -118,7 +120,7 @@ def _mirrored(point: Point) -> Point:
 
 
 def _turned(contour: Contour, angle: float) -> Contour:
-    """Return the contour rotated about the origin; holes are counter-clockwise, as outlines are."""
+    """Return the contour rotated about the origin, with the same orientation."""
     c, s = cos(angle), sin(angle)
     x, y = contour.points.T
     points = contour.points.copy()
@@ -135,7 +137,7 @@ _THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """Wheel to cut, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
+    """Wheel to be cut flat, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
 
     wheel: str
     link: str
@@ -143,7 +145,7 @@ class Blank:
     kind: str
     """Kind of wheel: external, ring or pins."""
     form: str
-    """Description of its tooth form."""
+    """Description of the wheel's tooth form."""
     contours: tuple[Contour, ...]
     """Contours: first the outer contour, then holes."""
     module: float
@@ -153,32 +155,34 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
-    """Helix angle of its teeth (rad), positive for a right hand."""
+    """Helix angle of the teeth [rad], positive for a right hand."""
     arms: int = 0
     """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
-    """Pins of a ring, which are separate parts in seats on its inside (modules); None for other wheels."""
+    """Pins of a ring, which are separate parts in seats on the inside of the ring [modules]; None for other wheels."""
 
     @property
     def twist(self) -> float:
-        """Angle of its upper face relative to the lower one (rad)."""
+        """Angle by which the upper face of the wheel is rotated relative to its lower face [rad]."""
         return self.thickness * tan(self.helix) / self.pitch_radius
 
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Wheels that can be cut flat by name, notices on other wheels, and the backlash of every pair that is cut."""
+    """Flat shapes of the wheels of a train: wheels that can be cut flat by name, notices on wheels, and the backlash of
+    every pair that is cut.
+    """
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Wheel -> reasons why it cannot be cut; `flat` are all wheels with planar teeth parallel to the axis."""
+    """Wheel -> reasons why it cannot be cut; `flat` is the set of all wheels with planar teeth parallel to the axis."""
     flat: frozenset[str]
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """Return the flat shapes of all wheels of a train without holes, at the sizes of a layout."""
+    """Return the flat shapes, without holes, of all wheels that can be cut flat, at the sizes of a layout."""
     toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
@@ -216,16 +220,16 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     """Return a wheel that has no mates, with a notice.
 
-    An escape wheel has its teeth, and any other wheel is a disc of its pitch circle.
+    An escape wheel keeps its teeth, and any other wheel becomes a disc in the size of its pitch circle.
     """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
         fix = "make an anchor to match it, or recut its teeth for another escapement"
         return blank, Problem(what, "no anchor is declared", fix)
     r = blank.pitch_radius
-    form = "a disc of its pitch circle, because its teeth are not known"
-    what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
-    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with"
+    form = "a disc without teeth in the size of its pitch circle, because its teeth are not known"
+    what = f"wheel '{blank.wheel}' is cut as a disc without teeth, in the size of its pitch circle"
+    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part with which it engages"
     notice = Problem(what, why, fix)
     return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), notice
 
@@ -233,14 +237,14 @@ def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
 def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
     """Yield a notice on helical teeth, which a flat file cannot show."""
     if wheel.is_helical:
-        what = f"wheel '{name}' is drawn flat: it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
+        what = f"wheel '{name}' is drawn flat, but it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
         fix = "print it from the .stl, or have it hobbed"
         why = "a flat drawing shows the transverse section, and the .step file extrudes it without twist"
         yield Problem(what, why, fix)
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
-    """Return a ring with seats for pins widened by `wider` (mm); any other wheel unchanged."""
+    """Return a ring with seats for pins widened by `wider` [mm]; any other wheel unchanged."""
     if blank.pins is None or not wider:
         return blank
     root = blank.contours[1].points  # corners of the seats are on the inner circle
@@ -250,27 +254,32 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return the blank with windows between its spokes, if there is space. A wheel that carries studs keeps its web."""
+    """Return the blank with windows between its spokes, if there is space, and notices.
+
+    A wheel with holes for other parts keeps its web, and so do rings, lantern pinions and helical wheels.
+    """
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
     windows = spoke_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
         what = f"wheel '{blank.wheel}' keeps its solid web"
-        return blank, [Problem(what, "it has holes for other parts", "cut its windows by hand", "--spokes")]
+        return blank, [
+            Problem(
+                what, "it has holes for other parts, which windows could meet", "cut its windows by hand", "--spokes"
+            )
+        ]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with the hole for its arbor, if there is space, and with holes for other parts that
-    it carries.
-    """
+    """Return the blank with the hole for its arbor, if there is space, and with holes for other parts, and notices."""
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":
         return blank, []
     if bore / 2 >= _LAND * inner and bore / 2 >= inner - _THIN:
-        what = f"wheel '{blank.wheel}': a bore of {bore:g} mm does not fit"
+        what = f"wheel '{blank.wheel}' has no space for a bore of {bore:g} mm"
         why = f"its root circle has a diameter of {2 * inner:.4g} mm, so it is cut without a hole"
-        return blank, [Problem(what, why, f"pass less than {2 * _LAND * inner:.4g} mm", "--bore")]
+        return blank, [Problem(what, why, f"give a bore of less than {2 * _LAND * inner:.4g} mm", "--bore")]
     return replace(blank, contours=(*blank.contours, Contour.circle(bore / 2)), bore=bore), []

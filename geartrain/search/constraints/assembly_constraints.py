@@ -67,7 +67,7 @@ BACKLASH = 0.05
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
-    """Return the constraints on the wheels of a train whose tooth counts are varied, those with the lowest cost first.
+    """Return the constraints on the wheels of a train whose tooth counts are varied, in ascending order of cost.
 
     free   wheel -> admissible counts; all other wheels have their declared counts
 
@@ -83,7 +83,7 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In `fitting` its varied wheels have placeholder counts."""
+    """Builder of the constraints of one train. In `fitting`, the varied wheels have placeholder counts."""
 
     declared: Train
     fitting: TrainAssembly
@@ -104,6 +104,7 @@ class _ConstraintBuilder:
         requested = self.requested
         rack = None if requested.undercut is None else minimum_teeth(turns(requested.undercut), requested.addendum)
         for name, (_, wheel) in self.fitting.train.wheels.items():
+            # the count of a worm is its number of starts, which does not determine its size
             if name not in self.fitting.free or wheel.kind == "worm":
                 continue
             if requested.minimum is not None:
@@ -128,7 +129,9 @@ class _ConstraintBuilder:
             raise QuestionError(
                 Problem(
                     f"the radius of '{wheel}' cannot be compared with {radius}",
-                    f"its module is {declared}" if module else "several modules are declared for it",
+                    f"the module of the wheel is {declared}"
+                    if module
+                    else "several modules are declared for the wheel",
                     "give the radius and all modules with units, or, without modules, the radius as a number of "
                     "modules",
                 )
@@ -171,9 +174,10 @@ class _ConstraintBuilder:
         yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared counts violate a constraint that was not requested explicitly.
+        """Return True if the declared counts violate equal centre distances that were not requested explicitly, else
+        False.
 
-        In that case the modules differ or the profiles are shifted, so the constraint is not applied.
+        Modules then differ or profiles are shifted, so the constraint is not applied.
         """
         counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
@@ -182,7 +186,7 @@ class _ConstraintBuilder:
         )
 
     def _declared_count(self, wheel: str) -> int | None:
-        """Return the declared tooth count; None if it is to be searched for, because its value is then only a
+        """Return the declared tooth count; None for a count to be searched for, whose declared value is only a
         placeholder.
         """
         teeth = self.declared.wheels[wheel][1].teeth
@@ -211,7 +215,9 @@ class _ConstraintBuilder:
         return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield the conditions between each varied wheel and all fixed counts, then between each two varied wheels."""
+        """Yield the conditions between each varied wheel and all fixed counts, then between each pair of varied
+        wheels.
+        """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
@@ -235,7 +241,9 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets with its number of equal planets, as requested or as declared by `copies`."""
+        """Yield each set of planets with its number of equal planets, as requested or as declared by `copies`. Sets
+        without such a number are omitted.
+        """
         requested = self.requested.planets
         if requested is None:
             for one in self.fitting.sets:
@@ -279,8 +287,8 @@ class _ConstraintBuilder:
             raise QuestionError(
                 Problem(
                     "the clearance between planets cannot be computed",
-                    "it depends on the number of planets on a carrier",
-                    "give the number of equal planets: planets=3",
+                    "the clearance depends on the number of planets on a carrier",
+                    "give the number of equal planets, such as planets=3",
                 )
             )
         for one, number in numbered:
@@ -305,7 +313,7 @@ def _no_planets(unknown: list[str], known: list[str]) -> Problem:
     return Problem(
         what,
         "the axes of planets must be on a link other than the frame",
-        f"name one of: {', '.join(known)}" if known else "omit the number of planets",
+        f"give a number for one of these carriers: {', '.join(known)}" if known else "omit the number of planets",
     )
 
 
@@ -321,14 +329,14 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
             "require the declared number, declare one planet set that represents all, or give a number for each "
             "carrier, such as planets={'arm': 3}"
         )
-    return Problem(f"cannot require {number} equal planets {one.title} on '{one.carrier}'", why, fix)
+    return Problem(f"{number} equal planets {one.title} on '{one.carrier}' cannot be required", why, fix)
 
 
 # ------------------------------------------------- declared positions: centre distances and the phasing of loops
 
 
 def is_in_proportion(teeth: WholeSum, other: WholeSum, ratio: float, most: float, columns: CandidateColumns) -> Bools:
-    """Return whether two centre distances have the ratio of the distances between the declared positions.
+    """Return whether two centre distances are in the ratio of the distances between the declared axis positions.
 
     The difference `teeth` - `ratio` x `other` must be within +-`most` [half modules].
     """
@@ -456,7 +464,7 @@ class DeclaredPositions:
         return total
 
     def _in_loops(self) -> Sequence[str]:
-        """Return the wheels of all pairs that are in loops, whether these move or are rigid."""
+        """Return the wheels of all pairs that are in loops, movable or rigid."""
         problem = self.closure.problem
         meshes = {mesh for condition in problem.conditions for mesh in condition.row}
         pairs = {problem.circuits[mesh].id for mesh in meshes}
@@ -495,10 +503,11 @@ def minimum_teeth(pressure: Fraction, addendum: Fraction) -> int:
 def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
     """Return the terms of z1 (z1 + 2 z2) sin(alpha)^2 - 4 h (z2 + h), >= 0 if tip 2 does not interfere with wheel 1.
 
-    The tip circle of 2 must intersect the line of action before the point where that touches the base circle of 1:
-    r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares of z2
-    cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1 it gives
-    the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15 with 45).
+    The tip circle of 2 must intersect the line of action before the point where this line touches the base circle of
+    1: r_a2^2 - r_b2^2 <= (a sin alpha)^2. With r_a2 = z2/2 + h, r_b2 = z2 cos(alpha)/2, a = (z1 + z2)/2 the squares
+    of z2 cancel. In the limit of infinite z2 it is z1 sin(alpha)^2 >= 2 h, the condition of the rack. Solved for z1
+    it gives the minimum pinion of textbooks (Shigley, at 20 degrees: 13 teeth mesh with at most 16, 14 with 26, 15
+    with 45).
     """
     return z1 * (z1 + 2 * z2) * square, -4 * h * (z2 + h)
 
@@ -508,8 +517,9 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
     interfere.
 
     h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
-    independently: the ring's tip circle must intersect the line of action beyond the point where that touches the base
-    circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
+    independently: the ring's tip circle must intersect the line of action beyond the point where this line touches
+    the base circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 -
+    z1)/2.
     """
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 
@@ -526,7 +536,9 @@ def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floa
 def is_on_involute(
     first: CountRef, second: CountRef, pressure: Fraction, addendum: Fraction, columns: CandidateColumns
 ) -> Bools:
-    """Return whether the tips of an external pair do not interfere: each meets the involute of its mate. Exact."""
+    """Return whether each tip of an external pair meets its mate only on the involute, so that no tip interferes.
+    Exact.
+    """
     z1, z2 = counts_of(columns, first), counts_of(columns, second)
     constants = _square(pressure), decimal(addendum)
     one = is_positive(external_terms, [z1, z2], constants, False)

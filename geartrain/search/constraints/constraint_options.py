@@ -33,13 +33,15 @@ class ConstraintOptions:
     coaxial: bool | None = None
     """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
 
-    Wheels without a declared module are assumed to have the same module. With None, the constraint is required unless
-    declared counts that are not varied already violate it, because modules then differ or profiles are shifted.
+    Wheels without a declared module are assumed to have the same module. With None, two pairs of wheels are
+    exempt if their declared counts, none of which is to be searched for, violate the equality: modules then
+    differ or profiles are shifted.
     """
     shift: int = 0
     """Maximum difference between coaxial centre distances, to be compensated by profile shift [half modules]."""
     planets: int | Mapping[str, int] | None = None
-    """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number.
+    """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number. With
+    None, the numbers declared by `copies` are used.
 
     The wheels on the arbors of equal planets must have the same relative orientation.
     """
@@ -71,7 +73,9 @@ class ConstraintOptions:
     """
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the options as a dict for JSON, with quantities as strings. Options that are not set are omitted."""
+        """Return the options as a dict for JSON, with quantities as strings. Options that are None or False are
+        omitted.
+        """
         found = {}
         for field in fields(self):
             value = getattr(self, field.name)
@@ -92,7 +96,7 @@ def read_constraint_options(
     largest_radius: str | None = None,
     **others: Any,
 ) -> ConstraintOptions:
-    """Parse the options from the texts of a command line; options that are None are not required.
+    """Parse the options from the strings of a command line; options that are None keep their defaults.
 
     planets         "3" on every carrier, or "arm=3,inner=4"
     clearance, addendum, ring_addendum   numbers of modules: "0.5", "4/5"
@@ -100,7 +104,7 @@ def read_constraint_options(
     largest_radius                       "60 mm", or "30" modules
     others          as in `ConstraintOptions`: coaxial, shift, minimum, maximum_teeth, different, hunting, closure
 
-    `QuestionError` is raised with all texts that cannot be parsed, at the options of `geartrain teeth train`.
+    A `QuestionError` lists all strings that cannot be parsed, each with its option of `geartrain teeth train`.
     """
     problems: list[Problem] = []
 
@@ -128,7 +132,7 @@ def read_constraint_options(
 
 
 def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
-    """Parse the text of an option; return None and append a problem if it is invalid."""
+    """Parse the value of an option; return None and append a problem if the value is invalid."""
     if text is None:
         return None
     try:
@@ -142,7 +146,7 @@ def _read(problems: list[Problem], option: str, text: str | None, parse: Callabl
 
 
 def _planets(text: str) -> int | dict[str, int]:
-    """Parse a number of planets: `3`, or `arm=3,inner=4`."""
+    """Parse a number of planets, `3`, or a number for each carrier, `arm=3,inner=4`."""
     names, found = [], []
     for piece in text.split(","):
         name, _, number = piece.rpartition("=")
@@ -156,12 +160,16 @@ def _planets(text: str) -> int | dict[str, int]:
 
 
 def turns(angle: Quantity) -> Fraction:
-    """Return a pressure angle in turns, above 0 and below a quarter; radians are converted with 50 digits."""
+    """Return a pressure angle [turns]; raise `QuestionError` unless it is above 0 and below 1/4. Radians are
+    converted with 50 digits.
+    """
     found = angle.base
     if angle.dimension != "angle" or not 0 < found < Fraction(1, 4):
         raise QuestionError(
             Problem(
-                f"{angle} is not a pressure angle", "it must be above 0 and below 90 deg", "write for example 20 deg"
+                f"{angle} is not a pressure angle",
+                "a pressure angle must be above 0 and below 90 deg",
+                "for example, write 20 deg",
             )
         )
     return found

@@ -32,8 +32,10 @@ CandidateColumns = Mapping[str, "Ints"]
 
 
 CandidateTest = Callable[[CandidateColumns], "Bools"]
-"""Predicate on candidates, which can be pickled: a partial function of this package without its last argument. It
-returns whether each candidate passes, shape (candidates,).
+"""Predicate on candidates that can be pickled: a partial function of this package that lacks only its last
+argument.
+
+It returns whether each candidate passes, shape (candidates,).
 """
 
 
@@ -63,7 +65,7 @@ class CountEquation:
         return np.asarray(self.left(columns) == 0)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
-        """Return the count of one wheel from the counts of the others, and whether it is an integer.
+        """Return the count of one wheel from the counts of the other wheels, and whether it is an integer.
 
         Both arrays have shape (candidates,), or (1,) if the equation has only one wheel. `columns` need not include
         `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
@@ -179,8 +181,11 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return the integer multiple of a sum whose coefficients are coprime and whose first weight is positive."""
+    """Return the multiple of a sum whose weights and constant are coprime integers and whose first weight is
+    positive.
+    """
     (found,) = whole(one)
+    # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
     if found.terms and found.terms[0][1] < 0:
         common = -common
@@ -199,7 +204,7 @@ def equality(one: WholeSum) -> str:
 
 
 def is_bounded(wheel: str, minimum: int, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel is from `minimum` to `most`."""
+    """Return whether the tooth count of a wheel is from `minimum` to `most`, both inclusive."""
     return np.asarray((columns[wheel] >= minimum) & (columns[wheel] <= most))
 
 
@@ -247,7 +252,7 @@ Kernel = Callable[..., Sequence[Any]]
 
 
 def decimal(number: Fraction | int) -> Decimal:
-    """Convert a fraction to a decimal with fifty digits."""
+    """Convert a fraction to a decimal, correct to at least fifty digits."""
     with localcontext(prec=_DIGITS):
         return Decimal(Fraction(number).numerator) / Decimal(Fraction(number).denominator)
 
@@ -272,7 +277,7 @@ def cosine(turns: Fraction) -> Decimal:
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Return for each candidate whether the sum of the terms is above 0 (or >= 0 unless `strictly`).
+    """Return for each candidate whether the sum of the terms is above 0 (or, unless `strictly`, 0 or more).
 
     counts     integers, arrays that broadcast to one shape, (candidates,)
     constants  numbers that are the same for all candidates

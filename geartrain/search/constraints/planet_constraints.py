@@ -87,7 +87,7 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 
 def reason(found: PlanetSet, number: int) -> str:
-    """Return the assembly condition as text, with its formula if there are two central wheels."""
+    """Return a description of the assembly condition, with its formula if there are two central wheels."""
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
@@ -113,7 +113,8 @@ def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateCo
 
 
 def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether two meshing planets can be placed on their circles, and each clears the other planets' partners.
+    """Return whether two meshing planets can be placed on their circles, and whether each clears the mates of the
+    other planets.
 
     A, B and D are twice the radii of the two circles and twice the centre distance; see `passing_terms`.
     """
@@ -146,8 +147,9 @@ class PlanetClearance:
         """Yield the clearance conditions of one set of planets: of neighbouring equal wheels, then of planets that
         mesh.
 
-        The wheels of a planet are as far apart as the axes. In a set of two planets, if one meshes only with external
-        central wheels and the other only with rings, these are assumed to lie in one plane with both planets.
+        Wheels are assumed to be concentric with the axes of their planets. In a set of two planets, if one meshes
+        only with external central wheels and the other only with rings, all of these wheels are assumed to lie in
+        one plane.
         """
         assert found.planets is not None
         _check(found)
@@ -180,8 +182,8 @@ class PlanetClearance:
                 yield from self._gap_conditions(inner, outer)
 
     def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """Yield the clearance of the outer planet from the inner one's central wheels, and of the inner one from the
-        rings.
+        """Yield the clearances of the outer planet from the central wheels of the inner planet, and of the inner
+        planet from the rings of the outer planet.
         """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
@@ -189,7 +191,7 @@ class PlanetClearance:
                 yield from _condition(name, is_above_zero, *whole(self._gap(planet, other, mesh)))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
-        """Return twice the clearance of a planet from the central wheel of another one, minus twice the required
+        """Return twice the clearance of a planet from the central wheel of another planet, minus twice the required
         clearance.
         """
         reach, own = _reach(planet), planet.central[0]
@@ -198,6 +200,7 @@ class PlanetClearance:
         sign, addendum = (1, self.addendum) if mesh.ring is None else (-1, self.ring_addendum)
         tips = LinearSum.of([(sign, mesh.parts[1 - other.side(mesh)]), (1, own.parts[planet.side(own)])])
         tips = tips.plus(2 * (self.addendum + addendum + self.clearance)).times(mesh.module)
+        # a ring encloses the planet, so the signs of the reach and of its radius are opposite
         return reach.times(sign) - tips
 
 
@@ -210,9 +213,11 @@ def _is_plain(planet: Planet, external: bool) -> bool:
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Return twice the distance of a planet's axis from the central axis; None if it meshes with no central wheel.
+    """Return twice the distance of a planet's axis from the central axis; None if the planet meshes with no
+    central wheel.
 
-    It is the centre distance of a mesh of `wheel` if there is one, otherwise of an external mesh.
+    The distance is that of a mesh of `wheel` with a central wheel, if any; external meshes are preferred to
+    internal meshes.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
@@ -246,7 +251,7 @@ def _check(found: PlanetSet) -> None:
     if not all(mesh.spur for mesh in meshes):
         why, fix = "the tips of bevel wheels are not on circles about parallel axes", "omit the clearance"
     elif any(mesh.module is None for mesh in meshes):
-        why, fix = "two meshing wheels have different modules", "correct a module"
+        why, fix = "two meshing wheels have different modules", "declare the same module for both wheels"
     elif len({mesh.measure for mesh in meshes}) > 1:
         why, fix = "only some of the wheels have a declared module", "declare the module of all of them, or of none"
     else:

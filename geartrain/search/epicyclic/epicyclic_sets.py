@@ -26,18 +26,22 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set."""
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its contribution to the
+    ratios.
+    """
 
     link: str
     """Name of the link that the wheel belongs to."""
     wheel: str
     """Name of the wheel."""
     mesh: str
-    """Name of the planet wheel with which it meshes."""
+    """Name of the planet wheel with which the central wheel meshes."""
     sign: int
-    """Sign of its speed relative to the reference wheel of the planets, with a fixed carrier."""
+    """Sign of its speed relative to the speed of the reference wheel of the planets, with a fixed carrier: 1 or
+    -1.
+    """
     step: str = ""
-    """Name of the planet wheel whose count is P in f = sign P / z; "" if all central wheels have the same, which
+    """Name of the planet wheel whose count is P in f = sign P / z; "" if P is the same for all central wheels and
     cancels.
     """
     internal: bool = False
@@ -57,7 +61,7 @@ class EpicyclicMode:
 
     @property
     def key(self) -> str:
-        """Text form of the mode, input:output:held, for example `sun:carrier:ring`."""
+        """Mode as the string input:output:held, such as `sun:carrier:ring`."""
         return f"{self.input}:{self.output}:{self.held}"
 
     def __str__(self) -> str:
@@ -65,18 +69,18 @@ class EpicyclicMode:
 
 
 def mode_key(mode: EpicyclicMode) -> str:
-    """Return the text form of an operating mode, input:output:held."""
+    """Return an operating mode as the string `input:output:held`."""
     return mode.key
 
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicKind(Result):
-    """Type of epicyclic gear set, for example sun, planet and ring."""
+    """Type of epicyclic gear set, such as sun, planet and ring: its wheels, their meshes, and its operating modes."""
 
     KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
     name: str
-    """Name of the type, for example "planetary"."""
+    """Name of the type, such as "planetary"."""
     title: str
     """Description of the type."""
     members: tuple[CentralWheel, ...]
@@ -88,7 +92,7 @@ class EpicyclicKind(Result):
     between: tuple[tuple[str, str], ...] = ()
     """Pairs of planet wheels that mesh with each other."""
     idle: tuple[str, ...] = ()
-    """Planet wheels that are in no ratio and no equation; they get the minimum count that fits."""
+    """Planet wheels that are in no ratio and no equation; the search gives them the minimum count that fits."""
     with_carrier: bool = True
     """True if the carrier may be the input, the output or the fixed member of a mode."""
     mirrored: tuple[tuple[str, str], ...] = ()
@@ -104,12 +108,12 @@ class EpicyclicKind(Result):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Links that can be a member of a mode."""
+        """Links of the central wheels, then the carrier."""
         return (*(member.link for member in self.members), CARRIER)
 
     @property
     def modes(self) -> tuple[EpicyclicMode, ...]:
-        """All operating modes, without those that are mirror images of another mode."""
+        """All operating modes except mirror images of other modes."""
         links = self.links if self.with_carrier else self.links[:-1]
         # exchange of mirrored links in both directions
         swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
@@ -124,8 +128,8 @@ class EpicyclicKind(Result):
         return next((member for member in self.members if member.link == link), None)
 
     def chosen(self, modes: str | Iterable[str | EpicyclicMode]) -> tuple[EpicyclicMode, ...]:
-        """Return the modes given by "all" or by texts `input:output:held`. Raise `QuestionError` if a member does not
-        exist.
+        """Return the modes given by "all" or by strings `input:output:held`. Raise `QuestionError` if a string is not
+        a mode of this type.
         """
         if isinstance(modes, str):
             if modes == "all":
@@ -141,7 +145,7 @@ class EpicyclicKind(Result):
             Problem(
                 f"'{text}' is not a mode of the kind '{self.name}'",
                 f"a mode is input:output:held with three different members of {', '.join(self.links)}",
-                f"write for example {self.modes[0].key}, or all",
+                f"for example, write {self.modes[0].key}, or all",
             )
         )
 
@@ -245,6 +249,7 @@ _KINDS = (
 @cache
 def kinds() -> Mapping[str, EpicyclicKind]:
     """Return all types of epicyclic sets by name."""
+    # read-only, because the mapping is cached
     return MappingProxyType({kind.name: kind for kind in _KINDS})
 
 
@@ -254,7 +259,7 @@ def epicyclic_kind(name: str) -> EpicyclicKind:
         return kinds()[name]
     raise QuestionError(
         Problem(
-            f"unknown kind of epicyclic set '{name}'", "the kinds are predefined", f"use one of {', '.join(kinds())}"
+            f"'{name}' is not a kind of epicyclic set", "the kinds are predefined", f"use one of {', '.join(kinds())}"
         )
     )
 
@@ -367,7 +372,7 @@ class SetFindings(Tabular, Result):
     MEANINGS: ClassVar = {
         "mode": "Mode as input:output:held.",
         "input/output": "Exact ratio of input to output speed [1].",
-        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "error": "Ratio divided by the requested ratio, minus 1 [1].",
         "places": "Number of equally spaced positions of equal planets; 0 for any.",
         "room": "Clearance between the tips of neighbouring planets [module].",
         "*": "Tooth count of the wheel.",
@@ -400,7 +405,7 @@ class SetFindings(Tabular, Result):
     complete: bool
     """True; the search always examines all sets within the bounds."""
     count: int
-    """Number of sets within the tolerance in all modes; without a tolerance, number of sets that transmit motion."""
+    """Number of combinations of a set and a mode that satisfy all constraints, and the tolerance if there is one."""
     solutions: tuple[EpicyclicSet, ...]
     """Best sets, in the order of the search criterion."""
     shortfall: Shortfall

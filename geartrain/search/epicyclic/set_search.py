@@ -7,7 +7,7 @@ The exact join of `search.join` could solve the same problem, but for one mode a
 times as long (Wolfrom sets 22 to 110 times). Only from about 200 teeth on is it as fast for types with two central
 wheels. One enumeration covers all modes, and counts every rejected set under one reason in a fixed order.
 
-The ratio of a set is input over output, the convention of gear manufacturers: a reduction is above 1, and it is
+The ratio of a set is input / output speed, the convention of gear manufacturers: a reduction is above 1, and it is
 negative if the output turns in the opposite sense. `ratio_is` selects the reciprocal.
 """
 
@@ -63,7 +63,7 @@ _MARGIN = 1e-12
 
 _FARTHEST = Fraction(10**18)  # far beyond the ratios of all sets
 _FINEST = 10**6
-"""Maximum denominator of a clearance, so that lengths in these fractions of a module fit in int64."""
+"""Maximum denominator of a clearance [modules], so that multiples of 1/denominator of a module fit in int64."""
 
 NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
 NO_SPACING = "planets that cannot be equally spaced"
@@ -133,7 +133,7 @@ def find_sets(
     Raises
     ------
     QuestionError
-        If the type, a mode or the order does not exist, or if the ratio is not from 1e-18 to 1e18.
+        If an argument is invalid, such as an unknown type, mode or order, or a ratio that is not from 1e-18 to 1e18.
     RangeError
         If there are more than 4 10^8 sets.
 
@@ -171,7 +171,7 @@ def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int
         (
             not _FARTHEST > wanted > 1 / _FARTHEST,
             "the ratio is out of range",
-            "it must be from 1e-18 to 1e18",
+            "a ratio must be from 1e-18 to 1e18",
             "give a ratio in this range",
         ),
         (planets < 1, f"planets is {planets}", "a set has at least one planet", "give planets >= 1"),
@@ -182,7 +182,12 @@ def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int
             "give 0 or more",
         ),
         (best < 1, f"best is {best}", "a list has at least one solution", "give best >= 1"),
-        (slack < 0, f"slack is {slack}", "it is the magnitude of a difference of centre distances", "give slack >= 0"),
+        (
+            slack < 0,
+            f"slack is {slack}",
+            "slack is the magnitude of a difference of centre distances",
+            "give slack >= 0",
+        ),
     ):
         if bad:
             raise QuestionError(Problem(what, why, fix))
@@ -201,7 +206,9 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
             )
     if not isfinite(clearance):
         raise QuestionError(
-            Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules such as 0.5")
+            Problem(
+                f"the clearance is {clearance}", "a clearance must be finite", "give a number of modules, such as 0.5"
+            )
         )
 
 
@@ -321,7 +328,7 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """Return the nearest miss and suggestions as text; both "" if there is a solution."""
+        """Return descriptions of the nearest miss and of suggested changes; "" for either if there is none."""
         if self.count:
             return "", ""
         if self.nearest is None and NO_SENSE in self.removed:
@@ -343,7 +350,7 @@ class _Search:
 def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> SetBounds:
     """Return the admissible counts of every wheel, from counts for all wheels or by wheel.
 
-    Raise `QuestionError` if they are invalid.
+    Raise `QuestionError` if the counts are invalid.
     """
     if isinstance(counts, Mapping):
         unknown = [wheel for wheel in counts if wheel not in kind.wheels]
@@ -351,7 +358,7 @@ def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> S
         if unknown or missing:
             what = f"unknown wheel '{unknown[0]}'" if unknown else f"wheel '{missing[0]}' has no counts"
             why = f"the wheels of the kind '{kind.name}' are {', '.join(kind.wheels)}"
-            raise QuestionError(Problem(what, why, "give counts for each of them"))
+            raise QuestionError(Problem(what, why, "give counts for each of these wheels"))
         return {wheel: _check_counts(f"of wheel '{wheel}' ", counts[wheel]) for wheel in kind.wheels}
     return dict.fromkeys(kind.wheels, _check_counts("", counts))
 
@@ -360,7 +367,7 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
     found = tuple(sorted(set(counts))) if len(counts) <= MOST_TEETH else ()
     if found and found[0] >= 1 and found[-1] <= MOST_TEETH:
         return found
-    why = f"at least one count is needed, from 1 to {MOST_TEETH}"
+    why = f"at least one count is needed, and all counts must be from 1 to {MOST_TEETH}"
     raise QuestionError(Problem(f"the counts {whose}cannot be used", why, "give counts such as 15:120"))
 
 
@@ -373,7 +380,8 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield all sets in blocks: the number of sets of a block, and those with admissible integer counts that fit.
+    """Yield all sets in blocks: the number of sets of a block, and the sets of the block that have admissible
+    counts and fit.
 
     planets    number of equal planets between which an idle wheel must have clearance
     clearance  minimum clearance between these planets [modules]; None if it is not required
@@ -432,7 +440,7 @@ def _add_dependent_counts(
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return False for each set whose stepped planet is equivalent to a planet with one wheel.
+    """Return False for each set with a stepped planet that is equivalent to a planet with one wheel, else True.
 
     Equal steps differ from one wheel only if they mesh with two suns, or two rings, of different counts, which `slack`
     permits.
@@ -545,8 +553,8 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
 
-    It is negative if they overlap, and infinite for one planet. For planets on one circle it is (s + p) sin(pi/n) - p -
-    2. Planets in mesh with each other are placed by the law of cosines.
+    It is negative if planets overlap, and infinite for one planet. For planets on one circle it is
+    (s + p) sin(pi/n) - p - 2. Planets in mesh with each other are placed by the law of cosines.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
@@ -576,6 +584,7 @@ def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fract
     angle, floats decide.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
+    # bevel sets are not decided exactly below, so a tie counts as sufficient clearance
     good = np.asarray(found >= minimum - _BEVEL)
     near = np.flatnonzero(np.abs(found - minimum) <= _NEAR)
     if len(near) and not kind.bevel:
@@ -626,6 +635,7 @@ def _bevel_clearance(columns: Columns, planets: int) -> Floats:
     radius, minus the addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
+    # a cone angle of 0 gives an infinite radius, which is replaced below
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = columns["p"] / (2 * np.sin(cone))
         shaft = cone + np.arccos(np.clip(_side_cosine(columns, "s1", "s2"), -1, 1))

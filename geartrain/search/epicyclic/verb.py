@@ -68,7 +68,7 @@ def run(
         _list(answer)
         return
     if ratio is None:
-        raise option_error("RATIO", "the ratio is missing", "give one, or list the kinds with --kind list")
+        raise option_error("RATIO", "the ratio is missing", "give a ratio, or list the kinds with --kind list")
     if clearance is not None and planets is None:
         raise option_error("--clearance", "the number of planets is missing", "give --planets too")
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")

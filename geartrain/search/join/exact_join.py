@@ -32,7 +32,8 @@ _LARGEST = 1 << 62  # products below this are exact in int64
 def find_item_monomials(
     items: Sequence[int], constraints: Sequence[CountConstraint | PolynomialConstraint], lists: Sequence[Item]
 ) -> Iterator[ItemMonomial]:
-    """Yield the minimum number of monomials of some variables that determine the constraints, each exact in int64.
+    """Yield monomials of the variables `items` that determine the constraints, as few as possible, each exact in
+    int64.
 
     Variables that no constraint depends on are in no monomial. Variables are combined if their powers, relative to the
     first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of constraints
@@ -79,7 +80,7 @@ AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """Error of a join that exceeds its maximum number of steps."""
+    """Signal that a join has exceeded its maximum number of steps."""
 
 
 @dataclass
@@ -252,6 +253,7 @@ class ExactJoin:
         total = np.zeros(rows.size, dtype=self.dtype)
         for window in constraint.windows(rows, node.item):
             start, end = (np.clip(one, *self._run(node.item)) for one in window)
+            # cases exclude each other, so their windows do not overlap
             total += item.sums[end] - item.sums[start]
         removed.charge(node.guide, at, self.full(node) - total)
         return total
@@ -299,11 +301,12 @@ class ExactJoin:
     def _solved(
         self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
     ) -> tuple[Ints, Ints]:
-        """Return the rows for which an equation has an admissible solution for a variable, and the index of its value
-        in each.
+        """Return the rows for which an equation has an admissible solution for a variable, and the index of the
+        solution in the values of the variable.
         """
         counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
         tops = self.items[item].tops
+        # clipped; a solution above all values fails the comparison below
         indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
         found = np.flatnonzero(whole & (tops[indices] == counts) & (indices >= first) & (indices < last))
         return found, indices[found]
@@ -325,6 +328,7 @@ class ExactJoin:
         """
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
+        # assignments of the children that are not yet counted
         later = self.full(node) // self._total(node.item)
         for child in node.children:
             later //= self.full(child)

@@ -2,7 +2,7 @@
 
 They are inside and outside sums over tables of `search.weighted_alternatives`, and exact for integer weights. All sums
 are linear in the weights of each wheel, which may be negative: with weights w(z) (z - mean) instead of w(z) for one
-wheel, the sums of the others are their covariances with it.
+wheel, the sum for a count of another wheel gives its covariance with this wheel.
 
 The best assignments are found in order by an A* search along the tree, with exact minimum remaining misfits.
 """
@@ -30,7 +30,9 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Function from the values of a graded constraint to misfits, by its index in `JoinProblem.requested`."""
+"""Function from the values of a graded constraint to misfits, by the index of the constraint in
+`JoinProblem.requested`.
+"""
 CountWeights = Mapping[str, Tallies]
 """Weights of the tooth counts of each wheel, arrays of one dtype."""
 
@@ -120,6 +122,7 @@ class _Recorder:
             distinct, which = self.join.seen(child, grown)
             below = self.record(child, distinct)
             onward = np.arange(grown.size) if which is None else which
+            # transitions to rows without a complete assignment are removed
             leads = np.zeros(distinct.size, dtype=np.bool_)
             leads[below.parents] = True
             kept = leads[onward]
@@ -155,7 +158,7 @@ _Table = RecordedNode | RecordedItem | ProductStep
 
 
 class AssignmentSums:
-    """Weighted sums over the assignments of a recorded join.
+    """Calculator of weighted sums over all assignments of a recorded join, for different weights of tooth counts.
 
     graded   True if the weight of an assignment, the product of the weights of its counts, is multiplied by
              exp(-misfit / 2)
@@ -241,6 +244,7 @@ class BestFirst:
         self._below[at] = tuple(self._add(child) for child, _ in node.children)
         minimum = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
         for number, (_, to) in zip(self._below[at], node.children, strict=True):
+            # children are independent given the row, so the sum of their minima is exact
             minimum += self._ahead[number][to]
         np.minimum.at(self._ahead[at], node.parents, minimum)
         return at

@@ -1,8 +1,8 @@
-"""Order in which a join assigns its variables: a tree, because assigned variables separate the others into independent
-parts.
+"""Order in which a join assigns its variables: a tree, because assigned variables separate the remaining
+variables into independent parts.
 
-Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are then counted
-separately for each distinct assignment of the common wheels, and the counts are multiplied.
+Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are
+then counted separately for each distinct assignment of the common wheels, and the counts are multiplied.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ class PlanNode:
     guide: int
     """Number of the constraint that selects the values to try; -1 if all values are tried."""
     checks: tuple[int, ...]
-    """Numbers of the other constraints that are complete with this variable, in the order of evaluation."""
+    """Numbers of the constraints, other than the guide, that are complete with this variable, in the order of
+    evaluation.
+    """
     prunes: tuple[int, ...]
     """Numbers of polynomial constraints with at least two free variables, by which rows are pruned here."""
     children: tuple[PlanNode, ...]
@@ -56,7 +58,9 @@ class PlanNode:
     """Numbers of all constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the numbers of the constraints that are complete with this node, then of those in its subtree."""
+        """Yield the numbers of the constraints that are complete with this node, then of the constraints complete in
+        its subtree.
+        """
         if self.guide >= 0:
             yield self.guide
         yield from self.checks
@@ -78,7 +82,7 @@ class JoinProblem:
     """Admissible tooth counts of each wheel, ascending."""
     requested: tuple[IntervalConstraint, ...]
     rules: tuple[CountConstraint, ...]
-    """Constraints on tooth counts. Constraints are numbered in the order `rules`, `requested`."""
+    """Constraints on tooth counts. All constraints are numbered in the order `rules`, `requested`."""
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]
@@ -145,7 +149,7 @@ def find_join_problem(
 def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the constraints on counts into those evaluated as soon as possible and those
+    """Yield partitions of the constraints on counts: constraints evaluated as soon as possible, and constraints
     evaluated last.
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
@@ -242,8 +246,8 @@ class _Planner:
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """Select the next variable: one that an equation determines, otherwise one of the constraint with the lowest
-        cost.
+        """Select the next variable: a variable that an equation determines, otherwise a variable of the constraint
+        with the lowest cost.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -298,19 +302,21 @@ class SelectivitySample:
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:
         """Draw the sample, uniformly from the admissible counts."""
+        # fixed seed, so that a plan and its tasks are reproducible
         draw = np.random.default_rng(0)
         return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})
 
     def of_rule(self, rule: CountConstraint) -> float:
         """Estimate the fraction of assignments that satisfy a constraint on tooth counts."""
         if isinstance(rule, CountEquation):
+            # an equation fixes one count; a sample would contain too few solutions
             return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
         return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
 
     def of_demand(self, requested: IntervalConstraint) -> float:
         """Estimate the fraction of assignments that satisfy an interval constraint.
 
-        If few sampled assignments do, the estimate is based on the density of nearby values.
+        If few sampled assignments satisfy it, the estimate is based on the density of nearby values.
         """
         speeds = self.speeds(requested.function)
         minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)

@@ -4,7 +4,7 @@
 a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values, whose
 ends are determined by exact signs.
 
-With more free variables, these are between bounds, and rows are dropped that no values within the bounds can satisfy.
+With several free variables, their values are between bounds. Rows are dropped if no values satisfy the constraint.
 Each term has its own extremes, whose sum bounds the polynomial.
 """
 
@@ -101,6 +101,7 @@ class SignPolynomial:
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
         """Return for each row the value divided by `scale`, and the sum of the magnitudes of its terms."""
+        # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale
         return sum_and_size(
             (_term(float(Fraction(coefficient, over)), monomial, rows) for coefficient, monomial in self.terms),
@@ -187,8 +188,8 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return the half-open range of the values that satisfy one inequality, which includes the first or the last value
-    unless it is empty.
+    """Return the half-open range of the values that satisfy one inequality. A range that is not empty includes the
+    first or the last value.
     """
     polynomial, most = inequality.polynomial, len(rows.items[item])
 
@@ -200,6 +201,7 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
     guess = _guess(polynomial, rows, item)
     before, behind = np.clip(guess - 1, 0, most - 1), np.clip(guess, 0, most - 1)
     first, last = met(every, before), met(every, behind)
+    # both values are on one side of the end, so the whole range is bisected
     wrong = np.flatnonzero(first == last)
     before[wrong], behind[wrong] = 0, most - 1
     first[wrong], last[wrong] = met(wrong, before[wrong]), met(wrong, behind[wrong])
@@ -211,11 +213,14 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
 
 
 def _guess(polynomial: SignPolynomial, rows: PartialAssignments, item: int) -> Ints:
-    """Return for each row the index of the first value behind -B/A, up to rounding."""
+    """Return for each row the index of the first value behind -B/A, up to rounding; 0 if only one power of the
+    variable occurs.
+    """
     parts = polynomial.split(item)
     if len(parts) < 2:
         return np.zeros(rows.size, dtype=np.int64)
     (low, B), (high, A) = parts.items()
+    # A may be 0: infinite ends, and nan, are sorted behind or before all values
     with np.errstate(divide="ignore", invalid="ignore"):
         end = -B.values(rows, polynomial.scale)[0] / A.values(rows, polynomial.scale)[0]
     return np.searchsorted(rows.items[item].powers(high - low), end)
@@ -249,12 +254,13 @@ class RelaxedInequality:
         best = np.zeros(rows.size)
         for one, low, high in zip(self.rest, self.lows, self.highs, strict=True):
             factor = self.sense * one.values(rows, self.scale)[0]
+            # rounding errors must not exclude a row
             best += np.maximum(low * factor, high * factor) + self.slack * high * np.abs(factor)
         return np.asarray(best >= 0)
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """Return an inequality relaxed over the variables in `corners`; its other variables are assigned."""
+    """Return an inequality relaxed over the variables in `corners`; all other variables are assigned."""
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
@@ -267,6 +273,7 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
     """Return each term's factor in the free variables at given values, divided by the lowest power of each variable."""
+    # a common positive factor keeps the sign, but would widen the bounds
     minimum = {item: polynomial.powers(item)[0] for item in inside}
     factors = []
     for _, monomial in polynomial.terms:

@@ -93,7 +93,7 @@ class ProductStep:
     """Step of the previous wheel; None for the empty product."""
 
     def chain(self) -> Iterator[ProductStep]:
-        """Yield this step, then the previous ones."""
+        """Yield this step, then the previous steps."""
         yield self
         if self.before is not None:
             yield from self.before.chain()
@@ -179,6 +179,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     step = max(1, _LONGEST // len(factors))
     for at in range(0, max(len(rest), 1), step):
         quotient, left = np.divmod(rest[at : at + step, None], factors[None, :])
+        # the quotient must be a product of the previous wheels
         place = np.minimum(np.searchsorted(shorter, quotient), len(shorter) - 1)
         rows, columns = np.nonzero((left == 0) & (shorter[place] == quotient))
         found.append((rows + at, columns, quotient[rows, columns]))
@@ -187,7 +188,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
 
 
 class Item:
-    """Values of a variable, numerator over denominator, ascending, with the total weight of each.
+    """Values of a variable, numerator divided by denominator, ascending, with the total weight of each value.
 
     x               values, shape (m,) float64, ascending, accurate to a few roundings
     tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients
@@ -256,6 +257,7 @@ def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
     _ITEMS.move_to_end(key)
+    # the requested variable is kept, even if it exceeds the limit by itself
     while len(_ITEMS) > 1 and sum(map(len, _ITEMS.values())) > _REMEMBERED:
         _ITEMS.popitem(last=False)
     return _ITEMS[key]
@@ -269,7 +271,7 @@ ItemMonomial = tuple[tuple[int, int], ...]
 
 
 class PartialAssignments:
-    """Partial assignments as rows of the values of the variables that are assigned.
+    """Partial assignments as rows, each with the index of the value of every assigned variable.
 
     columns   variable -> index of its value, shape (size,)
     """

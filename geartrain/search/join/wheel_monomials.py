@@ -26,7 +26,7 @@ Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Maximum number of values of one variable, which need half a gigabyte with all their arrays."""
+"""Maximum number of values of one variable. With all their arrays, these values need half a gigabyte."""
 _MOST_QUOTIENTS = 1 << 22  # maximum number of values of a variable with numerator and denominator
 _MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64
@@ -137,7 +137,7 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
         why = (
             f"{len(domains[wheel])} counts up to {domains[wheel][-1]}, to the power {power}, are too many or too large"
         )
-        raise RangeError(Problem(what, why, f"narrow its range to {_MOST_VALUES} counts, none above 10^{18 // power}"))
+        raise RangeError(Problem(what, why, f"narrow the range to {_MOST_VALUES} counts, none above 10^{18 // power}"))
     else:
         middle = len(wheels) // 2
         yield from _listable_groups(wheels[:middle], domains)
@@ -188,6 +188,7 @@ def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Seque
         at = wheels.index(wheel)
         sign = power if recipe.top else -power
         steps = [(term[1][at] - terms[0][1][at]) // sign for term in terms]
+        # a common factor of numerator and denominator cancels
         minimum = min(steps)
         for row, step in zip(rows, steps, strict=True):
             if step > minimum:

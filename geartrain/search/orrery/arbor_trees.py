@@ -43,6 +43,7 @@ class PeriodTargets:
     @cached_property
     def bounds(self) -> tuple[tuple[Fraction, Fraction], ...]:
         """Minimum and maximum admissible value of each period [revolutions of the first arbor]."""
+        # tolerances apply to speeds, the reciprocals of periods
         both = zip(self.periods, self.tolerances, strict=True)
         return tuple((period / (1 + slack), period / (1 - slack)) for period, slack in both)
 
@@ -74,11 +75,15 @@ def read_period_targets(
     """Build the targets from periods by name, and one relative tolerance for all or one for each."""
     if not periods:
         raise QuestionError(
-            Problem("no periods are given", "an orrery shows at least one period", "give one, such as moon=29.53")
+            Problem("no periods are given", "an orrery shows at least one period", "give a period, such as moon=29.53")
         )
     if len(periods) > 30:
         raise RangeError(
-            Problem(f"{len(periods)} periods are too many", "at most 30 periods are possible", "split the orrery")
+            Problem(
+                f"{len(periods)} periods are too many",
+                "one search accepts at most 30 periods",
+                "split the periods between several searches",
+            )
         )
     slack = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(periods, tolerance)
     problems = [
@@ -90,7 +95,7 @@ def read_period_targets(
         Problem(
             f"the tolerance of {name!r} is {slack.get(name)}",
             "a relative tolerance must be at least 0 and below 1",
-            "give for instance 1e-6",
+            "give a tolerance such as 1e-6",
         )
         for name in periods
         if not 0 <= slack.get(name, -1) < 1
@@ -166,17 +171,17 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
         raise QuestionError(
             Problem(
                 "no tooth counts are given, or some are below 1",
-                "tooth counts must be positive",
-                "give for example 12:400",
+                "at least one count is needed, and all counts must be positive",
+                "give a range such as 12:400",
             )
         )
     # terms below 2^31, because both terms of a ratio are packed into one integer below
     if len(admissible) ** 2 > _MOST_PAIRS or admissible[-1] >= 2**31:
         raise RangeError(
             Problem(
-                f"too many tooth counts: {len(admissible)}, up to {admissible[-1]}",
-                f"the table of ratios of two counts is limited to {_MOST_PAIRS:.0e} entries",
-                "narrow the range of teeth",
+                f"{len(admissible)} tooth counts up to {admissible[-1]} are too many or too large",
+                f"the table of ratios of two counts is limited to {_MOST_PAIRS:.0e} entries, and counts to 2^31 - 1",
+                "narrow the range of tooth counts",
             )
         )
     teeth = np.array(admissible, dtype=np.int64)
@@ -201,7 +206,9 @@ class ReachablePeriods:
     first: Ints
     """Index of the ratio of the pair to the intermediate arbor, shape (m,)."""
     next: Ints
-    """Index of the ratio of the pair from there to each target, shape (m, targets); -1 if no pair reaches it."""
+    """Index of the ratio of the pair from the intermediate arbor to each target, shape (m, targets); -1 if no pair
+    reaches the target.
+    """
     sets: Ints
     """Bit mask of the targets that can be driven from the intermediate arbor, shape (m,)."""
 
@@ -252,7 +259,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
     """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is the proved
     minimum.
 
-    Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of others. The search is
+    Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of wheels. The search is
     branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper
     bound and is not proved.
     """
@@ -323,17 +330,17 @@ class TreeArbor:
     """Arbor of a tree, with the gear pair that drives it."""
 
     target: int
-    """Index of the period that it shows; -1 if none."""
+    """Index of the period that the arbor shows; -1 if it shows none."""
     parent: int
-    """Index of the arbor that drives it; -1 for the first arbor."""
+    """Index of the arbor that drives this arbor; -1 for the first arbor."""
     driven: int
-    """Numerator of the ratio of its pair, in lowest terms."""
+    """Numerator of the ratio of the pair that drives the arbor, in lowest terms."""
     driver: int
-    """Denominator of the ratio of its pair, in lowest terms."""
+    """Denominator of the ratio of the pair that drives the arbor, in lowest terms."""
     n: int
-    """Numerator of its period [revolutions of the first arbor], in lowest terms."""
+    """Numerator of the period of the arbor [revolutions of the first arbor], in lowest terms."""
     d: int
-    """Denominator of its period [revolutions of the first arbor], in lowest terms."""
+    """Denominator of the period of the arbor [revolutions of the first arbor], in lowest terms."""
 
     @property
     def period(self) -> Fraction:
@@ -426,14 +433,15 @@ class TreeEnumeration:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
                 new = grown(tree, -1, parent, *self.table.terms(at))
                 yield from self._with_targets((*tree, new), left, extra - 1, len(tree), blank=extra > 2)
+            # the pairs above omit a first arbor that drives only the second
             if extra == 2:
                 yield from self._with_extra_chain(tree, left, parent)
 
     def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
         """Yield the trees whose last two additional arbors form a chain, in which the first drives only the second.
 
-        The period of the second is determined from the targets: it drives one of them, and all others must be reachable
-        from those that it drives.
+        The period of the second arbor is determined from the targets: it drives one target, and all other targets
+        must be reachable from the targets that it drives.
         """
         low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log

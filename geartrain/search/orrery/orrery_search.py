@@ -48,20 +48,24 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery, with its period and wheels."""
+    """Arbor of an orrery, with its period, its sense of rotation, its wheels, and whether it shows a requested
+    period.
+    """
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the period that it shows, or `arbor 1`, `arbor 2` and so on. The caller names the first arbor."""
+    """Name of the period that the arbor shows, or `arbor 1`, `arbor 2` and so on. The caller names the first
+    arbor.
+    """
     period: Fraction
     """Period [revolutions of the first arbor], exact and positive."""
     sense: int
-    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses it."""
+    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses the sense."""
     wheels: tuple[int, ...]
-    """Distinct tooth counts of its wheels, ascending."""
+    """Distinct tooth counts of the wheels of the arbor, ascending."""
     shows: bool
-    """True if it shows a requested period."""
+    """True if the arbor shows a requested period."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +132,7 @@ class Orrery(Tabular, Result):
 
     @property
     def wheels(self) -> int:
-        """Number of wheels. A wheel that meshes with several others is counted once."""
+        """Number of wheels. A wheel that meshes with several wheels is counted once."""
         return sum(len(arbor.wheels) for arbor in self.arbors)
 
     @property
@@ -142,8 +146,8 @@ class Orrery(Tabular, Result):
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration as plain data. The first arbor turns once per `unit`, and the outputs expect their
-        requested speeds.
+        """Return a declaration as plain data. The first arbor turns once per `unit`. The outputs expect their exact
+        speeds, and have the requested periods as targets.
 
         A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 
@@ -193,7 +197,7 @@ def _wheel(arbor: int, count: int) -> str:
 
 
 def _plain(value: Fraction) -> str:
-    """Return a fraction exactly as text: as a decimal if it terminates within 18 digits, otherwise as a fraction."""
+    """Return a fraction as an exact string: a decimal if it terminates within 18 digits, otherwise a fraction."""
     for digits in range(19):
         scaled = value * 10**digits
         if scaled.denominator == 1:
@@ -213,7 +217,7 @@ def find_orrery(
     seconds: float | None = None,
     tell: Tell | None = None,
 ) -> Orrery:
-    """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger ones.
+    """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger trees.
 
     The orrery is a tree of arbors with external gear pairs, driven from the first arbor. Enumeration proves lower
     bounds, and wider beams find better solutions without proof; see `Orrery.minimum_pairs`, `minimum_wheels` and
@@ -264,10 +268,12 @@ def find_orrery(
     targets = read_period_targets(periods, tolerance)
     if first in targets.names:
         what = f"the first arbor and a period are both named {first!r}"
-        raise QuestionError(Problem(what, "each period names an arbor, and names must be distinct", "rename one"))
+        raise QuestionError(
+            Problem(what, "each period names an arbor, and names must be distinct", "rename the first arbor")
+        )
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
-        raise QuestionError(Problem(what, why, "rename this arbor"))
+        raise QuestionError(Problem(what, why, "rename the arbor"))
     search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
     ended = search.run(effort, walk)
     if search.best is None:
@@ -354,16 +360,16 @@ class _OrrerySearch:
     def minimum_wheels(self) -> int:
         """Proved lower bound of the number of wheels.
 
-        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period has
-        two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated
-        have more additional arbors than those that were.
+        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period
+        has two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not
+        enumerated have more additional arbors than the enumerated trees.
         """
         unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
 
     @property
     def proved(self) -> bool:
-        """True if no orrery has fewer wheels than the best one found."""
+        """True if no orrery has fewer wheels than the best orrery found."""
         return self.best is not None and self.best[0][0] <= self.minimum_wheels
 
 
@@ -417,7 +423,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     stopped = {"time": "the time limit was reached; ", "interrupted": "the search was interrupted; "}.get(ended, "")
     return QuestionError(
         Problem(
-            f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
+            f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
             f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
             "increase the tolerance, the number of extra arbors or the beam width, or allow more tooth counts",
         )
@@ -436,7 +442,7 @@ class PartialTree:
     wheels: int
     """Minimum number of wheels of the gear pairs of the tree."""
     bulk: float
-    """Sum of the logarithms of the terms of its ratios.
+    """Sum of the logarithms of the terms of all ratios in the tree.
 
     Small terms have many multiples, so their wheels can be shared more often.
     """
@@ -457,7 +463,7 @@ class BeamSearch:
 
     A move drives a target directly, or adds an arbor together with all targets that one pair can drive from it. Wheels
     that a new pair can share with pairs on the same arbor are counted when moves are ranked: approximately for all
-    moves, by common multiples in numpy, and exactly for the selected ones. The search is deterministic.
+    moves, by common multiples in numpy, and exactly for selected moves. The search is deterministic.
     """
 
     def __init__(
@@ -498,6 +504,7 @@ class BeamSearch:
         """Yield trees with an additional arbor whose period is much nearer to the targets, simplest ratios first."""
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
+        # ratios of at least the cube root of the largest ratio
         nearer = self._plainest[side * self.table.logs[self._plainest] >= self.table.logs[-1] / 3]
         for at in nearer[:most].tolist():
             yield self._part((*part.tree, grown(part.tree, -1, len(part.tree) - 1, *self.table.terms(at))), part.left)
@@ -522,8 +529,8 @@ class BeamSearch:
         return known
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the best extensions of a partial tree by one arbor with its targets, and further targets driven from
-        these.
+        """Yield the best extensions of a partial tree: one arbor with its targets, and further targets driven from
+        these arbors.
         """
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
@@ -590,7 +597,8 @@ class BeamSearch:
     def _joint(self, mine: Ints, mate: Ints, other: Ints, its_mate: Ints) -> Ints:
         """Return 1 if two ratios can share a wheel, otherwise 0.
 
-        They can if their terms `mine` and `other` have a common multiple such that all four counts are admissible.
+        Sharing requires that their terms `mine` and `other` have a common multiple such that all four counts are
+        admissible.
         """
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
@@ -614,7 +622,11 @@ class BeamSearch:
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Return the best partial trees, with at most a few that have the same targets and periods ranked first."""
+    """Return the `width` best partial trees.
+
+    Only the best few of all trees that show the same targets with the same periods are selected before other
+    trees.
+    """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
     alike: Counter[_Key] = Counter()

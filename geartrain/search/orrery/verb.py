@@ -66,7 +66,9 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
     for text in texts:
         name, sign, period = text.partition("=")
         if not sign or not name.strip():
-            raise option_error(_PLACE, f"'{text}' is not a name with a period", "write it as moon=29.53058853")
+            raise option_error(
+                _PLACE, f"'{text}' is not a name with a period", "write NAME=PERIOD, such as moon=29.53058853"
+            )
         if name.strip() in found:
             raise option_error(_PLACE, f"two periods are named '{name.strip()}'", "give each name once")
         if (row := period_table().get(period.strip())) is not None and row.kind != "period":
@@ -76,6 +78,6 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
         wanted = read_ratio(period)
         if wanted.sense:
             why = "the search chooses the sense of every arbor"
-            raise option_error(_PLACE, f"'{text}' has a sign", "give periods without sign", why)
+            raise option_error(_PLACE, f"'{text}' has a sign", "give the period without a sign", why)
         found[name.strip()] = wanted.value
     return found

@@ -55,7 +55,7 @@ class CountProbabilities:
     before: Mapping[str, Chances] = field(default_factory=dict)
     """Prior probability of each tooth count, by wheel; empty if unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Wheel -> declared tooth count, if one is declared."""
+    """Declared tooth count of each wheel that has one."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
@@ -166,8 +166,8 @@ def _ticks(axis: Any, span: tuple[int, int]) -> None:
 
 
 def _modes(probabilities: Chances) -> str:
-    """Return the most probable count with its probability as text; if several are equally probable, `49-52: 10
-    % each`.
+    """Return the most probable count with its probability, such as `64: 80 %`; if several are equally probable,
+    `49-52: 10 % each`.
     """
     largest = max(probabilities.values())
     modes = sorted(count for count, probability in probabilities.items() if isclose(probability, largest))
@@ -206,7 +206,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     Raises
     ------
     QuestionError
-        If no combination satisfies the observations, or if the number of wheels is not from 1 to 9.
+        If no combination satisfies the observations, or if the pairs contain no wheel or more than 9 wheels.
 
     Examples
     --------

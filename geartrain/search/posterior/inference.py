@@ -207,12 +207,12 @@ def _sample_remarks(found: PosteriorSummary, method: Method) -> Iterator[str]:
 def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
     if method is not None and method not in METHODS:
         raise QuestionError(
-            Problem(f"unknown method '{method}'", "methods are exact and sample", suggest(method, METHODS))
+            Problem(f"'{method}' is not a method", "the methods are exact and sample", suggest(method, METHODS))
         )
     for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
         if value < minimum:
             raise QuestionError(
-                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {name} >= {minimum}")
+                Problem(f"{name} is {value}", f"{name} must be at least {minimum}", f"give {name} >= {minimum}")
             )
 
 
@@ -249,7 +249,7 @@ def _summarise(
                 what = f"the exact method needs more than {limit} steps"
                 fix = "raise the limit, narrow the ranges of counts, or use the method `sample`"
                 raise RangeError(
-                    Problem(what, "`limit` bounds the number of partial combinations that it examines", fix)
+                    Problem(what, "`limit` bounds the number of partial combinations that the method examines", fix)
                 ) from None
     return _Outcome("sample", *_sampled(question, most, samples, seed, means))
 
@@ -300,6 +300,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
     share = plain_number(sums.total(weights))
     marginals = {wheel: own.tolist() for wheel, own in sums.marginals(weights).items()} if share else {}
     candidates, ranked = first_with_ties(iter(BestFirst(root, question.domains)), most) if share else ([], True)
+    # covariances use weights relative to the mean, which are not integers
     floats = _weights(uncertainties, True)
     return PosteriorSummary(
         steps,
@@ -391,7 +392,7 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
     """Return the wheels about which the outputs give the most information [bit], in the order of declaration.
 
-    Wheels with one possible count are omitted.
+    Wheels with one possible count, and wheels on which no output depends, are omitted.
 
     Parameters
     ----------
@@ -418,7 +419,7 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
     """Compute the joint posterior of each pair of wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    One further posterior is computed for each possible count of every wheel except the last.
+    One further posterior is computed for each count of nonzero probability, of every wheel except the last.
 
     Parameters
     ----------
@@ -446,6 +447,7 @@ def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Ag
     """
     pairs: Pairs = {(a, b): {} for at, a in enumerate(wheels) for b in wheels[at + 1 :]}
     for at, wheel in enumerate(wheels[:-1]):
+        # if nothing fits the observations, `probabilities` is empty
         for count, probability in zip(found[wheel].uncertainty.counts, found[wheel].probabilities, strict=False):
             if not float(probability):
                 continue

@@ -27,7 +27,9 @@ from geartrain.train.fields import MOST_TEETH
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
 FAR = Fraction(5)
-"""Error in tolerances beyond which a Gaussian likelihood is set to 0; it would be less than exp(-12.5)."""
+"""Error, in units of the tolerance, beyond which a Gaussian likelihood is set to 0; it would be less than
+exp(-12.5).
+"""
 MOST_COUNTS = 10**5
 """Maximum number of possible counts of one wheel."""
 _LINE: Interval = (None, None)
@@ -46,9 +48,13 @@ class InferenceProblem:
     outputs: Mapping[str, Formula]
     """Speed of each output that depends on an uncertain count, as a function of the counts."""
     conditions: tuple[IntervalConstraint, ...]
-    """Conditions for the train to turn: loops must close, and links must not be driven in contradictory ways."""
+    """Conditions for the train to turn: loops must close, inputs must be consistent, and the train must be neither
+    locked nor free.
+    """
     remarks: tuple[str, ...] = ()
-    """Remarks on observations that are not used or are violated by every combination."""
+    """Remarks on observations that are not used or are violated by every combination, and on outputs with
+    undetermined speeds.
+    """
     soft: bool = False
     """True for the Gaussian likelihood exp(-misfit / 2), up to `FAR` tolerances; False for the likelihood 1 within all
     tolerances and 0 otherwise.
@@ -138,7 +144,9 @@ def build_inference_problem(
 
 
 def _remarks(witness: ObservedOutput) -> Iterator[str]:
-    """Yield a remark on an output that is not used, because it has no tolerance or depends on no uncertain count."""
+    """Yield a remark on an output without a tolerance, or with a speed that depends on no uncertain count and
+    violates its observations.
+    """
     if not witness.claims:
         yield f"'{witness.name}' is not used: none of its observations has a tolerance"
     elif not witness.fits(witness.formula.constant):
@@ -152,18 +160,24 @@ def _check(
     if against not in LIKELIHOOD_KINDS:
         raise QuestionError(
             Problem(
-                f"unknown kind of observations '{against}'",
-                "kinds are all, targets and figures",
+                f"'{against}' is not a kind of observations",
+                "the kinds are all, targets and figures",
                 suggest(against, LIKELIHOOD_KINDS),
             )
         )
     if tolerance is not None and tolerance < 0:
         raise QuestionError(
-            Problem(f"the tolerance {tolerance} is negative", "a tolerance is a magnitude", "give a tolerance >= 0")
+            Problem(
+                f"the tolerance {tolerance} is negative", "a tolerance must not be negative", "give a tolerance >= 0"
+            )
         )
     if scale < 0:
         raise QuestionError(
-            Problem(f"the factor {scale} of tolerances is negative", "a tolerance is a magnitude", "give a factor >= 0")
+            Problem(
+                f"the factor {scale} of tolerances is negative",
+                "a negative factor would make tolerances negative",
+                "give a factor >= 0",
+            )
         )
 
 
@@ -172,7 +186,9 @@ def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence
     for name in outputs:
         if name not in known:
             fix = suggest(name, known) if known else "declare it under `outputs`"
-            raise QuestionError(Problem(f"'{train.name}' has no output '{name}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{train.name}' has no output '{name}'", "only declared outputs can be evidence", fix)
+            )
 
 
 def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequence[str]) -> None:
@@ -183,8 +199,11 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
     """
     for name in outputs:
         if name not in moved:
-            what, why = f"output '{name}' does not depend on uncertain counts", "it gives no information on them"
-            raise QuestionError(Problem(what, why, "omit it"))
+            what, why = (
+                f"output '{name}' does not depend on uncertain counts",
+                "such an output gives no information on the counts",
+            )
+            raise QuestionError(Problem(what, why, f"omit '{name}'"))
         if name not in known:
             raise _no_evidence(f"the speed of output '{name}' is not known")
     if not known:
@@ -214,7 +233,9 @@ class ToothCountPrior(Result):
     declared: int | None
     """Declared count of the wheel; None if no count is declared."""
     assumed: str
-    """Source of the counts. The prior is uniform unless the text says that it is weighted."""
+    """Source of the counts: "requested", "search", "range" or "choices", with the source of the declaration if it
+    has one. It ends with "weighted" if weights are declared; otherwise the prior is uniform.
+    """
 
     @property
     def total(self) -> int:
@@ -222,7 +243,7 @@ class ToothCountPrior(Result):
         return sum(self.weights)
 
     def weight(self, count: int) -> int:
-        """Return the weight of one of the counts."""
+        """Return the weight of one possible count."""
         return self.weights[self.counts.index(count)]
 
     @property
@@ -234,7 +255,7 @@ class ToothCountPrior(Result):
 def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:
     """Return the priors of the uncertain tooth counts, in the order of declaration.
 
-    free   wheel -> possible counts, which replace the declared ones; a single count makes the wheel certain
+    free   wheel -> possible counts, which replace the declared counts; a single count makes the wheel certain
 
     A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared), a wheel with
     `search` a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not
@@ -244,7 +265,9 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
     for name in given:
         if name not in train.wheels:
             fix = suggest(name, train.wheels)
-            raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts", fix)
+            )
     found = tuple(_priors(train, given))
     if not any(len(uncertainty.counts) > 1 for uncertainty in found):
         why = "no wheel has `range` or `choices` with more than one count"
@@ -285,11 +308,14 @@ def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
 def _check_width(name: str, count: int, place: str = "") -> None:
     if count > MOST_COUNTS:
         what = f"wheel '{name}' has {count} possible counts"
-        raise RangeError(Problem(what, f"at most {MOST_COUNTS} can be listed", "narrow its range", place))
+        raise RangeError(
+            Problem(what, f"at most {MOST_COUNTS} counts of a wheel can be listed", "narrow the range", place)
+        )
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     """Return the declared prior of a wheel. Counts of weight 0 are omitted."""
+    # checked first, because `probabilities` lists every count of the range
     if teeth.range is not None and teeth.choices is None:
         _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
     if why := teeth.fault_of_weights:
@@ -336,7 +362,9 @@ class Observation:
         return None if end is None else self.wanted + factor * (end - self.wanted)
 
     def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above or below the observed speed; None if it is unlimited."""
+        """Return the tolerance above or below the observed speed; None if it is unlimited, or if no interval contains
+        the speed.
+        """
         # interval that contains the observed speed
         own = [each for each in self.intervals if is_within(self.wanted, (each,))]
         end = own[0][1 if above else 0] if own else None
@@ -365,7 +393,9 @@ class Observation:
 
 @dataclass(frozen=True, slots=True)
 class ObservedOutput:
-    """Output with at least one observation."""
+    """Output with its speed as a function of uncertain tooth counts, and with observations of this speed as
+    evidence.
+    """
 
     name: str
     """Name of the output, or "state: output" if several states are used at once."""
@@ -376,7 +406,7 @@ class ObservedOutput:
 
     @property
     def text(self) -> str:
-        """Descriptions of the observations, as one text."""
+        """Descriptions of the observations, as one string."""
         return "; ".join(claim.label for claim in self.claims)
 
     def fits(self, speed: Fraction | None) -> bool:
@@ -411,7 +441,7 @@ def observations_of(
 ) -> tuple[Observation, ...]:
     """Convert the requirements on an output to observations. Targets without a tolerance are omitted.
 
-    kind     "targets" without `expect` and `published`, "figures" for only those, or "all"
+    kind     "figures" for `expect` and `published`, "targets" for targets, or "all" for both
     factor   factor of every tolerance
     """
     found = []

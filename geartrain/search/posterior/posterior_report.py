@@ -138,7 +138,9 @@ def _span(counts: Sequence[int]) -> str:
 
 
 def _most_probable(posterior: WheelPosterior) -> str:
-    """Return the most probable counts with their probabilities as text, without counts of probability 0."""
+    """Return a list of the most probable counts with their probabilities as a string, without counts of
+    probability 0.
+    """
     pairs = zip(posterior.uncertainty.counts, posterior.probabilities, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
     listed = ", ".join(f"{count}: {_short(probability)}" for count, probability in some[:_MOST_PROBABLE])

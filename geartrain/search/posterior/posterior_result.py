@@ -57,7 +57,7 @@ class CountProbability(Result):
 
 @dataclass(frozen=True, slots=True)
 class WheelPosterior(Result):
-    """Posterior of the tooth count of one wheel.
+    """Posterior of the tooth count of one wheel, with its prior and the information gained.
 
     See Also
     --------
@@ -136,7 +136,7 @@ class CountCombination(Result):
     misfit: Fraction
     """Sum of (error / tolerance)^2 of all observations; exact observations add 0."""
     probability: CountProbability | None
-    """Posterior probability; None if it is unknown, for example in a sample."""
+    """Posterior probability; None if it is unknown, such as in a sample."""
     changed: tuple[str, ...]
     """Wheels whose count differs from the declared count."""
 
@@ -181,16 +181,16 @@ class VarianceShares(Result):
 
 
 class KnownOutput(TypedDict):
-    """Observed output as plain data."""
+    """Observed output as plain data: its observations, its formula, and its evidence."""
 
     output: str
     """Name of the output."""
     claims: list[str]
-    """Descriptions of the observations of its speed."""
+    """Descriptions of the observations of the speed of the output."""
     formula: str
     """Speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]
-    """Evidence of this output by itself: prior probability that its observations are satisfied."""
+    """Evidence of this output by itself: prior mean of the likelihood of its observations."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,8 +43,8 @@ _NONE = 1e-13
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` entries of an ascending list with all ties of the last; False if ties had to be
-    omitted.
+    """Return the first `most` entries of an ascending list and all ties of the last entry, and False if ties were
+    omitted, else True.
     """
     found: list[GradedAssignment] = []
     for candidate in candidates:
@@ -393,6 +393,7 @@ def _sampled_indices(
     a, b = formula.values(first), formula.values(second)
     both = np.concatenate([a, b])
     mean, variance = float(both.mean()), float(both.var())
+    # an infinite speed is a pole; a tiny variance is the rounding error of a constant speed
     if not np.isfinite(both).all() or variance <= (1e-13 * mean) ** 2:
         return None
     own, whole = {}, {}

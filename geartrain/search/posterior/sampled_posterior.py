@@ -55,7 +55,7 @@ class LikelihoodBatch:
     def judged(self, counts: Mapping[str, Ints]) -> tuple[Bools, Floats]:
         """Return whether each combination satisfies the observations, exactly, and its misfit up to rounding.
 
-        The misfit is infinite for the others. Combinations that one output rejects are not evaluated for the next.
+        The misfit of a rejected combination is infinite. Further outputs of a rejected combination are not evaluated.
         """
         met = self.turns(counts)
         total = np.zeros(len(met))
@@ -83,8 +83,10 @@ def decide(one: IntervalConstraint, counts: Mapping[str, Ints]) -> tuple[Bools, 
             for end, sign in zip(interval, (1, -1), strict=True):
                 if end is not None:
                     edge = as_float(end)
+                    # with nan, for an end beyond float64, no combination is sure
                     gap = sign * (value - (nan if edge is None else edge))
                     inside &= gap >= 0
+                    # error bound of the value, and the rounding of the end to float64
                     sure &= np.abs(gap) > room + 2 * UNIT_ROUNDOFF * abs(edge or 0)
             met |= inside
     rows = np.flatnonzero(~sure)
@@ -102,7 +104,7 @@ def _is_admitted(value: Fraction | None, one: IntervalConstraint) -> bool:
 
 
 class PosteriorTally:
-    """Sums over the combinations of a sample.
+    """Sums of likelihoods over the combinations of a sample, from which the posterior is estimated.
 
     examined  number of combinations
     turning   number of combinations with which the train turns
@@ -146,6 +148,7 @@ class PosteriorTally:
 
     def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
         near = np.flatnonzero(misfit <= self._threshold())  # candidates for the list of the best
+        # one more than is kept, so that `_trim` detects omitted ties
         order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
         self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
         self._trim()
@@ -188,7 +191,7 @@ class PosteriorTally:
 
 
 def plain_number(value: Any) -> int | float:
-    """Convert a sum to a Python number, which cannot overflow."""
+    """Convert a sum to a Python float, or to a Python integer, which cannot overflow."""
     return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
@@ -221,6 +224,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     places = {}
     for wheel in batch.wheels:
         probabilities = np.array([float(prior) for prior in batch.question.uncertainties[wheel].priors])
+        # divided by their sum, because numpy rejects probabilities whose rounded sum differs from 1
         places[wheel] = draw.choice(len(probabilities), size, p=probabilities / probabilities.sum())
     counts = {wheel: np.array(batch.domains[wheel])[at] for wheel, at in places.items()}
     met, misfit = batch.judged(counts)

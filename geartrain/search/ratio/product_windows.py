@@ -68,7 +68,7 @@ def _wrapped(number: int) -> np.int64:
 
 
 def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
-    """Return the ranks of the absolute errors of some pairs, compared exactly. Equal errors have equal ranks."""
+    """Return for each pair the rank of its absolute error, compared exactly. Equal errors have equal ranks."""
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
     places = {miss: at for at, miss in enumerate(sorted(set(misses)))}
@@ -133,8 +133,8 @@ class ProductWindows:
         return int((_ends(self, bound) - self.starts).sum())
 
     def values(self, low: int, high: int) -> tuple[Ints, Places]:
-        """Return the distinct products in [low, high), ascending, shape (n,), and the number of multisets with smaller
-        products in the window, shape (n + 1,).
+        """Return the distinct products in [low, high), ascending, shape (n,), and the number of multisets of the
+        window below each product, with their total number at the end, shape (n + 1,).
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         found = self.rows[row]
@@ -175,7 +175,7 @@ def multisets(number: int, size: int) -> int:
 
 @lru_cache(maxsize=4)
 def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -> ProductWindows:
-    """Build the products of `size` (1 to 5) of these counts, which must be ascending.
+    """Build the products of all multisets of `size` (1 to 5) of the counts, which must be ascending.
 
     plain   True for int64, False for Python integers, None to decide by the largest product
 
@@ -190,6 +190,7 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
     if size - 1 - below < 2:
         # at most one count above: the counts themselves, from the middle one on, are the table
         uppers = _chosen(numbers, size - 1 - below)
+        # the counts above begin at the middle count itself
         starts = table if size > 1 else np.zeros_like(table)
         highs = row_products(uppers)
         return ProductWindows(counts, size, rows, lows, highs, uppers, highs, 0 * rows, starts, counts[-1] + 1)
@@ -241,8 +242,15 @@ def row_products(chosen: Ints) -> Ints:
 def check_memory(counts: tuple[int, ...], size: int, plain: bool) -> None:
     """Raise `RangeError` if the tables of `products_of` would not fit in memory."""
     number, half = len(counts), (size + 1) // 2
+    # length of the longest table; from four stages on it contains triples of counts
     rows = multisets(number, half) if size < 4 else multisets(number, 3)
     if rows > _MOST_ROWS or not (plain or multisets(number, size) <= _MOST_OBJECTS):
-        why = "the tables would not fit in memory" if plain else "products above 2^52 are stored as Python objects"
-        what = f"{number} counts are too many for {size} stages" + ("" if plain else f" of up to {counts[-1]} teeth")
+        why = (
+            "the tables would not fit in memory"
+            if plain
+            else "products above 2^52 are stored as objects, which need more memory"
+        )
+        what = (
+            f"{number} counts" + ("" if plain else f" of up to {counts[-1]} teeth") + f" are too many for {size} stages"
+        )
         raise RangeError(Problem(what, why, "use a shorter range of counts, or fewer stages"))

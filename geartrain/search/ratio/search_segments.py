@@ -72,10 +72,12 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
     if question.of_equal_sums:
         return _search_sums(question, task["low"], task["high"])
     judge, count = StageFilter(question), 0
+    # every pair of multisets is expanded to all of its pairings
     chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
     for beneath, top in blocks(question, task["low"], task["high"]):
         (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
         first, last = cuts(p, q, *question.edges)
+        # several multisets may have the same product
         count += int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
         if near.tolerance < question.tolerance:
             first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
@@ -96,7 +98,8 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
-    """Search the reverted trains whose stages have a sum of counts in [low, high), with the result of `search_segment`.
+    """Search the reverted trains whose stages have a sum of counts in [low, high); the result is that of
+    `search_segment`.
 
     Every multiset of stages with this sum is generated once, from a lower and an upper half, by a meet in the middle on
     the ratios. Floats select the candidates, and near the tolerance Fractions decide.
@@ -145,7 +148,9 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
 
 
 def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
-    """Yield ranges of denominator and numerator products that cover every pair within the tolerance once."""
+    """Yield pairs of a range of denominator products and a range of numerator products. Together they contain
+    every pair of products within the tolerance once.
+    """
     most = _block(question)
     for beneath in pieces(question.under, *question.beneath_within(low, high), most):
         for top in pieces(question.over, *question.tops_for(*beneath), most):
@@ -198,14 +203,14 @@ class StageFilter:
             self.best.add((first, tops[at], beneaths[at], over[at], under[at]))
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
-        """Return the indices for which `good` is true, and count the others under the reason."""
+        """Return the indices for which `good` is true, and count the remaining indices under `reason`."""
         if not good.all():
             self.removed[reason] = self.removed.get(reason, 0) + int((~good).sum())
         return at[good]
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """Return as text why pairs of multisets without a feasible pairing to stages are rejected."""
+    """Return the reason for which pairs of multisets without a feasible pairing are rejected."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
@@ -217,7 +222,9 @@ def pairing_reason(question: StageProblem) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SweepOutcome:
-    """Solutions of all segments within `tolerance`."""
+    """Results of all segments: the numbers of solutions and of rejected candidates within `tolerance`, and the
+    best solutions.
+    """
 
     tolerance: Fraction
     count: int = 0
@@ -228,13 +235,13 @@ class SweepOutcome:
     complete: bool = True
     """True if every segment was searched."""
     note: str = ""
-    """Reason why fewer solutions were found than may exist; "" otherwise."""
+    """Reason why the search may have found fewer solutions than exist; "" otherwise."""
 
 
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
     """Count all solutions within a tolerance, and keep the best; without a tolerance, find the best by absolute error.
 
-    The tolerance of the problem is ignored. If there are many solutions, only those near the ratio are listed. The
+    The tolerance of the problem is ignored. If there are many solutions, only solutions near the ratio are listed. The
     tolerance of the list is increased until it includes enough solutions, so all other solutions have larger errors.
     """
     minimum, most = reach_of_errors(question.value, *question.reach)
@@ -261,11 +268,12 @@ def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) 
 def _density(question: StageProblem) -> float:
     """Estimate the number of candidates per unit of absolute relative error."""
     span = log(question.top[-1] / question.top[0]) + log(question.beneath[-1] / question.beneath[0])
+    # factor 2: errors of both signs; logarithms of ratios spread over about `stages` times the span
     return 2 * question.candidates / max(question.stages * span, 1e-3)
 
 
 def _start(question: StageProblem) -> Fraction:
-    """Return a tolerance within which about 16 times the requested number of pairs is expected."""
+    """Return a tolerance, at most 1, within which about 16 times the requested number of pairs is expected."""
     return rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
 
 
@@ -276,7 +284,7 @@ def _check(question: StageProblem, tolerance: Fraction) -> None:
         raise RangeError(
             Problem(
                 f"about {pairs:.1g} candidates are within the tolerance",
-                f"constraints, order or list length require a test of each, and at most {_MOST:.0g} are tested",
+                f"the constraints or the order require a test of each candidate, and at most {_MOST:.0g} are tested",
                 f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
             )
         )
@@ -305,7 +313,8 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
 def _segments(question: StageProblem) -> list[Range]:
     """Divide the denominator products into segments of about two blocks of products, counting both sides.
 
-    Stages with equal sums are divided by their sum: eight sums for four and more stages, which are slow, or all.
+    Stages with equal sums are divided by their sum: eight sums in a segment for four or more stages, which are
+    slow, otherwise all sums in one segment.
     """
     size = question.stages
     if question.of_equal_sums:
@@ -316,5 +325,6 @@ def _segments(question: StageProblem) -> list[Range]:
         return []
     products = multisets(len(question.top), size) + multisets(len(question.beneath), size)
     number = ceil(products / (2 * _block(question)))
+    # equal steps of the logarithm contain about equal numbers of products
     inner = {int(low * (high / low) ** (at / number)) for at in range(1, number)}
     return list(pairwise(sorted({low, high, *inner})))

@@ -97,7 +97,8 @@ class StageConstraints(Result):
         return not (self.pairs_matter or self.different or self.totals_matter)
 
     def check(self, stages: int) -> None:
-        """Raise `QuestionError` if no train with this number of stages can satisfy the constraints.
+        """Raise `QuestionError` if `internal` exceeds the number of stages, or the minimum sum exceeds the maximum
+        sum.
 
         Parameters
         ----------
@@ -115,7 +116,9 @@ class StageConstraints(Result):
         minimum, most = self.totals
         if minimum > most:
             what = f"minimum_total is {minimum}, maximum_total is {most}"
-            raise QuestionError(Problem(what, "the minimum exceeds the maximum", "exchange them, or omit one"))
+            raise QuestionError(
+                Problem(what, "the minimum must not exceed the maximum", "exchange the two bounds, or omit one")
+            )
 
 
 @dataclass(frozen=True)
@@ -254,11 +257,12 @@ def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, 
     """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of internal
     meshes.
 
-    The columns of the result are those of `_arrangements`: whether the pairing satisfies the constraints, the number of
-    stages with coprime counts, and the number of distinct centre distances, shape (n, arrangements) each.
+    Each result has shape (n, arrangements), with the rows of `_arrangements` as columns: whether the pairing satisfies
+    the constraints, the number of stages with coprime counts, and the number of distinct centre distances.
     """
     orders, rings = _arrangements(tops.shape[1], fit.internal)
     tall, short = tops[:, None, :], beneaths[:, orders]
+    # one table of k x k divisors serves all k! pairings
     coprime = (np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)[:, np.arange(tops.shape[1]), orders].sum(axis=2)
     # twice the centre distance in modules; 0 for a ring and a pinion with equal counts
     distances = np.sort(np.where(rings, np.abs(tall - short), tall + short), axis=2)
@@ -297,6 +301,7 @@ def best_pairing(
     fit = fit or StageConstraints()
     orders, rings = _arrangements(len(top), fit.internal)
     possible, coprime, kinds = (each[0] for each in pairings(np.array([top]), np.array([beneath]), fit))
+    # one integer for a lexicographic order, because `coprime` is at most len(top)
     merits = (len(top) + 1) * kinds * centres - coprime
     # a set, because repeated counts give equal pairings
     best: set[Pairs] = set()
@@ -333,17 +338,23 @@ def check_order(by: str) -> None:
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
             Problem(
-                f"'{by}' is not an order of solutions", "the order is one predefined criterion", f"use one of {known}"
+                f"'{by}' is not an order of solutions",
+                "solutions are sorted by one of the predefined criteria",
+                f"use one of {known}",
             )
         )
 
 
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints:
-    """Return the primary sort criterion (smaller is better) for numerator and denominator counts, shape (n, k) each."""
+    """Return the primary sort criterion (smaller is better) of solutions, shape (n,); 0 for the order by error.
+
+    `tops` and `beneaths` are the counts of numerators and denominators, shape (n, k) each.
+    """
     if by in ("hunting", "centres"):
         possible, coprime, centres = pairings(tops, beneaths, fit)
         if by == "hunting":
             return np.asarray(-np.where(possible, coprime, 0).max(axis=1))
+        # infeasible pairings rank behind all feasible ones
         return np.asarray(np.where(possible, centres, 2 * tops.shape[1]).min(axis=1))
     if by == "total":
         return np.asarray(tops.sum(axis=1) + beneaths.sum(axis=1))

@@ -51,7 +51,7 @@ class StageFindings(Tabular, Result):
         "beneath": "Tooth counts of the denominator.",
         "ratio": "Product of the numerator counts divided by product of the denominator counts [1].",
         "value": "Ratio as a float [1].",
-        "error": "Ratio over the requested ratio, minus 1 [1].",
+        "error": "Ratio divided by the requested ratio, minus 1 [1].",
         "stages": "Stages of the best pairing.",
         "total": "Sum of all tooth counts.",
         "largest": "Largest tooth count.",
@@ -88,7 +88,7 @@ class StageFindings(Tabular, Result):
     fit: StageConstraints
     """Constraints on the counts."""
     by: str
-    """Order in which `solutions` are listed."""
+    """Name of the order in which `solutions` are listed."""
     tolerance: Fraction
     """Maximum absolute relative error: the requested tolerance, or the tolerance within which the list of the best is
     proved complete.
@@ -102,7 +102,9 @@ class StageFindings(Tabular, Result):
     shortfall: Shortfall
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """Assumption of the search that was not requested; "" without such an assumption."""
+    """Assumption of the search that was not requested, or reason why the list is shorter than requested; "" if
+    there is neither.
+    """
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
@@ -122,12 +124,12 @@ class StageFindings(Tabular, Result):
 
     @property
     def top_runs(self) -> str:
-        """Admissible counts of the numerator as text, such as `15:60`."""
+        """Admissible counts of the numerator as a string, such as `15:60`."""
         return str(CountRuns.of(self.top)) if self.top else ""
 
     @property
     def beneath_runs(self) -> str:
-        """Admissible counts of the denominator as text."""
+        """Admissible counts of the denominator as a string, such as `15:60`."""
         return str(CountRuns.of(self.beneath)) if self.beneath else ""
 
     def __len__(self) -> int:
@@ -197,8 +199,8 @@ def find_stages(
     QuestionError
         If an argument is invalid.
     RangeError
-        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), or if
-        the admissible counts cannot approximate the ratio.
+        If the tables of products would not fit in memory (more than about 400 counts for four or more stages), if too
+        many candidates must be tested one by one, or if the admissible counts cannot approximate the ratio.
 
     Examples
     --------
@@ -399,8 +401,11 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """Yield the number of solutions with one more stage; without the number if its computation would be slow."""
+    """Yield the suggestion of one more stage, with its number of solutions unless counting them would be slow.
+    Nothing is yielded without a solution.
+    """
     size = question.stages + 1
+    # one more external stage would reverse the required sense
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
     ring = " with an internal mesh, which keeps the sense," if sense else ""
     more = replace(question, stages=size, best=1, by="error", fit=fit)

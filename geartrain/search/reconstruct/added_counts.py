@@ -45,6 +45,7 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
     before = product_tally(wheels - 1, counts)
     found = np.zeros((len(before) - 1) * counts[1] + 1, dtype=np.int64)
     for count in range(counts[0], counts[1] + 1):
+        # product n of the previous wheels becomes product n * count
         found[: (len(before) - 1) * count + 1 : count] += before
     return found
 
@@ -62,6 +63,7 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
         # the empty product is 1
         return last - first + 1 if drivers and driven else int(first <= 1 <= last)
     if maximum ** max(drivers, driven) <= _LONGEST:
+        # the sum over m of P(num m) R(den m), as a scalar product
         above = product_tally(drivers, counts)[first * num : last * num + 1 : num]
         below = product_tally(driven, counts)[first * den : last * den + 1 : den]
         return int(above @ below)
@@ -88,7 +90,8 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Return the quotients of the first of two groups whose total quotient is given, each with its number of choices.
+    """Return the quotients of the first of two groups whose total quotient is given, each with its number of
+    choices for both groups.
 
     A group is given by its numbers of driving and of driven wheels.
     """
@@ -133,6 +136,7 @@ class QuotientTable:
 
     def within(self, minimum: Fraction, maximum: Fraction) -> slice:
         """Return the slice of the quotients from `minimum` to `maximum`."""
+        # floats locate the ends up to rounding; exact fractions then correct them
         first = int(np.searchsorted(self.values, float(minimum) * (1 - 1e-15)))
         last = int(np.searchsorted(self.values, float(maximum) * (1 + 1e-15), side="right"))
         while first < last and self[first] < minimum:
@@ -147,7 +151,7 @@ class QuotientTable:
 
 @lru_cache(maxsize=32)
 def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
-    """Return the table of quotients of products of `drivers` over `driven` tooth counts."""
+    """Return the table of all products of `drivers` tooth counts divided by products of `driven` tooth counts."""
     one = np.ones(1, dtype=np.int64)
     if not drivers and not driven:
         return QuotientTable.of(one, one, one)
@@ -198,7 +202,7 @@ Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 
 
 class AddedCounts:
-    """Assignments of tooth counts, from a minimum to a maximum, to added wheels."""
+    """Counter of the assignments of tooth counts, within given limits, to added wheels."""
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self.range = minimum, maximum
@@ -343,7 +347,7 @@ def _without(wanted: Wanted, dials: Dials) -> Wanted:
 
 
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
-    """Return the quotients that the remaining groups must have after one group has a given quotient."""
+    """Return the quotients that the remaining groups must have if one group has a given quotient."""
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
     )
@@ -388,8 +392,8 @@ class OpenCounts(NamedTuple):
                 yield AddedKind(dials, drives), left
 
     def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
-        """Return the remaining problem after one wheel of a kind has received a tooth count, which must satisfy its
-        limit.
+        """Return the remaining problem if one wheel of a kind has a given tooth count, which must be within the limit
+        of the kind.
         """
         limits = list(self.limits)
         if kind.most is not None:

@@ -59,7 +59,7 @@ def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
 
 
 class CountTokens:
-    """Tokens (negative numbers) in the place of tooth counts of added wheels, which identify each wheel."""
+    """Negative numbers that replace the tooth counts of added wheels and identify each wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -114,7 +114,9 @@ _Pairs = frozenset[frozenset[str]]
 
 @dataclass(frozen=True)
 class MeshFacts:
-    """Known meshes: pairs of wheels that mesh, pairs that do not, coaxial pairs of arbors, and rings."""
+    """Known facts on meshes: pairs of wheels that mesh, pairs that do not mesh, coaxial pairs of arbors, and
+    rings.
+    """
 
     meshes: _Pairs = frozenset()
     apart: _Pairs = frozenset()
@@ -256,13 +258,14 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that one wheel drives, one for each chain."""
+        """Return the arbors that one wheel drives by the given chains."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """Return the first arbor of a chain, with the other arbors in its subtree."""
+        """Return the first arbor of a chain with its subtree; if the chain has no arbors, the arbors that follow it."""
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
+        # from the end, because an arbor contains the arbors that it drives
         for name, each in reversed(self.orders[id(chain)]):
             if each.idler:
                 driven = PlacedWheel(None, next(self.idle)) if each.driven == ADDED else each.driven
@@ -292,7 +295,7 @@ class NamedMesh(NamedTuple):
 
 
 class AddedPlace(NamedTuple):
-    """Name and kind of an added wheel."""
+    """Added wheel of a topology: its name, and its kind."""
 
     name: str
     kind: AddedKind
@@ -319,7 +322,7 @@ class _ChainState:
 
 
 class _BranchingState(NamedTuple):
-    """Branching, and pairs of wheels that must mesh below it."""
+    """State of the dynamic programme at a branching, with the pairs of wheels that must mesh below it."""
 
     branching: NamedBranching
     pairs: _Pairs
@@ -343,6 +346,7 @@ class _Orders:
             return
         for at in node.through:
             yield from self._step(node, node.chain.through[at], at, node.through - {at}, node.compounds, node.idlers)
+        # names of added arbors depend only on their order, so the first unused name is next
         added = node.chain.added[len(node.chain.added) - node.compounds - node.idlers :]
         if node.compounds:
             yield from self._step(node, added[0][0], COMPOUND, node.through, node.compounds - 1, node.idlers)

@@ -24,7 +24,7 @@ _ADDED = "new"
 
 @dataclass(frozen=True)
 class NamedWheel:
-    """Wheel of a candidate with its name."""
+    """Wheel of a candidate with its name, its tooth count, and whether it is added."""
 
     name: str
     teeth: int
@@ -107,6 +107,7 @@ class FreeNames:
 
     def wheel(self, link: str, survives: bool) -> str:
         """Return the name of the next added wheel on an arbor."""
+        # the underscore separates two numbers, as in `new1_2`
         stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
         name = numbered(stem, self.wheels)
         self.wheels.add(name)
@@ -126,6 +127,7 @@ class _Naming:
         # the driven wheel first, then the driving wheels
         drives = [arbor.passes, *(below for _, below in arbor.drives)]
         children = [(self._first(child), at, child) for at, below in enumerate(drives) for child in below]
+        # the order of the dials does not depend on tooth counts
         children.sort(key=lambda one: one[:2])
         named = {} if driven is None else {0: driven}
         for _, at, _ in children:
@@ -180,7 +182,7 @@ class TopologyArbor(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class NamedChain:
-    """Chain of named arbors, with its end."""
+    """Chain of arbors in a topology, with names for its surviving and added arbors, and its end."""
 
     chain: Chain
     """Chain without names."""
@@ -205,7 +207,7 @@ class NamedChain:
 
 @dataclass(frozen=True, eq=False)
 class NamedBranching:
-    """Named arbor at which paths end or separate."""
+    """Arbor of a topology at which paths to dials end or separate, with names for the arbor and its wheels."""
 
     arbor: TopologyArbor
     """Arbor with its driven wheel."""

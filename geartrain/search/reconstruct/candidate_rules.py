@@ -59,7 +59,7 @@ distance  the radii of meshing wheels fit the distance of their axes
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """Rule of the problem that a candidate breaks."""
+    """Rule of the problem that a candidate breaks, with the change of the evidence that would admit the candidate."""
 
     KEYS = ("rule", "subject", "what", "change")
 
@@ -119,7 +119,9 @@ def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
 
 
 def as_missing_dial(broken: BrokenRule) -> BrokenRule:
-    """Return a broken rule on the speed of a dial as a dial that is not shown; return other rules unchanged."""
+    """Return a broken rule on the speed of a dial as a broken rule on a missing dial; return other rules
+    unchanged.
+    """
     if broken.rule != "speed":
         return broken
     return replace(broken, rule="dial", change=_without(*broken.subject), values=())
@@ -130,7 +132,7 @@ def _without(dial: str) -> str:
 
 
 def speed_text(dial: SearchedDial) -> str:
-    """Return the required speed of a dial as text [turns per unit]."""
+    """Format the required speed of a dial [turns per unit]."""
     bounds = dict.fromkeys((dial.minimum, dial.maximum))
     text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
     return text + ("" if dial.signed else " in either sense")
@@ -165,7 +167,7 @@ def _use_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
 
 
 def counts_text(counts: Sequence[tuple[int, Fraction]]) -> str:
-    """Return possible tooth counts as text: as a range `60-63` or as a list `60/62`."""
+    """Format possible tooth counts as a range `60-63` or as a list `60/62`."""
     teeth = [count for count, _ in counts]
     if len(teeth) > 1 and teeth == list(range(teeth[0], teeth[-1] + 1)):
         return f"{teeth[0]}-{teeth[-1]}"
@@ -243,7 +245,7 @@ def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
 
 
 def admitting_question(problem: ReconstructionProblem, broken: Iterable[BrokenRule]) -> ReconstructionProblem:
-    """Return the problem without the rules that candidates break, as their fields `change` describe."""
+    """Return the problem without the given broken rules, changed as the field `change` of each rule describes."""
     return reduce(_admit, broken, problem)
 
 
@@ -350,7 +352,7 @@ def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping
     problem : ReconstructionProblem
         Reconstruction problem whose arbors turn in the frame.
     same : mapping of str to str, optional
-        Name in the problem of wheels and outputs that the train names differently. Others must have equal names,
+        Name in the problem of wheels and outputs that the train names differently. Other parts must have equal names,
         except for capitals.
 
     Raises
@@ -362,7 +364,7 @@ def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping
 
 
 class _TrainReading:
-    """Translation of a train into the names of a problem."""
+    """Reader of a known train as a candidate, with the names of a problem."""
 
     def __init__(self, train: Train, problem: ReconstructionProblem, same: Mapping[str, str]) -> None:
         self.train, self.problem, self.same = train, problem, same
@@ -453,7 +455,7 @@ class _TrainReading:
         found = self._links.get(name) or self._joined.get(name)
         if found is None:
             what = f"'{self.train.name}' has no wheel of '{name}', the input of the evidence"
-            fix = "name one of its wheels with `--same ITS=OURS`"
+            fix = f"name a wheel of '{name}' with `--same ITS=OURS`"
             raise QuestionError(Problem(what, "wheels are identified by their names", fix))
         return found
 
@@ -469,7 +471,9 @@ class _TrainReading:
             place = self.train.place("links")
             what = f"the tooth count of '{wheel}' is not known"
             raise QuestionError(
-                Problem(what, "a rank requires all tooth counts", "declare it, such as `teeth: {value: 64}`", place)
+                Problem(
+                    what, "a rank requires all tooth counts", "declare the count, such as `teeth: {value: 64}`", place
+                )
             )
         return count
 

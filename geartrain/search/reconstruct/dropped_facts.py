@@ -44,7 +44,7 @@ class ChangedCount(Result):
     complete: bool = True
     """True if the search covered all candidates."""
     refused: str | None = None
-    """Reason why the changed problem could not be searched; None if it was."""
+    """Reason why the changed problem could not be searched; None if it was searched."""
 
     @property
     def total(self) -> int:
@@ -53,14 +53,14 @@ class ChangedCount(Result):
 
     @property
     def fewest(self) -> int | None:
-        """Minimum number of added wheels of a train; None if no train was found."""
+        """Minimum number of added wheels of a train; None if no train explains the problem."""
         return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
 def changed_counts(questions: list[ChangedQuestion], execution: Execution | None = None) -> Iterator[ChangedCount]:
-    """Yield the counts of changed problems in their order, as soon as each is complete.
+    """Yield the counts of changed problems in the order of `questions`, as soon as each count is complete.
 
-    An interrupted search is omitted, so no journal stores a partial result.
+    `KeyboardInterrupt` is raised if a search is interrupted, so no journal stores a partial result.
     """
     answers = (execution or Execution()).run(_count, [question.problem for question in questions])
     for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
@@ -79,6 +79,7 @@ def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
     """Return the problems that result from dropping each hard fact in turn."""
+    # a change without effect on the problem needs no search
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
@@ -106,6 +107,7 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
             left = {name: pairs - {pair}}
             yield f"without the fact {said}", replace(problem, **left)
     if measured:
+        # distances exclude pairs in advance, and restrict chains and layers later
         left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
         yield "if the distances between axes exclude no meshes", replace(problem, **left)
     yield from _senses(problem)
@@ -179,12 +181,14 @@ class LoneDial(Result):
     fewest: int | None
     """Minimum number of added wheels that explain the dial; None if the permitted number is not sufficient."""
     refused: str | None = None
-    """Reason why the dial could not be searched; None if it was."""
+    """Reason why the dial could not be searched; None if it was searched."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Reasons why a problem has no explanation."""
+    """Reasons why a problem has no explanation: the result for each dial by itself, and the changes that would
+    help.
+    """
 
     dials: tuple[LoneDial, ...]
     """Results for each dial by itself."""
@@ -222,7 +226,9 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problem with each other count of each surviving wheel, small differences first."""
+    """Yield the problem with each count of each surviving wheel that differs by at most `MISREAD` from a possible
+    count, small differences first.
+    """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:
             counts = {count for count, _ in wheel.counts}

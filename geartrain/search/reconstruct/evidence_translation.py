@@ -1,5 +1,5 @@
-"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are refused with their
-place.
+"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are rejected with
+their location.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
         what = f"the speed of '{name}' may be the speed of the frame, so its pointer could be on the frame"
         fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
-        raise DeclarationError(Problem(what, "its arbor is not declared", fix, place))
+        raise DeclarationError(Problem(what, "the arbor of the pointer is not declared", fix, place))
     return found
 
 
@@ -92,8 +92,8 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
     known = list(_ranges(evidence, output))
     unused = _unused_targets(name, output)
     if not known:
-        why = "it has no `expect`, and no target with a tolerance"
-        fix = "add for example `expect: -5/19`, or `tolerance: 1/446` to a target"
+        why = "the output has no `expect`, and no target with a tolerance"
+        fix = "for example, add `expect: -5/19`, or add `tolerance: 1/446` to a target"
         raise DeclarationError(Problem(f"the speed of '{name}' is not known", why, fix, place))
     signed = [limits for limits, has_sign in known if has_sign and not free_sense]
     plain = [_magnitudes(limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense]
@@ -111,14 +111,14 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
         return bounds
     if not bounds.signed:
         what = f"the sense of '{name}' is not known, and its speed is relative to the frame"
-        why = "it would have two possible speeds relative to the carrier"
+        why = "the pointer would have two possible speeds relative to the carrier"
         raise DeclarationError(Problem(what, why, "give its sense, or its speed with `relative_to` the carrier", place))
     minimum, maximum = bounds.limits
     return replace(bounds, limits=(minimum - turning, maximum - turning))
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield the declared ranges of a speed, each with True if it has a sign."""
+    """Yield pairs: a declared range of a speed, and True if the range has a sign."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -173,7 +173,7 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, high)], name, place)
     why = "targets with a sense allow both senses, and a target of the magnitude allows one interval in each sense"
     raise DeclarationError(
-        Problem(f"the possible speeds of '{name}' are two intervals", why, "give one target only", place)
+        Problem(f"the possible speeds of '{name}' are two intervals", why, "keep only one of the targets", place)
     )
 
 
@@ -198,7 +198,7 @@ class EvidenceQuestion(Shown):
     base: BaseLink
     """Link that carries the arbors. The speeds of the problem are relative to this link."""
     joined: Joined
-    """Arbor -> links that are joined to it by given couplings."""
+    """Links that given couplings join to each arbor, by the name of the arbor."""
     unused: tuple[str, ...]
     """Declarations that do not affect the result, one line for each."""
 
@@ -238,9 +238,9 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     base = None if unclear else find_base(evidence)
     found += unclear
     if wheels and requested.add.teeth is None:
-        fix = "declare for example `add: {teeth: [12, 225]}`"
+        fix = "for example, declare `add: {teeth: [12, 225]}`"
         place = evidence.place("reconstruct")
-        why = "the search needs their minimum and maximum"
+        why = "the search needs the minimum and maximum count of an added wheel"
         found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))
     bounds = {}
     for name in evidence.outputs:
@@ -342,7 +342,7 @@ def _unsupported(evidence: Train) -> Iterator[Problem]:
 
 def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
     why = "ignoring it could change the trains that are found"
-    return Problem(what, why, "remove it from the evidence", evidence.place(*loc))
+    return Problem(what, why, "remove the declaration from the evidence", evidence.place(*loc))
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:
@@ -363,7 +363,10 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
         if count > _MOST_COUNTS:
             what = f"a wheel has {count} possible counts"
             yield Problem(
-                what, f"at most {_MOST_COUNTS} can be searched", "narrow the range", evidence.place(*place, "teeth")
+                what,
+                f"at most {_MOST_COUNTS} counts of a wheel can be searched",
+                "narrow the range",
+                evidence.place(*place, "teeth"),
             )
     if why := teeth.fault_of_weights:
         fix = "give weights of 0 or more, at least one of them above 0"

@@ -53,7 +53,9 @@ _MOST_FACTS = 200
 
 
 class Fact(NamedTuple):
-    """Property with one answer in each candidate."""
+    """Property of the candidates that has one answer in each candidate, such as the arbor that drives a given
+    arbor.
+    """
 
     kind: FactKind
     """Kind of the fact."""
@@ -63,7 +65,7 @@ class Fact(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class FactAnswer(Result):
-    """Answer to a fact, with its probability."""
+    """Answer to a fact, with its posterior probability and its number of candidates."""
 
     KEYS = ("answer", Key("weight", "share", float), "solutions")
 
@@ -140,7 +142,7 @@ class FactTally:
         answers[answer] = before[0] + weight * number, before[1] + number
 
     def facts(self) -> Iterator[Fact]:
-        """Yield all facts, without those on wheels that every train uses."""
+        """Yield all facts except the facts `used` of wheels that every train uses."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
         used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
         yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
@@ -149,6 +151,7 @@ class FactTally:
         """Return the marginal distribution of a fact."""
         found = self._found.get(fact, {})
         answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
+        # trains without an entry share one implicit answer
         left = self.trains - sum(answer.solutions for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
@@ -191,7 +194,9 @@ class ExplainedFacts:
         )
 
     def next_facts(self) -> tuple[NextFact, ...]:
-        """Return the facts whose answer differs among the trains, in descending order of their entropy."""
+        """Return the observable facts whose answers differ among the trains, in descending order of entropy,
+        equivalent facts as one group.
+        """
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         requested = [one for one in requested if len(one.answers) > 1]
         order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
@@ -252,7 +257,9 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
 
 
 def _yes_weight(fact: FactMarginal) -> Fraction:
-    """Return the probability of yes, or of the most probable answer of a fact without yes and no."""
+    """Return the probability of the answer yes; for a fact without yes and no, the probability of its most
+    probable answer.
+    """
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
 
@@ -337,7 +344,7 @@ class FamilyTrain(Result):
     rank: int
     """Rank by probability, from 1."""
     share: Fraction
-    """Probability of the candidate among those in the tree, 0 to 1."""
+    """Probability of the candidate among the candidates in the tree, 0 to 1."""
     counts: dict[str, int]
     """Tooth counts of added wheels, then of surviving wheels whose counts differ among the candidates."""
 
@@ -353,7 +360,7 @@ class FamilyBranch(Result):
     meshes: tuple[str, ...]
     """Meshes as "driving > driven", with the pointers of the driven arbor in parentheses."""
     share: Fraction
-    """Total probability of the candidates in the branch among those in the tree, 0 to 1."""
+    """Total probability of the candidates in the branch among the candidates in the tree, 0 to 1."""
     solutions: int
     """Number of candidates in the branch."""
     trains: tuple[FamilyTrain, ...]
@@ -405,6 +412,7 @@ def _branches(root: _Node) -> Iterator[FamilyBranch]:
         share = Fraction(node.weight, root.weight)
         yield FamilyBranch(parent, tuple(meshes), share, node.solutions, tuple(node.ends))
         heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].weight)
+        # reversed, because the stack returns the last entry first
         waiting += [(number, [mesh], below) for mesh, below in reversed(heaviest_first)]
         number += 1
 
@@ -433,7 +441,9 @@ def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
 
 @dataclass(frozen=True, slots=True)
 class CandidateFindings(Result):
-    """Facts derived from the candidates, in addition to their numbers."""
+    """Facts derived from the candidates: marginals, facts to observe next, family tree, and sensitivity to
+    assumptions.
+    """
 
     listed: int = 0
     """Number of candidates in the family tree."""
@@ -442,7 +452,7 @@ class CandidateFindings(Result):
     of_all: bool = False
     """True if the facts cover all trains, False if they cover only the trains of the family tree."""
     marginals: tuple[FactMarginal, ...] = ()
-    """Marginal distribution of every fact."""
+    """Marginal distribution of every fact except facts of the kind `pair`."""
     next_facts: tuple[NextFact, ...] = ()
     """Facts to observe next, in descending order of their entropy."""
     family: tuple[FamilyBranch, ...] = ()
@@ -450,7 +460,9 @@ class CandidateFindings(Result):
     assumptions: tuple[ChangedCount, ...] = ()
     """Number of explanations without each hard fact, if requested."""
     missing: MissingExplanation | None = None
-    """Reasons why the evidence has no explanation; None if it has an explanation."""
+    """Reasons why the evidence has no explanation; None if it has an explanation, or if the reasons were not
+    searched.
+    """
 
 
 NO_FINDINGS = CandidateFindings()

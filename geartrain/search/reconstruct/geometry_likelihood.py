@@ -43,7 +43,9 @@ def chains_close(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
 
 
 def can_close(distance: float, sides: Sides) -> bool:
-    """Return whether a polygon can be closed with one side of length `distance` and the others within bounds [mm]."""
+    """Return whether a polygon can be closed, with one side of length `distance` and further sides within bounds
+    [mm].
+    """
     slack = _ROUNDING * (distance + sum(low for low, _ in sides))
     lengths = ((distance, distance), *sides)
     return all(
@@ -120,7 +122,8 @@ def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
 def order_exists(blocked: Sequence[Sequence[frozenset[int]]]) -> bool:
     """Return whether the layers can be stacked in some order.
 
-    blocked   for every layer, sets of other layers that must be all below it or all above it
+    blocked for each layer, sets of layers; all layers of a set must be on the same side of the layer, below or
+    above it
     """
     every = frozenset(range(len(blocked)))
 
@@ -229,6 +232,7 @@ def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
     """
     square = geometry.square_distance(mesh.driving[0], mesh.driven[0])
     whole = geometry.radii_sum(mesh.driving[1], mesh.driven[1])
+    # log(a^2/b^2)^2 / 4 = log(a/b)^2, without the square root of the distance
     return 0.0 if square is None or whole is None else math.log(whole**2 / square) ** 2 / 4
 
 
@@ -266,6 +270,7 @@ class _Modules:
             centre = sum(pull.stiffness * pull.centre for pull in pulls) / stiffness if stiffness else 0.0
         else:
             assert module is not None
+            # a module measured without error cannot be adjusted
             centre = math.log(module)
         misfit = sum(pull.misfit + pull.stiffness * (centre - pull.centre) ** 2 for pull in pulls)
         return _Pull(stiffness, centre, misfit)

@@ -49,12 +49,12 @@ _Subject = tuple[str, str]
 _MOST_TOGETHER = 3
 """Maximum number of facts in a distinguishing set."""
 _MOST_TRAINS = 2000
-"""Maximum number of trains among which one is distinguished."""
+"""Maximum number of trains among which one train is distinguished."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """Distinguishing fact, which is true of one train and not of all."""
+    """Distinguishing fact: it is true of a given train, but not of all trains."""
 
     kind: str
     """Kind of the fact: one of `LOOKED_FOR`, or `MAXIMUM` or `MINIMUM`."""
@@ -68,14 +68,14 @@ class TellingFact(Result):
 
 @dataclass(frozen=True, slots=True)
 class TellingFacts(Result):
-    """Facts that distinguish one train from all other explanations."""
+    """Facts that distinguish one train from all other explanations, singly and in the smallest sets."""
 
     facts: tuple[TellingFact, ...]
     """All distinguishing facts, in ascending order of the number of trains that share them."""
     sets: tuple[tuple[TellingFact, ...], ...]
     """Smallest sets of facts that only this train satisfies, all of one size of at most three.
 
-    Facts that are true of the same trains are represented by the first of them.
+    Facts that are true of the same trains are represented by the first of these facts.
     """
 
 
@@ -84,7 +84,7 @@ def find_telling_facts(
 ) -> TellingFacts | None:
     """Find facts that distinguish one explanation from all others.
 
-    Return None if not all explanations are listed, or if they are too many.
+    Return None unless all explanations are listed and there are 2 to 2000 of them.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> I
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace(Result):
-    """Rank and probability of one explanation among all."""
+    """Rank and probability of one explanation among all explanations."""
 
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
@@ -171,7 +171,7 @@ class TrainPlace(Result):
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Probability of the best explanation divided by the probability of this one, at least 1."""
+    """Probability of the best explanation divided by the probability of this train, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,7 +191,7 @@ class AdmittingQuestion(Result):
     place: TrainPlace | None
     """Rank of the train; None if it adds more wheels than were searched."""
     refused: str | None = None
-    """Reason why the changed problem was not searched; None if it was."""
+    """Reason why the changed problem was not searched; None if it was searched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,7 +213,9 @@ class KnownRank(Result):
     admitted: tuple[AdmittingQuestion, ...] = ()
     """Ranks in problems without the broken rules: first with the dial speeds of the train, then without these dials."""
     telling: TellingFacts | None = None
-    """Facts that distinguish the train; None unless all explanations are listed."""
+    """Facts that distinguish the train; None unless the train is an explanation and 2 to 2000 explanations are all
+    listed.
+    """
 
 
 @dataclass(frozen=True)
@@ -254,7 +256,7 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
-    """Return the rank and probability of one explanation among all.
+    """Return the rank and probability of one explanation among all explanations.
 
     Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
     depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.

@@ -44,7 +44,7 @@ class BaseLink:
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of evidence for which `base_problems` yields nothing."""
+    """Return the base of evidence, in which `base_problems` must find no problem."""
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
     if carrier is None:
@@ -135,7 +135,7 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(f"'{link}' is driven, and the frame has wheels", _ONE_START, fix, place)
         elif speed == inputs.get(carrier):
             what = f"'{link}' has the same speed as the carrier"
-            why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
+            why = "a link that turns with the carrier cannot drive arbors on the carrier"
             yield Problem(what, why, "correct one of the two speeds in `inputs`", place)
         elif not speed:
             fix = f"remove '{link}' from `inputs`, and put its wheels on the frame"
@@ -145,7 +145,7 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 def _carrier_wheel_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name in evidence.links[carrier].wheels:
         what = f"'{name}' is a wheel of the carrier"
-        why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
+        why = "a link that turns with the carrier cannot drive arbors on the carrier"
         fix = "remove it, or describe the arbors that it drives in separate evidence"
         yield Problem(what, why, fix, evidence.place("links", carrier, "wheels", name))
 
@@ -177,7 +177,7 @@ def carrier_axis(evidence: Train, carrier: str) -> str | None:
 def _carrier_pointer_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name, output in evidence.outputs.items():
         if output.of == carrier:
-            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is an input already"
+            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is already an input"
             place = evidence.place("outputs", name)
             yield Problem(what, why, "remove the output, or correct its `of`", place)
 
@@ -279,7 +279,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
             yield Problem(f"the coupling of {said} would lock an arbor", why, fix, place)
         elif second & first:
             what = f"the coupling of {said} joins arbors that are already joined"
-            yield Problem(what, "given couplings must form a tree of arbors", "remove it", place)
+            yield Problem(what, "given couplings must form a tree of arbors", "remove the coupling", place)
         joined.update(dict.fromkeys(first | second, first | second))
         yield from _bearing_problems(evidence, pair, place)
     for at, gear in enumerate(evidence.gears):

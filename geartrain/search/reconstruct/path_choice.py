@@ -101,6 +101,7 @@ class PathColumns:
         self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
         number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
+        # one row per arbor, because an arbor is compared for many paths at once
         self.codes = np.ascontiguousarray(paths.codes.T)
         self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
@@ -159,8 +160,8 @@ class PathColumns:
         return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
-        """Return whether each path satisfies the rule that a path which ends at an arbor of the other is a part
-        of it.
+        """Return for each path whether the path that ends at an arbor of the other path, if any, is a part of the
+        other path.
         """
         mine, theirs = self.paths, other.paths
         ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
@@ -198,7 +199,9 @@ _INPUT = ""
 _NEAR = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
 _SHORT = 2
-"""Difference between the number of added wheels of the train and of a short path; few others are then compatible."""
+"""Difference between the number of added wheels of the train and of a short path, with which few other paths
+are compatible.
+"""
 _MOST_ENDS = 6
 """Maximum number of dials in tours, which are tried in all orders. Further dials are ignored."""
 _PIECE = 1 << 21
@@ -258,6 +261,7 @@ class PathChoice:
     ) -> tuple[list[Rows], list[Rows]]:
         some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
         for own, another in product(range(added + 1), repeat=2):
+            # s shared wheels give own + another - s <= added, and own + another - 2 s wheels on one path only
             far = 2 * added - own - another + self._idlers
             keys = self.lists[one].wanted[groups[own]], self.lists[other].wanted[others[another]]
             first, second = self.keys.agreeing(*keys, far)
@@ -328,10 +332,10 @@ class PathChoice:
         share: _RoundRobin | None,
         known: Mapping[str, _Compatible] = MappingProxyType({}),
     ) -> Iterator[Choice]:
-        """Yield all choices that extend the chosen paths by one more.
+        """Yield all choices that extend the chosen paths by one more path.
 
         minimum   minimum distance of each pair of dials; smaller distances were searched before
-        known     lists of dials that are already restricted to paths compatible with the new one
+        known     lists of dials that are already restricted to paths compatible with the new path
         """
         paths = {**chosen.paths, dial: row}
         kept: dict[str, _Compatible] = dict(known)
@@ -341,6 +345,7 @@ class PathChoice:
             if not len(kept[other].rows):
                 return
         missing = self._missing(paths)
+        # a part that must be used is on no remaining path
         if missing & ~reduce(or_, (self._reach(each, near) for each, near in kept.items()), 0):
             return
         following = min(kept, key=lambda each: len(kept[each].rows))  # most constrained dial first
@@ -406,7 +411,7 @@ class PathChoice:
     # compatibility of ends
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> NDArray[np.bool_]:
-        """Return whether each path forms a tree with two others: of three paths, two separate from the third
+        """Return whether each path forms a tree with two chosen paths: of the three, two must separate from the third
         together.
         """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
@@ -416,7 +421,7 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _apart(self, end: str, row: int, dial: str, rows: Rows) -> NDArray[np.int8]:
-        """Return a lower bound of the distance of each path from a chosen one."""
+        """Return a lower bound of the distance of each path from a chosen path."""
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
         if first.dial.is_exact and second.dial.is_exact:
@@ -467,7 +472,9 @@ class _Chosen:
 
 @dataclass(frozen=True)
 class _Compatible:
-    """Paths to a dial that are compatible with all chosen ones, with lower bounds of their distance from each end."""
+    """Paths to a dial that are compatible with all chosen paths, with lower bounds of their distances from each
+    end.
+    """
 
     rows: Rows
     far: Mapping[str, NDArray[np.int8]]

@@ -41,7 +41,7 @@ _Fits = NDArray[np.bool_]
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
     """Return the connected components of arbors under the known meshes, as indices with the input at 0.
 
-    Each arbor except the first of a component meshes with an earlier one.
+    Each arbor except the first of a component meshes with an earlier arbor.
     """
     mates: dict[int, list[int]] = {}
     for first, _, second, _ in _meshes(problem):
@@ -97,7 +97,7 @@ class SeenMeshes:
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> NDArray[np.bool_] | None:
-        """Return a mask of the paths that may take a given pass of one more arbor; None if all may."""
+        """Return a mask of the paths that may take a given pass of one more arbor; None if all paths may."""
         if not self._fits[at]:
             return None
         found = np.ones(len(codes), dtype=bool)
@@ -147,7 +147,7 @@ class PathGrowth:
     added: NDArray[np.int8]
     """Number of added wheels, including idlers."""
     idle: NDArray[np.int8]
-    """Number of surviving wheels on the path that it does not use."""
+    """Number of surviving wheels on the arbors of the path that the path does not use."""
     need: NDArray[np.int8]
     """Number of added wheels that must contain a large prime, because no later arbor contains it."""
     ended: NDArray[np.bool_]
@@ -236,7 +236,9 @@ _PIECE = 1 << 19
 
 @dataclass(frozen=True)
 class AddedArbors:
-    """Number of added arbors on a path: `compounds` have two wheels, `idlers` have one that is driven and drives."""
+    """Number of added arbors on a path: `compounds` have two wheels, `idlers` have one wheel, which is driven and
+    drives.
+    """
 
     compounds: int
     idlers: int
@@ -330,6 +332,7 @@ class PathList:
         own = set(self.primes) if len(order) == len(self.passes) else self._primes_of(order[0])
         closing = [column for column, prime in enumerate(self.primes) if prime in own and prime not in later]
         growth = self._with_arbor(growth, order[0], closing)
+        # depth first, so that at most one block for each arbor is in memory
         for start in range(0, len(growth.codes), _PIECE):
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
@@ -381,6 +384,7 @@ class PathList:
         found |= {
             prime for prime, _ in (*prime_powers(self._wanted.numerator), *prime_powers(self._wanted.denominator))
         }
+        # a count below the square of a prime contains this prime at most once
         return tuple(sorted(prime for prime in found if prime * prime > minimum))
 
     @cache  # noqa: B019 -- lives as long as the list
@@ -446,6 +450,7 @@ class PathList:
         self, growth: PathGrowth, compounds: int, turned: NDArray[np.bool_], requested: NDArray[np.bool_]
     ) -> NDArray[np.bool_]:
         found = requested.copy()
+        # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
         kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
         for kind in np.unique(kinds[requested]):
             rows = np.flatnonzero(requested & (kinds == kind))

@@ -42,7 +42,8 @@ def exit_of(each: ArborPass) -> str:
 def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Yield each partition of dials into those that an arbor shows and those to which each of its wheels leads.
+    """Yield each partition of dials into the dials that an arbor shows and, for each of its wheels, the dials to
+    which the wheel leads.
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
@@ -76,6 +77,7 @@ def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ..
     if not groups:
         yield ()
         return
+    # the first group is always in the first block, so that each partition occurs once
     for size in range(len(groups)):
         for others in combinations(groups[1:], size):
             rest = tuple(group for group in groups[1:] if group not in others)
@@ -133,7 +135,7 @@ class _Budget(NamedTuple):
 
 
 class PathTrees:
-    """Enumeration of the topologies that have given paths.
+    """Enumeration of the topologies that have one given path for each dial.
 
     lists   list of the paths to each dial, sorted by the name of the dial
     """
@@ -207,9 +209,10 @@ class PathTrees:
                     yield from _with_ends(trunk, self._branching(last, below, after))
 
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
-        """Yield each chain of given surviving arbors and some added ones that all paths can share, without its end.
+        """Yield each chain of given surviving arbors and some added arbors that all paths can share, without its end.
 
-        The second and third entry are the additions and the parts of the paths that remain after it.
+        The second entry is the number of wheels and arbors that may still be added, the third the rest of each
+        path.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
@@ -272,6 +275,7 @@ class PathTrees:
             for dial, path in paths.items()
         }
         for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(below)):
+            # an arbor with a single exit belongs to a chain
             if at and not here and len(blocks) < 2:
                 continue
             if all(below[dial].is_at_end and not below[dial].ends_new for dial in here):

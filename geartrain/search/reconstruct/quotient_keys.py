@@ -37,6 +37,7 @@ class QuotientKeys:
     def __init__(self, minimum: int, maximum: int) -> None:
         self.minimum, self.maximum = minimum, maximum
         self._words: dict[int, int] = {}
+        # fixed seed, so that a search is reproducible
         self._random = np.random.default_rng(0x6EA7)
         self._fewer: dict[int, Keys | None] = {}
         self._tables: dict[tuple[int, int], Keys | None] = {(0, 0): np.zeros(1, dtype=np.uint64)}
@@ -55,8 +56,8 @@ class QuotientKeys:
         return self._words[prime]
 
     def may_be_quotients(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Return whether each key belongs to a quotient of `drivers` over `driven` added counts, without false
-        negatives.
+        """Return whether each key belongs to a product of `drivers` added counts divided by a product of `driven`
+        added counts, without false negatives.
         """
         if drivers + driven == 3 and (drivers, driven) not in self._tables and len(keys) < _SCARCE:
             return self._one_by_one(keys, drivers, driven)
@@ -70,6 +71,7 @@ class QuotientKeys:
         fewer = self._table(drivers - (drivers > driven), driven - (driven >= drivers))
         if fewer is None:
             return np.ones(keys.shape, dtype=bool)
+        # the negative key, modulo 2^64, is the key of the reciprocal
         counts = self._counts if drivers > driven else -self._counts
         return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 
@@ -86,8 +88,8 @@ class QuotientKeys:
         return found
 
     def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return for the keys of each array whether a key of the other differs from them by at most `wheels` added
-        wheels.
+        """Return for each key of each array whether it differs from a key of the other array by a quotient of at most
+        `wheels` added counts, without false negatives.
         """
         if wheels < 0 or not len(keys) or not len(others):
             return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
@@ -140,6 +142,7 @@ def _are_in(table: Keys, keys: Keys) -> NDArray[np.bool_]:
     if not len(table):
         return np.zeros(keys.shape, dtype=bool)
     at = np.searchsorted(table, keys)
+    # any valid index will do, because a key beyond the table differs from all entries
     at[at == len(table)] = 0
     return np.asarray(table[at] == keys)
 
@@ -187,8 +190,8 @@ class QuotientRanges:
         self.counts = minimum, maximum
 
     def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Return whether each range contains a quotient of `drivers` over `driven` added counts, without false
-        negatives.
+        """Return whether each range contains a product of `drivers` added counts divided by a product of `driven`
+        added counts, without false negatives.
         """
         if not self._is_listed(drivers + driven):
             return np.ones(bounds[0].shape, dtype=bool)

@@ -80,7 +80,7 @@ class ReconstructionRequest(Shown):
     known: tuple[Train, ...] = ()
     """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Wheel or output of a known train -> its name in the evidence, if the names differ."""
+    """Name in the evidence of each wheel or output of a known train that has another name there."""
 
 
 class ReconstructionRun:
@@ -185,13 +185,15 @@ class ReconstructionAnswer(Result):
     best: tuple[RankedTrain, ...]
     """Best explanations in descending order of probability, at most the requested number."""
     original: tuple[int, int] | None = None
-    """First and last rank of the original train by probability, if its arbors were treated as lost; otherwise None."""
+    """First and last rank of the original train by probability, if its arbors were treated as lost; None
+    otherwise, or if the train is not listed.
+    """
     findings: CandidateFindings = NO_FINDINGS
     """Facts derived from the explanations: common facts, most informative facts, family tree."""
     base: BaseLink | None = None
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Arbor -> links that are joined to it by given couplings."""
+    """Links that given couplings join to each arbor, by the name of the arbor."""
     expected: ExpectedCost | None = None
     """Estimated cost of the search, computed before the search."""
     drawn: tuple[RankedTrain, ...] = ()

@@ -131,6 +131,7 @@ class SurvivingGeometry:
             return True
         if not square:
             return False  # on one axis
+        # squares are exact fractions; distances may be irrational
         return bounds is None or bounds[0] ** 2 <= square <= bounds[1] ** 2
 
 
@@ -220,8 +221,8 @@ class Additions:
     arbors: int | None = None
     """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """Arbors that may carry added wheels: "new" for added arbors only, "any" for driving wheels on surviving arbors
-    too.
+    """Arbors that may carry added wheels. "new": added arbors only. "any": surviving arbors too, with added
+    driving wheels, and with an added driven wheel if no wheel of the arbor survives.
     """
 
 
@@ -291,7 +292,7 @@ class ReconstructionProblem(Shown):
 
 @dataclass(frozen=True)
 class PlacedWheel:
-    """Wheel of a candidate reconstruction.
+    """Wheel of a candidate reconstruction: a surviving wheel by its name, or an added wheel, with its tooth count.
 
     See Also
     --------
@@ -369,7 +370,9 @@ class Arbor(Shown):
 
 @dataclass(frozen=True, slots=True)
 class RequestedQuestion(Result):
-    """Size of a reconstruction problem."""
+    """Size of a reconstruction problem: numbers of surviving parts, dials and added wheels, as reported before the
+    search.
+    """
 
     arbors: int
     """Number of surviving arbors, including the input."""
@@ -401,7 +404,7 @@ class RequestedQuestion(Result):
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
-    """Return the message for a problem that is too large: its size, and ways to reduce it."""
+    """Return the error message for a problem that is too large, with its size and suggestions to reduce it."""
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
     widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_UNCERTAINTIES]
     uncertainties = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
@@ -470,7 +473,7 @@ def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) 
     for gear in evidence.gears:
         if frozenset(gear.pair) in unreachable:
             what = f"the known mesh '{gear.name}' is impossible at the distance of its axes"
-            why = "the sum of the pitch radii differs from it by more than `reach` of `geometry`"
+            why = "the sum of the pitch radii differs from the distance by more than `reach` of `geometry`"
             place = evidence.place("gears", evidence.gears.index(gear))
             raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])
 
@@ -481,9 +484,9 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             continue
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
-            what = f"the module of '{name}' must be greater than 0"
+            what = f"the module of '{name}' is not greater than 0"
             raise DeclarationError(
-                [Problem(what, "a module is a positive length", "declare for example `module: 0.5 mm`", place)]
+                [Problem(what, "a module is a positive length", "for example, declare `module: 0.5 mm`", place)]
             )
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 

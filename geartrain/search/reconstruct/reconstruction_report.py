@@ -533,16 +533,16 @@ def _scene(text: str, rank: int, turning: int) -> str:
 
 
 def share_text(share: float) -> str:
-    """Return a probability as text, in per cent with three digits."""
+    """Format a probability in per cent with three significant digits."""
     return f"{100 * share:.3g} %"
 
 
 def teeth_text(wheels: Mapping[str, int]) -> str:
-    """Return wheels with their tooth counts as text, such as `m1 96, n1 53`."""
+    """Format wheels with their tooth counts, such as `m1 96, n1 53`."""
     return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
 
 
 def ranks_text(ranks: tuple[int, int]) -> str:
-    """Return a rank as text: `3`, or `1-4` for equally probable trains."""
+    """Format a rank: `3`, or `1-4` for equally probable trains."""
     first, last = ranks
     return str(first) if first == last else f"{first}-{last}"

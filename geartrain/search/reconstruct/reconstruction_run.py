@@ -102,7 +102,7 @@ def _weighted(execution: Execution, problem: ReconstructionProblem, expected: Ex
 
 
 def _duration_text(seconds: float) -> str:
-    """Return a rough duration [s] as text, in seconds, minutes, hours or days."""
+    """Format a rough duration [s] in seconds, minutes, hours or days."""
     for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
         if seconds >= 2 * size:
             return f"{seconds / size:.0f} {unit}"

@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.train_topology import Topology
 
 _LISTED = 20_000
-"""Maximum number of candidates that are constructed. If more have the same weight, the first ones are used."""
+"""Maximum number of candidates that are constructed, unless more are to be listed. Further candidates of the
+same weight are omitted.
+"""
 _MOST_CLASSIFIED = 300_000
 """Maximum number of choices of tooth counts for which multisets of arbors and ratio classes are counted."""
 
@@ -39,7 +41,7 @@ _NONE: _Wheel = ("", 0)
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """Number of explanations with a given number of added wheels.
+    """Number of explanations with a given number of added wheels: of trains, and of equivalence classes of trains.
 
     See Also
     --------
@@ -59,7 +61,7 @@ class ExplanationCount(Result):
 
 
 def explanations_text(counts: Sequence[ExplanationCount]) -> str:
-    """Return the number of trains that explain the evidence, by number of added wheels, as one line of text."""
+    """Return one line with the number of trains that explain the evidence, by number of added wheels."""
     found = (f"{each.solutions:,} with {plural(each.added, 'added wheel')}" for each in counts if each.solutions)
     return f"explanations: {', '.join(found) or 'none'}"
 
@@ -117,7 +119,7 @@ class Reconstructions(Result):
     topologies: tuple[CountedTopology, ...] = ()
     """All topologies with the numbers of their trains; empty if trains are weighted individually."""
     weights: tuple[WeightClass, ...] = ()
-    """Number of trains by added wheels and weight, in descending order."""
+    """Numbers of trains, in ascending order of the number of added wheels, then in descending order of weight."""
 
     def _summary(self) -> str:
         listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
@@ -170,6 +172,7 @@ def find_reconstructions(
             if task.part + 1 == task.parts:
                 whole.add(task.added)
     except KeyboardInterrupt:
+        # a number of added wheels that was searched only in part has no exact count
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
@@ -236,7 +239,7 @@ def _order(arbor: Arbor) -> tuple[int, str]:
 def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior_of: str
 ) -> Reconstructions:
-    """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
+    """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible candidates."""
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
         what = f"{number} trains would have to be weighted individually; the limit is {_LISTED}"
@@ -352,11 +355,14 @@ def train_prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
 def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fraction:
     """Return the factor of the prior weight for given numbers of added wheels and arbors."""
     factors, limits = problem.factors, problem.additions
+    # the tooth count of an added wheel has a uniform prior
     return 1 / ((factors.wheel * (limits.maximum - limits.minimum + 1)) ** wheels * factors.arbor**arbors)
 
 
 def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:
-    """Return the factor of the prior weight for the counts of used surviving wheels and for unused ones."""
+    """Return the factor of the prior weight for the counts of used surviving wheels and for unused surviving
+    wheels.
+    """
     counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
     weight, unused = Fraction(1), len(counts)
     for wheel in used:

@@ -137,7 +137,7 @@ class SpurTree:
 
     @property
     def source(self) -> str:
-        """First arbor of the part, which drives the others."""
+        """First arbor of the part, which drives all other arbors."""
         return self.base.source
 
     @property
@@ -185,7 +185,7 @@ class SpurTree:
         return tuple(name for link in links for name in self.train.links[link].wheels if name in self.counts)
 
     def meshes(self, lost: Collection[str] = ()) -> tuple[tuple[str, str], ...]:
-        """Return the meshes as (driving wheel, driven wheel), without those of lost arbors."""
+        """Return the meshes as (driving wheel, driven wheel), without the meshes of lost arbors."""
         return tuple(
             (mesh.driving, mesh.driven)
             for arbor, mesh in self.driven.items()
@@ -251,14 +251,14 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
 
     source   arbor at which the part begins; the default is any arbor
 
-    Raise `QuestionError` if no part has all of them, for example if the arbors are in different parts.
+    Raise `QuestionError` if no part has all of these arbors.
     """
     trees = find_spur_trees(train)
     if source is not None:
         trees = tuple(tree for tree in trees if tree.source == source)
         if not trees:
             begin = ", ".join(tree.source for tree in find_spur_trees(train))
-            fix = f"name one of: {begin}"
+            fix = f"give one of these arbors: {begin}"
             why = "a part begins at the input, or at an arbor of known speed"
             raise QuestionError(Problem(f"no part of '{train.name}' begins at '{source}'", why, fix))
     wanted = list(arbors)
@@ -268,7 +268,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
     why = f"the train has {len(trees)} parts, and each is reconstructed separately"
-    raise QuestionError(Problem(f"{said} cannot be left out together", why, "leave out arbors of one part only"))
+    raise QuestionError(Problem(f"{said} cannot be lost together", why, "omit the arbors of all parts except one"))
 
 
 def _check_input(train: Train) -> None:
@@ -299,8 +299,9 @@ class _Parts:
         self._inputs = {link: speed for link, speed in train.case(None).inputs.items() if speed}
 
     def trees(self) -> Iterator[SpurTree]:
-        """Yield each part as soon as the speed of an arbor is known at which it can begin."""
+        """Yield the parts in an order in which the speed of the first arbor of each part is already known."""
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
+        # the part at the input begins; it determines the speeds at which others begin
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
         while waiting:
@@ -443,25 +444,25 @@ def _renamed(tree: SpurTree) -> SpurTree:
 
 
 def why_not(train: Train, link: str) -> str:
-    """Return the reason, as text, why a link is in none of the parts."""
+    """Return the reason why a link is in none of the parts."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
-        return "it does not turn"
+        return "the link does not turn"
     if any(link in lock for lock in train.locks):
-        return "it is locked to another link"
+        return "the link is locked to another link"
     followers = [one for one in train.couplings if link == one.slot and one.kind != "pin_and_slot"]
     if followers:
-        return "it is moved by a pin and follower, whose mean ratio is 0"
+        return "a pin and follower, whose mean ratio is 0, move the link"
     kinds = sorted({wheel.kind for wheel in wheels.values() if wheel.kind != "spur"})
     if kinds:
-        return f"it has {_joined(kinds)} wheels"
+        return f"the link has {_joined(kinds)} wheels"
     if not wheels:
-        return "it has no wheel"
+        return "the link has no wheel"
     mates = {name for gear in train.gears for name in gear.pair if {*gear.pair} & {*wheels}} - {*wheels}
     others = sorted({train.wheels[name][1].kind for name in mates} - {"spur"})
     if others:
-        return f"it meshes with {_joined(others)} wheels"
-    return "it leads to no pointer of known speed" if mates else "its wheels mesh with no other wheel"
+        return f"the link meshes with {_joined(others)} wheels"
+    return "the link leads to no pointer of known speed" if mates else "the wheels of the link mesh with no other wheel"
 
 
 def _unsupported_features(train: Train) -> Iterator[str]:
@@ -485,7 +486,7 @@ def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Tr
     """Return the evidence that remains of a tree if some arbors are lost.
 
     The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them.
-    Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth
+    Every pointer has its speed, on its arbor or on a lost arbor. As many wheels may be added as are lost. Their tooth
     counts have the range of the first part, or for a later part the range of all parts.
 
     lost   links; `QuestionError` is raised for the first arbor, for a link that is not in the tree, and for an arbor
@@ -567,12 +568,12 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
         if arbor == tree.source:
             what, why = f"'{link}' carries the input", "a reconstruction begins at the input"
         elif arbor not in tree.driven:
-            what = f"'{link}' cannot be left out"
+            what = f"'{link}' cannot be lost"
             why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
-            what, why = f"'{link}' cannot be left out", "it has a ring, and rings are never added"
+            what, why = f"'{link}' cannot be lost", "the arbor has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = f"'{link}' is left out twice", "an arbor is lost together with all links that are joined to it"
+            what, why = f"'{link}' is lost twice", "an arbor is lost together with all links that are joined to it"
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))

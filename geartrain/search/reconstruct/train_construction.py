@@ -1,6 +1,6 @@
 """Conversion of a candidate to a complete declaration, in which added parts are marked as hypothetical.
 
-Names depend only on the evidence and the candidate, so equal candidates give equal texts.
+Names depend only on the evidence and the candidate, so equal candidates give equal declarations.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
 
 
 def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
-    """Return the declaration of a candidate as YAML; equal candidates give equal texts."""
+    """Return the declaration of a candidate as YAML; equal candidates give equal strings."""
     return as_yaml(candidate_data(evidence, arbor, name))
 
 
@@ -131,7 +131,7 @@ class TrainConstruction:
     """Declaration of a candidate, built arbor by arbor.
 
     given    evidence as plain data
-    links, revolutes, gears, couplings   those of the candidate, as plain data
+    links, revolutes, gears, couplings   parts of the candidate, as plain data
     shown    pointer -> its link, and its speed relative to the base
     meshes   pairs of wheels, the driving wheel first
     added    added wheels -> tooth counts
@@ -267,6 +267,7 @@ class TrainConstruction:
         given = dict(self.given["outputs"][name] or {})
         if output.expect is None or not output.expect.holds(speed):
             given["expect"] = fraction_text(speed)
+        # a value without a tolerance has a short form
         elif set(given["expect"]) == {"value"}:
             given["expect"] = given["expect"]["value"]
         return {"of": link} | {key: value for key, value in given.items() if key != "of"}

@@ -109,7 +109,7 @@ Dials = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Branching:
-    """Arbor at which paths to dials end or separate."""
+    """Arbor at which paths to dials end or separate, with the chains of arbors that its wheels drive."""
 
     name: str | None
     """Name of the surviving arbor; None for an added arbor."""
@@ -132,7 +132,7 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors in series on the way to some dials, without a branching between them, and the end of the chain."""
+    """Arbors in series on the path to some dials, without a branching between them, and the end of the chain."""
 
     dials: Dials
     """Dials to which the chain leads."""
@@ -152,7 +152,7 @@ class Chain:
 
     @property
     def next_chains(self) -> tuple[Chain, ...]:
-        """Chains that begin at the end of this one."""
+        """Chains that begin at the end of this chain."""
         return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
 
 
@@ -163,7 +163,7 @@ class Topology:
     root: Branching
     """Input arbor."""
     wanted: tuple[tuple[str, Quotients], ...]
-    """Dial, and minimum and maximum quotient of the added wheels on its path, for each dial."""
+    """Pairs of a dial and the bounds (minimum, maximum) of the quotient of the added wheels on its path."""
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
@@ -216,12 +216,12 @@ Quotients = tuple[Fraction, Fraction]
 
 
 class CountLimit(NamedTuple):
-    """Maximum tooth count of one added wheel."""
+    """Maximum tooth count of one added wheel, imposed by its mesh with a ring."""
 
     dials: Dials
     """Dials whose speed the wheel changes; empty for a wheel that changes no speed."""
     drives: bool
-    """True for a driving wheel on the way to these dials, False for a driven wheel."""
+    """True for a driving wheel on the path to these dials, False for a driven wheel."""
     most: int
 
 

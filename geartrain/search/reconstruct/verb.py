@@ -58,7 +58,7 @@ def run(
         typer.Option(
             "--from",
             help="With --lost: link at which the part to reconstruct begins; default: the first part that contains "
-            "these arbors.",
+            "the lost arbors.",
         ),
     ] = None,
     seen: Annotated[
@@ -108,7 +108,7 @@ def run(
             "--sample",
             min=0,
             max=MOST_DRAWN,
-            help="Draw this number of trains at random, with their posterior probabilities.",
+            help="Draw this number of trains at random, in proportion to their posterior probabilities.",
         ),
     ] = 0,
     seed: Seed = 1,
@@ -153,9 +153,9 @@ def run(
     if not lost and (seen or source is not None):
         raise option_error("--seen" if seen else "--from", "no arbor is lost", "give --lost too")
     if count and folder is not None:
-        raise option_error("--to", "--count lists no trains to write", "omit one of them")
+        raise option_error("--to", "--count lists no trains to write", "omit --to or --count")
     if count and page is not None:
-        raise option_error("--page", "--count lists no trains to show", "omit one of them")
+        raise option_error("--page", "--count lists no trains to show", "omit --page or --count")
     if same and not rank:
         raise option_error("--same", "no train is ranked", "give --rank too")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")

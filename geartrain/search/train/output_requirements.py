@@ -71,8 +71,9 @@ class SpeedRequirement:
         return Fraction(error_against(speed, self.wanted, self.signed))
 
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
-        """Return the admissible speeds. A graded requirement admits only speeds within the relative tolerance
-        `share`.
+        """Return the admissible speeds, or None if all speeds are admissible.
+
+        With a `share`, a graded requirement admits only speeds within this relative tolerance.
         """
         if share is None or not self.graded:
             return self.allowed
@@ -110,12 +111,13 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
             high = b if d is None else d if b is None else min(b, d)
             if low is None or high is None or low <= high:
                 found.append((low, high))
+    # an interval without a lower end comes first
     return tuple(sorted(set(found), key=lambda interval: (interval[0] is not None, interval[0] or 0)))
 
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """Output with all requirements on its speed."""
+    """Output of a train with its speed as a function of tooth counts, and all requirements on this speed."""
 
     name: str
     """Name of the output; "state: output" if several states are searched at once."""
@@ -131,7 +133,7 @@ class OutputRequirement:
 
     @property
     def exact(self) -> bool:
-        """True if exactly one speed is admissible, so that no solution has an error."""
+        """True if every admissible interval is a single speed, so that no solution has an error."""
         common = self.requested(None)
         return common is not None and all(low == high for low, high in common.intervals)
 
@@ -153,7 +155,7 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return the error of the output at a speed, from the graded requirement with the maximum error."""
+        """Return a speed with its error according to the graded requirement for which the absolute error is largest."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         met = all(demand.met(speed) for demand in self.demands)
@@ -161,14 +163,17 @@ class OutputRequirement:
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
-    """Yield the conditions for a train to turn: loops must close, and links must not be driven in contradictory ways.
+    """Yield the conditions for a train to turn: loops must close, inputs must be consistent, and the train must be
+    neither locked nor free.
 
     Raise `QuestionError` if the train cannot turn with any counts.
     """
     for condition in formulas.conditions:
         if not condition.wheels:
             what = f"'{train.name}' cannot turn with any tooth counts"
-            raise QuestionError(Problem(what, condition.label, "`geartrain solve FILE` shows what locks it"))
+            raise QuestionError(
+                Problem(what, condition.label, "run `geartrain solve FILE` to see what locks the train")
+            )
         yield IntervalConstraint(condition.label, condition, ((Fraction(0), Fraction(0)),))
     for exclusion in formulas.exclusions:
         yield IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)
@@ -177,7 +182,9 @@ def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[Interv
 def find_output_requirements(
     train: Train, case: StateCase, functions: Mapping[str, Function], tolerance: Fraction | None
 ) -> list[OutputRequirement]:
-    """Return the outputs that depend on varied wheels or fixed speeds and have at least one requirement."""
+    """Return the requirements of each output whose speed is determined by `functions`; outputs without
+    requirements are omitted.
+    """
     moving = [speed for speed in case.inputs.values() if speed]
     found = []
     for name, function in functions.items():
@@ -212,7 +219,7 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 
 
 def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iterator[SpeedRequirement]:
-    """Yield the requirement of a published figure.
+    """Yield the requirement of a published value.
 
     A published ratio needs the speed of a single input. Without it no speed is admissible.
     """
@@ -230,6 +237,7 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
     else:
         wanted = drive / published.value.value if published.value.value else Fraction(0)
         allowed = tuple(_inverse(low, high, drive))
+        # a ratio of 0 corresponds to no finite speed, so no error can be computed
         yield SpeedRequirement(label, wanted, True, allowed, graded and bool(wanted))
 
 
@@ -282,8 +290,8 @@ class TrainRequirements:
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
     """Return the admissible counts of each varied wheel, ascending, in the order of declaration.
 
-    `free` is the argument of `search_train`. Raise `QuestionError` if no wheel is varied, or if one has no range of
-    counts.
+    `free` is the argument of `search_train`. Raise `QuestionError` if no wheel is varied, or if a wheel named
+    in `free` has no range of counts.
     """
     if isinstance(free, str) and free not in ("search", "uncertain"):
         free = [free]
@@ -291,7 +299,9 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         unknown = [name for name in free if name not in train.wheels]
         if unknown:
             fix = suggest(unknown[0], train.wheels)
-            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "only declared wheels can be varied", fix)
+            )
     found = {}
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
@@ -315,20 +325,26 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         if free == "search" and any(train.uncertain_wheels()):
             fix += ", or use --free uncertain"
         raise QuestionError(
-            Problem(f"'{train.name}' has no wheel whose tooth count is varied", "no wheel declares `search`", fix)
+            Problem(
+                f"'{train.name}' has no wheel whose tooth count is varied",
+                "no selected wheel has a range of tooth counts",
+                fix,
+            )
         )
     return found
 
 
 def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
-    """Return the admissible counts of a wheel: those of `search`, otherwise its `choices` or `range`."""
+    """Return the admissible counts of a wheel: its `search`, otherwise its `choices`, otherwise its `range`; empty
+    if it has none.
+    """
     counts = teeth.searched or sorted(set(teeth.choices or ()))
     if not counts and teeth.range is not None:
         counts = range(teeth.range[0], teeth.range[1] + 1)
     if len(counts) > _MOST_COUNTS:
         why = f"{counts[0]} to {counts[-1]} has more than {_MOST_COUNTS} counts"
         place = train.place("links", link, "wheels", wheel)
-        raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow it", place))
+        raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow the range", place))
     return counts
 
 

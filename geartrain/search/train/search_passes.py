@@ -35,7 +35,7 @@ _MOST_TASKS = 100_000  # maximum number of tasks of a pass
 _SAMPLED = 16
 """Number of tasks of a random sample."""
 _POOL = 20_000
-"""Number of stored assignments at which all but the best are discarded."""
+"""Number of stored assignments above which all but the best are discarded."""
 
 Task = dict[str, Any]
 """Argument of `do_task`, plain data."""
@@ -90,7 +90,7 @@ def _digits(number: int, chain: Sequence[tuple[int, int]]) -> list[list[int]]:
 
 @dataclass(frozen=True, slots=True)
 class PassWork:
-    """Data that all tasks of one pass share."""
+    """Data that all tasks of one pass share: the join problem, the order of solutions, and the limit of the list."""
 
     question: JoinProblem
     """Join problem of the pass."""
@@ -158,6 +158,7 @@ def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: in
     count = int(counts[0])
     removed = [int(gone[at][0]) if at in gone else 0 for at in range(len(question.reasons))]
     listed = before + count <= work.most
+    # late constraints can be tested only on complete assignments
     if question.late or listed:
         count = 0
         for rows in join.stream((question.plan,), join.start()):
@@ -170,7 +171,9 @@ def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: in
 
 
 def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int]) -> AssignmentColumns:
-    """Return the assignments that satisfy the late constraints, which are not part of the join."""
+    """Return the assignments that satisfy the late constraints, which are not part of the join. The numbers of
+    rejected assignments are added to `removed`.
+    """
     number = len(question.reasons) - len(question.late)
     for at, rule in enumerate(question.late, number):
         met = rule.holds(columns)
@@ -236,7 +239,9 @@ class PassRunner:
     stopped: bool = False
 
     def run(self, work: PassWork, tasks: Sequence[Task]) -> PassTally:
-        """Run the tasks of a pass. After an interrupt, return an empty result."""
+        """Run the tasks of a pass and return the sum of their results; an empty result if an earlier pass was
+        interrupted.
+        """
         if self.stopped:
             return NOTHING
         journal = None if self.journal is None else cast(Journal, _Section(self.journal, self.done))
@@ -277,12 +282,16 @@ class _Section:
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """Result of one pass of a search."""
+    """Result of one pass of a search: the counts, the best assignments, and the fraction of the assignments
+    searched.
+    """
 
     share: Fraction | None
     """Common relative tolerance of the pass; None without a common tolerance."""
     searched: float
-    """Fraction of the assignments that was searched; 1 if complete."""
+    """Fraction of the assignments that the tasks cover: below 1 for a random sample, 0 if the pass was not
+    started.
+    """
     tally: PassTally
     """Counts and the best assignments."""
     reasons: tuple[str, ...] = ()
@@ -400,7 +409,9 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
 
 @dataclass(frozen=True, slots=True)
 class AssignmentOrder:
-    """Total order of the assignments of tooth counts."""
+    """Total order of the assignments of tooth counts, by a criterion and then by error, total, largest count and
+    counts.
+    """
 
     by: By
     """Primary criterion; ties are broken by error, total, largest count, and the counts in the order of the wheels."""
@@ -409,11 +420,11 @@ class AssignmentOrder:
     requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]
-    """Wheel -> declared tooth count, if one is declared."""
+    """Declared tooth count of each wheel that has one."""
 
     @property
     def level(self) -> bool:
-        """True if all solutions have error 0, because exactly one speed of every output is admissible."""
+        """True if all solutions have error 0, because every admissible interval of every output is a single speed."""
         return all(requirement.exact for requirement in self.requirements)
 
     def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
@@ -428,7 +439,9 @@ class AssignmentOrder:
         return Assignment(dict(teeth), outputs, changed)
 
     def first(self, columns: AssignmentColumns) -> Ints:
-        """Return the primary criterion of many assignments; 0 for the error, which `ranks` compares."""
+        """Return the primary criterion of each assignment (smaller is better), shape (n,); 0 for the error, which
+        `ranks` compares.
+        """
         table = np.stack(list(columns.values()))
         if self.by == "total":
             return np.asarray(table.sum(axis=0))
@@ -469,6 +482,7 @@ def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: Assignmen
         abs(coefficient) * prod(most[wheel] ** power for wheel, power in zip(wheels, powers, strict=True))
         for coefficient, powers in terms
     )
+    # the bound covers all partial sums, so int64 cannot overflow below it
     dtype: Any = np.int64 if bound < 1 << 62 else object
     total = np.zeros(len(next(iter(columns.values()))), dtype=dtype)
     for coefficient, powers in terms:

@@ -36,8 +36,8 @@ class ReachedSpeed(Result):
     label: str
     """Description of the requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction
-    """Relative error with respect to that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for
-    an `expect`, or the speed itself if 0 is expected.
+    """Relative error with respect to the requirement `label`: |speed| / requested - 1 for a target, speed /
+    expected - 1 for an `expect`, or the speed itself if 0 is expected.
     """
     met: bool
     """True if the output satisfies all its requirements."""
@@ -112,7 +112,7 @@ class PartFindings(Result):
     wheels: tuple[str, ...]
     """Wheels in the order of declaration; no wheel is in two parts."""
     outputs: tuple[str, ...]
-    """Outputs that the wheels influence; empty for wheels without outputs and constraints."""
+    """Outputs with requirements that the wheels influence; empty if there are none."""
     demands: tuple[str, ...]
     """Descriptions of the requirements on the outputs."""
     rules: tuple[str, ...]
@@ -149,7 +149,8 @@ class Standing(Result):
     assignment: Assignment | None
     """Counts, outputs and errors of the assignment; None if it locks the train or leaves outputs undetermined."""
     rank: int | None
-    """Rank by error, 1 for the best; None if the assignment is rejected, or if counting better ones exceeds the limit.
+    """Rank by error, 1 for the best; None if the assignment is rejected, or if the count of better assignments is
+    not complete.
     """
     refused: tuple[str, ...]
     """Descriptions of all constraints that the assignment violates; empty for a solution."""
@@ -157,7 +158,8 @@ class Standing(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Tabular, Result):
-    """Results of a search for the tooth counts of a train.
+    """Results of a search for the tooth counts of a train: the solutions of each independent part, and their
+    numbers.
 
     See Also
     --------
@@ -166,7 +168,7 @@ class TrainFindings(Tabular, Result):
 
     ROWS = "search.tooth_numbers_report:assignment_rows"
     MEANINGS: ClassVar = {
-        "error of *": "Speed of the output over the requested speed, minus 1 [1].",
+        "error of *": "Speed of the output divided by the requested speed, minus 1 [1].",
         "*": "Tooth count of the wheel.",
     }
 
@@ -212,9 +214,7 @@ class TrainFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Way in which the search ended: "interrupted" or "whole". A completed search of a random sample is also
-        "whole".
-        """
+        """Outcome of the search: "interrupted" or "whole". A completed search of a random sample is also "whole"."""
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
@@ -240,21 +240,21 @@ class TrainFindings(Tabular, Result):
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
-        """Return the rank, errors and violated constraints of an assignment, for each part whose wheels have counts in
-        it.
+        """Return the rank, errors and violated constraints of an assignment, for each part with all its wheels in the
+        assignment.
 
         Parameters
         ----------
         teeth : mapping of str to int
-            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if no part is
-            complete.
+            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if no part has all
+            counts.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
         if not whole or self._stand is None:
             why = f"the parts of the train are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
             raise QuestionError(
-                Problem("the assignment gives all tooth counts of no part", why, "give the missing counts")
+                Problem("the assignment is incomplete in every part", why, "give the counts of all wheels of a part")
             )
         return tuple(self._stand(at, teeth) for at in whole)
 
@@ -289,8 +289,9 @@ class TrainFindings(Tabular, Result):
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
     """Yield the best combinations of one solution from each part, best first, by a search with a priority queue.
 
-    The solutions of every part are sorted, so the next best combination is one step in one part from a combination that
-    was already visited. Numbers of distinct counts do not add over parts, so that order is only approximate.
+    The solutions of every part are sorted, so the next best combination is one step in one part from a
+    combination that was already visited. Numbers of distinct counts do not add over parts, so the order by
+    distinct counts is approximate.
     """
     if not parts or not all(parts):
         return

@@ -45,6 +45,7 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.tally.best, passed.tally.listed and passed.complete
+    # only the order by error can be narrowed by a tolerance if there are too many solutions to list
     by_error = search.order.by == "error" and not search.order.level
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.tally.listed or not passed.complete:
@@ -54,7 +55,8 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Return a pass whose tolerance includes the requested number of assignments, or all, and all of them are listed.
+    """Return a pass that lists all assignments within its tolerance, which includes at least the requested number
+    or all.
 
     If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
     enumerate within its limit.
@@ -209,11 +211,14 @@ def _individual_errors(search: PartSearch) -> Iterator[str]:
 
 
 def _relaxations(search: PartSearch) -> Iterator[str]:
-    """Yield the number of solutions without each constraint and without each output, if there are several."""
+    """Yield the number of solutions without each constraint, and without the requirement on each output. Nothing
+    is yielded if there is only one constraint or requirement.
+    """
     names = dict.fromkeys(rule.name for rule in search.part.rules)
     if len(names) + len(search.part.requirements) < 2:
         return
     for name in names:
+        # 0: the solutions are counted, not listed
         passed = search.without(rule=name).run(None, 0)
         if passed.tally.count:
             yield f'without the constraint "{name}" there {_solution_count(passed)}'
@@ -249,7 +254,9 @@ def _rounded_up(error: Fraction) -> str:
 
 
 LIMIT = 10**9
-"""Default maximum number of steps (partial assignments examined) of a pass, which take a few minutes."""
+"""Default maximum number of steps (partial assignments examined) of a pass, about a few minutes of computing
+time.
+"""
 
 
 def search_train(
@@ -337,7 +344,11 @@ def search_train(
     """
     if by not in ORDERS:
         raise QuestionError(
-            Problem(f"unknown order '{by}'", "the order is one predefined criterion", suggest(by, ORDERS))
+            Problem(
+                f"'{by}' is not an order of solutions",
+                "solutions are sorted by one of the predefined criteria",
+                suggest(by, ORDERS),
+            )
         )
     domains = find_domains(train, free)
     demands = find_requirements(train, state, domains, tolerance)
@@ -348,7 +359,7 @@ def search_train(
         raise QuestionError(
             Problem(
                 "no requirement restricts the tooth counts that are varied",
-                "no output with a requirement depends on these wheels",
+                "no output with a requirement depends on the varied wheels, and no constraint applies",
                 fix,
             )
         )
@@ -412,7 +423,7 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Ranks of assignments, obtained by counting the assignments with smaller errors."""
+    """Calculator of the rank of an assignment, by counting the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 

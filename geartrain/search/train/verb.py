@@ -84,7 +84,7 @@ def run(
         bool,
         typer.Option(
             "--closure",
-            help="Require that wheels touch and the teeth of loops mesh at the declared positions of the axes.",
+            help="Require that meshing wheels reach each other and teeth of loops mesh at the declared positions.",
         ),
     ] = False,
     where: Annotated[
@@ -165,7 +165,9 @@ def _assignment(text: str) -> dict[str, int]:
         pairs = (part.split("=") for part in text.split(","))
         return {name.strip(): int(count) for name, count in pairs}
     except ValueError:
-        raise option_error("--where", f"'{text}' is not an assignment", "write it as wheel=32,wheel=50") from None
+        raise option_error(
+            "--where", f"'{text}' is not an assignment", "give wheels with their counts, such as W=32,X=50"
+        ) from None
 
 
 def _check_kept(file: str, out: Path | None) -> None:

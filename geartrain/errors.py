@@ -28,7 +28,7 @@ marks that change the writing direction, and lone surrogates.
 
 
 def printable(text: str) -> str:
-    r"""Escape the characters of a text that could control a terminal or hide other text.
+    r"""Escape the characters of a string that could control a terminal or hide other text.
 
     >>> printable("sun\x1b[2J")
     'sun\\x1b[2J'
@@ -56,10 +56,10 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name.
+    """Return a suggestion for an unknown name, for the `fix` of a problem.
 
-    It lists similar known names, otherwise it is `otherwise`, otherwise it lists all known names if there are at
-    most 30.
+    It lists similar known names. If there are none, it is `otherwise`, or a list of all known names if there are at
+    most 30, or the advice to correct the name.
     """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
@@ -108,12 +108,13 @@ MOST_REPORTED = 20
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
-    """Return the first `MOST_REPORTED` problems, and a last one that reports how many others there are.
+    """Return up to `MOST_REPORTED` + 1 problems; if there are more, the last one gives the number of omitted problems.
 
     `count` is the total number if it is known. An iterator is consumed only until it is known that there are more.
     """
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)
+    # two beyond the limit show whether problems must be omitted
     first = tuple(islice(problems, MOST_REPORTED + 2))
     if len(first) <= MOST_REPORTED + 1:  # one further problem is reported itself
         return first
@@ -128,7 +129,7 @@ class GearTrainError(Exception):
     Parameters
     ----------
     problems : Problem or iterable of Problem
-        All problems that were found. The first 20 are kept, with the number of the others.
+        All problems that were found. The first 20 are kept, followed by the number of omitted problems.
 
     Attributes
     ----------
@@ -152,7 +153,7 @@ class GearTrainError(Exception):
 
 
 class DeclarationError(GearTrainError):
-    """Declaration that cannot be read or does not describe a gear train.
+    """Error for a declaration that cannot be read or does not describe a gear train.
 
     See Also
     --------
@@ -161,7 +162,7 @@ class DeclarationError(GearTrainError):
 
 
 class QuestionError(GearTrainError):
-    """Request for something that a valid train does not have, such as a link, a state or a method.
+    """Error for an invalid request to a valid train or function, such as an unknown link, or an argument out of range.
 
     See Also
     --------
@@ -170,7 +171,7 @@ class QuestionError(GearTrainError):
 
 
 class RangeError(GearTrainError):
-    """Request outside the range of a method, which another method may be able to answer.
+    """Error for a request outside the range of a method; another method may be applicable.
 
     See Also
     --------
@@ -213,7 +214,7 @@ def install_command(extra: str) -> str:
 
 
 class MissingExtraError(GearTrainError):
-    """Optional library that is not installed.
+    """Error for an optional library that is not installed; its fix is the command that installs the library.
 
     Parameters
     ----------

@@ -18,7 +18,8 @@ WINGS = ("search", "workshop", "simulation")
 
 
 def has_wing(name: str) -> bool:
-    """Return whether the optional package `name` is installed."""
+    """Return True if the optional package `geartrain.NAME` is installed."""
+    # `find_spec` does not import the package
     return find_spec(f"geartrain.{name}") is not None
 
 

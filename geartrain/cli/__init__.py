@@ -27,7 +27,7 @@ from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
-    """Group of all commands of `geartrain`."""
+    """Group of all commands of `geartrain`, each of which is imported when it is used."""
 
     verbs = Verbs(
         {
@@ -114,7 +114,7 @@ def _start_lightly() -> None:
 def main(name: str = "geartrain") -> None:
     """Run the command line and exit: code 2 for invalid input, reported on standard error, and 3 for internal errors.
 
-    name   program name in usage and help, which can be typed to start it again
+    name   program name in usage and help, as a user types it to start the program
     """
     _start_lightly()
     sys.exit(guarded(partial(app, prog_name=name)))

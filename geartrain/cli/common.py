@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geartrain.report.document import Document
     from geartrain.scene.palette import ThemeName
 
+# 130 = 128 + SIGINT, as shells report a process that this signal ended
 GOOD, VERDICT, NOT_USABLE, INTERRUPTED = 0, 1, 2, 130
 PICTURES = (".svg", ".png", ".pdf")
 
@@ -49,7 +50,7 @@ Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
-    """Load all trains, or raise one error with the problems of every file."""
+    """Load all trains. Raise one `GearTrainError` with the problems of every file that cannot be read."""
     from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
@@ -170,12 +171,12 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
 
 
 def picture_sink(out: Path | None, force: bool, theme: ThemeName, option: str = "--plot") -> Sink:
-    """Return the destination and theme of a picture, after checking that it can be written. Raises `GearTrainError`."""
+    """Return the destination and theme of a picture. Raise `GearTrainError` if the picture cannot be written there."""
     return replace(sink(out, force, PICTURES, option), theme=theme)
 
 
 def check_distinct_outputs(*sinks: Sink) -> None:
-    """Check that no two results of one command are written to the same file. Raises `GearTrainError`."""
+    """Raise `GearTrainError` if two results of one command would be written to the same file."""
     taken: set[Path] = set()
     for each in sinks:
         if each.path is None:
@@ -207,6 +208,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
         from geartrain.report.html_page import to_html
 
         emit(to_html(documents), out)
+    # `-o -` requests the content of a file, so it is Markdown on a terminal too
     elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console
 
@@ -255,11 +257,12 @@ def as_json(data: Any) -> str:
     data = plain(data)
     # JSON has no NaN and no infinity: `plain` data must not contain them
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+    # ASCII output escapes also the control characters beyond ASCII
     return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; an empty list gives an empty text."""
+    """Format rows with the same keys as CSV with a header; return an empty string for no rows."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

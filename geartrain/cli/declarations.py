@@ -42,6 +42,7 @@ def write_template(
     """
     kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
     check_choice("template", kind, kinds)
+    # a file in the current folder, so that the printed commands can be pasted
     path = Path(f"{kind}.yaml") if out is None else out
     to = sink(path, force)
     # `emit` appends the final line feed

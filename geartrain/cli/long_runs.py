@@ -98,6 +98,7 @@ class RunOptions:
             tell(f"{what}: {size}{workers} worker {'process' if workers == 1 else 'processes'}")
 
         text = self.workers or ""
+        # a colon marks the address of a scheduler
         count = None if not text or ":" in text else whole("--workers", text, "number of processes", "4", 1)
         with open_executor(count, text if ":" in text else None, announce) as executor:
             yield executor
@@ -122,6 +123,7 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
     """
     from geartrain.numerics.work import Execution
 
+    # in the form in which it is read from a journal, so that both can be compared
     plain = json.loads(json.dumps(question, default=str))
     # the name depends on the question, so that runs with other options have other journals
     mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]

@@ -217,7 +217,7 @@ def run(
         show([describe_parameters(name, model)], to)
         return
     if others:
-        raise option_error("--form", "several tooth forms are given", "give one, or add --compare")
+        raise option_error("--form", "several tooth forms are given", "give one --form, or add --compare")
     _refuse(context, _applicable(name, model), f"{name} teeth")
     hint = f"`geartrain mesh --form {name} --keys` lists the parameters of {name} teeth"
     angle = read_shaft_angle(internal, shaft_angle)
@@ -247,7 +247,10 @@ def run(
         for option, given in {"--at": at, "--profile": profile}.items():
             if given is not None:
                 raise option_error(
-                    option, "it applies to one pair", f"omit {option} or --vary", "--vary evaluates several"
+                    option,
+                    "this option applies to a single pair",
+                    f"omit {option} or --vary",
+                    "--vary evaluates several pairs",
                 )
         sweep(pair, vary, picture, json, to)
         return
@@ -264,7 +267,7 @@ def run(
 
 def _counts(z1: int | None, z2: int | None) -> tuple[int, int]:
     if z1 is None or z2 is None:
-        raise option_error(COUNTS, "the tooth counts are missing", "give two, such as 24 36")
+        raise option_error(COUNTS, "the tooth counts are missing", "give two tooth counts, such as 24 36")
     return z1, z2
 
 
@@ -282,9 +285,10 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
     """Raise `QuestionError` if an option on the command line does not apply."""
     for option in context.command.params:
         source = context.get_parameter_source(option.name or "")
+        # defaults of options that do not apply are not errors
         if option.name not in applicable and source is not None and source.name == "COMMANDLINE":
             name = option.opts[0]
-            raise option_error(name, f"it does not apply to {what}", f"omit {name}")
+            raise option_error(name, f"this option does not apply to {what}", f"omit {name}")
 
 
 def _figure(mesh: GearMesh, at: str | None) -> Figure:

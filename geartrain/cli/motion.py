@@ -123,7 +123,7 @@ def _turns(text: str, motion: Motion) -> float:
         return float(read_turns("--turns", text))
     if motion.period is None:
         what, fix = "the speeds have no common period", "give a number of revolutions"
-        raise option_error("--turns", what, fix, "they are constant")
+        raise option_error("--turns", what, fix, "all speeds are constant")
     return float(motion.period)
 
 
@@ -150,6 +150,7 @@ def _report(
     """Compute and write the results; after an interruption, write partial results to the second destination."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
+    # each analysis evaluates all positions once
     work = requested.samples * (1 + phases + estimates + spectrum)
     stopped = False
     with progress("motion", work) as bar:

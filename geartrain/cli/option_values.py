@@ -32,7 +32,7 @@ MOST_COUNT = 10**9
 def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> float:
     """Parse a quantity and return it in SI units.
 
-    `minimum` requires it to be 0 or more, or above 0. Raises `GearTrainError`.
+    `minimum` requires the value to be 0 or more, or above 0. Raises `GearTrainError` for an invalid value.
     """
     return read_quantity(place, text, dimension, plain, minimum).si
 
@@ -80,9 +80,9 @@ def input_rate(text: str) -> float:
 
 
 def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, high: float = inf) -> Fraction:
-    """Parse a number such as 3, -1/4 or 2.5 within a range.
+    """Parse a number such as 3, -1/4 or 2.5 from `low` to `high`, both included.
 
-    `what` names it in messages, and `such_as` is an example. Raises `GearTrainError`.
+    `what` names the number in messages, and `such_as` is an example. Raises `GearTrainError` for an invalid number.
     """
     try:
         found = Figure.parse(text.strip()).value
@@ -97,10 +97,12 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
 
 
 def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, high: float = _MOST) -> float:
-    """Parse a number within a range; reject a number whose square would underflow. Raises `GearTrainError`."""
+    """Parse a number from `low` to `high` as a float. Raises `GearTrainError`, also if its square would underflow."""
     found = float(exact(place, text, what, such_as, low, high))
     if found and abs(found) < 1 / _MOST:
-        raise option_error(place, f"'{text}' is not a valid {what}", f"give {such_as}", "its square would underflow")
+        raise option_error(
+            place, f"'{text}' is not a valid {what}", f"give a value such as {such_as}", "its square would underflow"
+        )
     return found
 
 
@@ -112,10 +114,10 @@ def turns(place: str, text: str) -> Fraction:
 
 
 def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: int = MOST_COUNT) -> int:
-    """Parse an integer within a range. Raises `GearTrainError`."""
+    """Parse an integer from `low` to `high`, both included. Raises `GearTrainError` for other values."""
     found = exact(place, text, what, such_as, low, high)
     if found.denominator != 1:
-        fix = f"give an integer such as {such_as}"
+        fix = f"give an integer, such as {such_as}"
         raise option_error(place, f"'{text}' is not a valid {what}", fix, "it is not an integer")
     return int(found)
 

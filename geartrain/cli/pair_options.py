@@ -88,7 +88,7 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
             ways = "; ".join(filter(None, (suggest(name, known), fix)))
             raise option_error(f"{option} {name}", f"unknown key '{name}'", ways)
         if name in found:
-            raise option_error(f"{option} {name}", "it is given twice", "give it once")
+            raise option_error(f"{option} {name}", "this key is given twice", "give it once")
         found[name] = value
     return found
 
@@ -107,8 +107,9 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """Return the error with the location `-p KEY` if a problem names a key, the option if it names one, else `place`;
-    add `fix` where there is none.
+    """Return the error with a location in each problem: `-p KEY` if the problem names a key, the option if it names an
+    option,
+    else `place`. `fix` is added to problems that have none.
     """
 
     def located(named: str) -> str:
@@ -130,7 +131,7 @@ def _value(field: FieldInfo, given: str) -> Any:
 
 
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
-    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
+    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError` for a ring gear."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise option_error("--shaft-angle", "a ring is not a bevel wheel", fix, why)
@@ -138,7 +139,10 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels. Raises `GearTrainError`."""
+    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels.
+
+    Raises `GearTrainError` if the angle is not from 0 to less than 90 deg, or if it is given for bevel wheels.
+    """
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
@@ -146,17 +150,17 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is out of range"
         why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
-        raise option_error("--helix", what, "give for example --helix 20deg", why)
+        raise option_error("--helix", what, "for example, give --helix 20deg", why)
     return angle
 
 
 def read_module(module: str | None) -> float | None:
-    """Parse the module [m]; None if not given. Raises `GearTrainError`."""
+    """Parse the module [m]; None if not given. Raises `GearTrainError` if it is not a positive length."""
     return None if module is None else quantity("--module", module, "length", minimum="above 0")
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError`."""
+    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if they cannot mesh."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
@@ -204,6 +208,7 @@ class PairRequest:
             assert mesh is not None  # ideal teeth are not among the forms of the command
             return rub.of(mesh.driven_by(MeshDriver(wheels.gear.pair[self.driver - 1], "")), self.rate)
         except GearTrainError as error:
+            # with enough teeth a clearance is the likely cause, otherwise the tooth counts
             placed = [name for name in CLEARANCES if name in self.own and self.model is Triangular]
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 
@@ -264,7 +269,7 @@ def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
-        fix, why = "give for example --module 2mm", "an outline is written to scale"
+        fix, why = "for example, give --module 2mm", "an outline is written to scale"
         raise option_error("--module", "the module is missing", fix, why)
     texts = {"tolerance": FINE, **sizes}
     lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in texts.items()}
@@ -287,9 +292,9 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient. Raises `GearTrainError` if a friction law is given; `option` needs a number."""
+        """Return the coefficient of friction, which `option` needs. Raise `GearTrainError` for a friction law."""
         if self.law is not None:
-            what, fix = f"{option} needs a coefficient of friction", "give for example --friction 0.1"
+            what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")
         return self.coefficient
 

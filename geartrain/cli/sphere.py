@@ -143,6 +143,7 @@ def _survey(json: bool, to: Sink) -> None:
     rows: list[SurveyRow] = []
     with progress("survey", len(SURVEYED)) as bar:
         for name in SURVEYED:
+            # one solid at a time, so that the bar can advance
             rows += survey_solids((name,))
             bar.advance()
     give(to, json, lambda: rows, lambda: [describe_survey(rows)])

@@ -131,7 +131,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
-            fix, why = "give a number of revolutions", "it is constant, or cannot be determined"
+            fix, why = "give a number of revolutions", "the torque is constant, or cannot be determined"
             raise option_error("--turns", "the torque has no period", fix, why)
         span = float(period)
     else:
@@ -164,7 +164,10 @@ def _friction_trials(
 
 
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """Return the state that was requested, or the only one with loads."""
+    """Return the result of the requested state, or of the only state with loads.
+
+    Raises `QuestionError` if no state or more than one state has loads.
+    """
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if not loaded:
         raise option_error(option, "no state has loads", "declare `loads`", "torques follow from loads")

@@ -34,7 +34,7 @@ def read_operation(inertia: str | None, rate: str | None, load: str | None) -> P
 
 
 def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """Run a parameter sweep and write its results as a table and as a picture."""
+    """Run a parameter sweep; write its results as a table and, if a file is named, as a picture."""
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
@@ -56,6 +56,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
     else:
         emit(csv_text(found.header, map(_plain, found.rows())).rstrip("\n"), to)
     if len(ranges) == 1:
+        # changes of the verdict are located along one parameter only
         _report_changes(make, next(iter(ranges)), found, units)
     if picture.path is not None:
         from geartrain.drawing.parameter_sweep_plot import parameter_name, sweep_figure
@@ -69,7 +70,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
     """Parse the values of each varied parameter, and the unit in which they were given."""
     if len(vary) > 2:
-        raise option_error("--vary", f"{len(vary)} parameters are given", "give one or two")
+        raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}
     units: dict[str, str] = {}
     for text in vary:
@@ -100,12 +101,15 @@ def _number(text: str) -> tuple[float, str]:
     except ValueError:
         value = math.nan
     if match is None or not math.isfinite(value):
-        raise option_error("--vary", f"'{text}' is not a number", "write a number such as 1.01, or with a unit 30deg")
+        raise option_error(
+            "--vary", f"'{text}' is not a number", "write a number such as 1.01, or a quantity such as 30deg"
+        )
     return value, match[2] or ""
 
 
 def _plain(row: tuple[object, ...]) -> list[object]:
     """Replace NaN by None in a row."""
+    # only NaN differs from itself
     return [None if value != value else value for value in row]
 
 

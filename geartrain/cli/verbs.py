@@ -134,6 +134,7 @@ class LazyGroup(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         """Return the named command. Raises `QuestionError` if the name is unknown."""
         name = args[0]
+        # shell completion parses incomplete lines (resilient), which must not raise errors
         if name not in self.verbs and not name.startswith("-") and not ctx.resilient_parsing:
             fix = suggest(name, self.verbs, f"`{ctx.command_path} --help` lists the commands")
             raise QuestionError(Problem("unknown command", "", fix, name))
@@ -143,6 +144,7 @@ class LazyGroup(TyperGroup):
 # ----------------------------------------------------------------------------------------------------------- exit codes
 
 
+# 141 = 128 + SIGPIPE, as shells report a process that this signal ended
 FAULT, READER_GONE = 3, 141
 TRACEBACK = "GEARTRAIN_TRACEBACK"
 """Environment variable; if it is set, the traceback of an internal error is also printed."""
@@ -151,7 +153,7 @@ _DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQU
 
 
 class _ReaderGoneError(Exception):
-    """Standard output was closed by its reader."""
+    """Error raised if standard output was closed by its reader."""
 
 
 class EndingGroup(TyperGroup):
@@ -181,6 +183,7 @@ def _translated_exits() -> Iterator[None]:
         tell("stopped")
         raise typer.Exit(INTERRUPTED) from None
     except Exception as error:
+        # usage errors are recognised by attributes, as in `usage_problem`
         if hasattr(error, "format_message") and hasattr(error, "ctx") and type(error).__name__ != "NoArgsIsHelpError":
             raise QuestionError(usage_problem(error)) from None
         raise
@@ -291,6 +294,7 @@ def _write_traceback(text: str) -> str:
     head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
     requested = f"command: {sys.argv!r}\n\n"
     try:
+        # readable only by the user, because paths may be confidential
         handle, name = tempfile.mkstemp(prefix="geartrain-error-", suffix=".txt", text=True)
         with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(head + requested + text)

@@ -129,7 +129,7 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
     if (embed or kiosk) and other is not None:
         layout = "--embed" if embed else "--kiosk"
         what, why = f"two trains are given with {layout}", f"{layout} shows one train"
-        raise option_error(other, what, f"give one, or omit {layout}", why)
+        raise option_error(other, what, f"give one train, or omit {layout}", why)
     return "embed" if embed else "kiosk" if kiosk else "page"
 
 
@@ -141,7 +141,7 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
         raise QuestionError(Problem(what, why, "add --dynamics, or omit these options"))
     if dynamics and other is not None:
         why = "two trains on one page share a crank, but each simulation has its own time"
-        raise option_error(other, "two trains are given with --dynamics", "write a page for each", why)
+        raise option_error(other, "two trains are given with --dynamics", "write a page for each train", why)
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:

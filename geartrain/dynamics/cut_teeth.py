@@ -1,4 +1,4 @@
-"""Modules and tooth outlines of the wheels of a train as cut, without a layout."""
+"""Modules and cut tooth outlines of the wheels of a train, independent of any layout."""
 
 from __future__ import annotations
 
@@ -66,11 +66,12 @@ def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
 
 
 def not_cut(wheel: str, problem: Problem) -> Problem:
-    """Return the problem of a wheel without teeth, with the wheel's name."""
+    """Return a copy of a problem whose `what` names the wheel and states that it is not cut."""
     return replace(problem, what=f"wheel '{wheel}' is not cut: {problem.what}")
 
 
 def _places(declared: Train) -> Mapping[str, _Place]:
+    # a module of 1, so that outlines are in modules
     return {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
 
 

@@ -1,8 +1,8 @@
 """Gear meshes with real teeth and pins with declared dimensions, built from the declaration of a train.
 
-It also finds sizes if only the shape of teeth is declared. Triangular teeth have sizes up to a scale, and a wheel has
-the same size with all its mates. The sizes therefore follow from the first pair of every connected set by breadth-first
-search, with each pair at the centre distance that its transmission function requires.
+The module also computes tooth sizes if only the tooth shape is declared. Triangular teeth are determined up to a scale
+factor, and a wheel has the same size in all its pairs. The sizes therefore follow from the first pair of every
+connected set by breadth-first search, with each pair at the centre distance that its transmission function requires.
 """
 
 from __future__ import annotations
@@ -73,7 +73,9 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
 
 
 def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
-    """Build the teeth of all pairs. Raise `GearTrainError` with all pairs whose teeth cannot be built."""
+    """Build the teeth of all pairs and return the meshes. Raise `GearTrainError` with the problems of all invalid
+    pairs.
+    """
     problems: list[Problem] = []
     for name in meshes:
         try:
@@ -126,7 +128,7 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
 
 
 def find_pins(train: Train) -> tuple[PinMesh, ...]:
-    """Return every coupling with declared dimensions."""
+    """Return all couplings that declare `pin_radius` and have a transmission function."""
     return tuple(
         PinMesh(coupling, coupling.transmission)
         for coupling in train.couplings
@@ -142,6 +144,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
         if (size := mesh.size(tips)) is not None:
             found[mesh.name] = size
             for wheel, R in mesh.unit_tips.items():
+                # the first pair of a wheel fixes its size in all later pairs
                 tips.setdefault(wheel, R * size.scale)
     return found
 
@@ -160,8 +163,9 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier one if any pair connects
-    them.
+    """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier pair, except the first pair of
+    each
+    connected set.
     """
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):

@@ -28,6 +28,7 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
     """
     driving_speed = next((speed for speed in case.inputs.values() if speed), None)
     if case.rate is not None and case.rate.unit is not None and driving_speed is not None:
+        # a rate scales the declared speeds of all links by the same factor
         return abs(case.rate.si / float(driving_speed))
     if not train.input_unit or train.unit_speed is None:
         return None
@@ -42,7 +43,10 @@ class PairSpeed:
     problem: Problem | None = None
 
     def known(self) -> float:
-        """Return the pitch-line speed [m/s]. Raise `GearTrainError` with the missing data if it is unknown."""
+        """Return the pitch-line speed [m/s], 0 if the relative motion is undetermined.
+
+        Raises `GearTrainError` with the missing data if the declaration does not give the speed.
+        """
         if self.problem is not None:
             raise GearTrainError(self.problem)
         return self.value or 0.0

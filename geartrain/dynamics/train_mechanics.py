@@ -187,7 +187,7 @@ class TrainMechanics(Shown):
         state : str, optional
             Name of a declared state. None is allowed only for a train without states.
         without : sequence of str
-            Names of pairs to leave out.
+            Names of pairs to omit.
         """
         from geartrain.dynamics.torques.drivers import find_drivers
 
@@ -217,6 +217,7 @@ class TrainMechanics(Shown):
 
         own = self.kinematics
         solution = own.solution(case)
+        # torques may be determined although speeds are free: docs/torques.md, (14) to (16)
         if solution.verdict.kind not in ("determined", "free"):
             return None
         forms = speed_forms(own.equations(case.state)) if solution.verdict.kind == "free" else {}

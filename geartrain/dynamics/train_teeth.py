@@ -66,7 +66,7 @@ class PairBacklash:
     contact_ratio: float | None = None
     """Contact ratio of conjugate teeth at their design centre distance; None for other teeth."""
     more_contact: str = ""
-    """Advice how to increase the contact ratio."""
+    """Advice on how to increase the contact ratio; empty if it is not computed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,9 @@ def find_train_teeth(
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return for each wheel the problem that no teeth suit all its pairs with a declared form."""
+    """Return, for each wheel whose pairs with a declared form require different teeth, the problem that
+    describes this.
+    """
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -140,7 +142,7 @@ class _Toothing:
         return self.meshes.get(gear.name)
 
     def _is_wave(self, gear: GearPair) -> bool:
-        """Return whether a pair is a flexible wheel in its ring (strain wave gear)."""
+        """Return True if a pair is a flexible wheel in its ring (strain wave gear)."""
         first, second = (self._wheel(name) for name in gear.pair)
         return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 
@@ -231,7 +233,7 @@ class _Toothing:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
-            why = "its teeth are not straight and plane"
+            why = "only straight teeth in one plane have an outline"
             fix = "export STL or GLB, which approximate its teeth"
             raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
@@ -261,7 +263,9 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return for each wheel with declared teeth the problem that its pairs require different teeth."""
+        """Return, for each wheel whose pairs with a declared form require different teeth, the problem that describes
+        this.
+        """
         found = {}
         for name in self.pairs:
             try:
@@ -296,8 +300,10 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of conjugate teeth at their design distance (else None), and advice how to increase
+        """Return the contact ratio of conjugate teeth at their design centre distance, and advice on how to increase
         it.
+
+        The ratio is None for other teeth and for pairs at another centre distance.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
@@ -313,7 +319,7 @@ class _Toothing:
     def _backlash(self, gear: GearPair) -> float | None:
         """Return the backlash of a pair as placed, along the pitch circles [modules].
 
-        The result is None if the centre distance is not the one that the transmission function requires.
+        The result is None for displaced wheels whose teeth have another transmission function at their centre distance.
         """
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:

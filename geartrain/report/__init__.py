@@ -21,7 +21,7 @@ motion_report        anomalies and transmission errors
 pair_page            one pair of wheels without a train; `conjugate_pair_page` has conjugate forms and their comparison
 reconstruction_comparison, spherical_report, accuracy_report   several trains; gears on a sphere; error against run time
 
-Reports of the optional packages are in those packages.
+Optional packages contain their own reports.
 """
 
 from __future__ import annotations

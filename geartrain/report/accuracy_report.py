@@ -37,7 +37,7 @@ def describe_accuracy(found: AccuracyReport) -> Document:
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
-    """Return the output of `geartrain inspect bench` for one state."""
+    """Return the output of `geartrain inspect bench` for one state, as a document."""
     name = "" if found._declaration is None else found._declaration.name
     return describe_accuracy(AccuracyReport(name, "", (found,)))
 
@@ -49,7 +49,7 @@ def _sections(found: TrainAccuracy) -> Iterator[Section]:
         table = Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])
         yield Section(f"{state}{stage}", (), [table])
     if found.neglected:
-        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.neglected.items()])
+        yield Section(f"{state}omitted", [f"{stage}: {why}." for stage, why in found.neglected.items()])
 
 
 def _cells(row: MethodAccuracy) -> list[str]:

@@ -48,7 +48,7 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
         marks = ["x" if clutch in engaged else "" for clutch in clutches]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
-    text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input over output."
+    text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
 
 
@@ -74,7 +74,8 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 def _pointers(train: GearTrain, answer: Answer) -> Section:
     """Return a section with the speed, period, target and error of each pointer.
 
-    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the others are only counted.
+    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the remaining outputs are
+    only counted.
     """
     pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
     rows = [_pointer_row(train.declaration, result) for result in pointers]
@@ -88,7 +89,7 @@ def _pointers(train: GearTrain, answer: Answer) -> Section:
 
 
 def _is_pointer(result: OutputResult) -> bool:
-    """Return whether an output has a dial, a target or a printed figure, or fails an expectation."""
+    """Return True if an output has a dial, a target or a printed figure, or fails an expectation."""
     output = result.output
     return bool(output.dial or output.published or result.targets or not result.holds)
 
@@ -103,12 +104,12 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
 
 
 def _is_clock(declared: Train) -> bool:
-    """Return whether the unit of speed is turns per day or per shorter time."""
+    """Return True if the unit of speed is turns per day or per shorter time."""
     return declared.unit_days is not None and declared.unit_days <= 1
 
 
 def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
-    """Return a target as text, the error in ppm, and the error in days a century (for clocks, in seconds a day)."""
+    """Return a target as a string, the error in ppm, and the error in days a century (for clocks, in seconds a day)."""
     if target is None:
         return "", "", ""
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
@@ -119,9 +120,10 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
 
 
 def _period(declared: Train, speed: SpeedValue | None) -> str:
-    """Return the time of one turn as text; "" for a link at rest or speeds without a unit of time."""
+    """Return the time of one turn as a string; "" for a link at rest or speeds without a unit of time."""
     if not speed or declared.unit_days is None:
         return ""
+    # short units, because the table has many columns
     return _span(declared, 1 / magnitude(speed), 6).replace(" years", " y").replace(" year", " y")
 
 
@@ -130,7 +132,7 @@ def _error_text(error: float | None) -> str:
 
 
 def _fault(result: OutputResult) -> str:
-    """Return the expectations, printed figures and tolerances that an output fails, as text."""
+    """Return the expectations, printed figures and tolerances that an output fails, as a string."""
     expect, published = result.output.expect, result.output.published
     sign = "; only the sign differs" if result.differs_in_sign else ""
     parts = []
@@ -195,6 +197,7 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
     rows = []
     for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # fractions of a long train have many digits
         mark = " (sum of joint speeds)" if link in train.kinematics.joint_sums else ""
+        # a ratio needs exactly one turning input
         ratio = speed / moving[0] if len(moving) == 1 else None
         rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
     yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
@@ -206,6 +209,7 @@ def _outputs(train: GearTrain, answer: Answer) -> Section:
     if all(row[1] == row[0] for row in rows):  # every output is named after its link
         header, *rows = (row[:1] + row[2:] for row in (header, *rows))
     notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
+    # the last four columns are omitted if they are empty
     return Section(titled(answer.state, "all outputs"), notes, (filled_table(header, rows, len(header) - 4),))
 
 
@@ -230,7 +234,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """Return the computed value that corresponds to a published figure as text, exact and in decimals."""
+    """Return the computed value that corresponds to a published figure as a string, exact and in decimals."""
     if result.found is None:
         ratio = result.output.published is not None and result.output.published.as_ != "speed"
         open_ = result.speed is None or not ratio
@@ -251,6 +255,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
         "target tolerance": [target.met for each in results for target in each.targets if target.met is not None],
     }
     each = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
+    # commas between all kinds except the last two
     named = " and ".join(each).replace(" and ", ", ", len(each) - 2)
     total = sum(map(len, kinds.values()))
     if failed := sum(held.count(False) for held in kinds.values()):
@@ -259,7 +264,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return the sense of rotation seen on the dial, and the times of one turn and of one division, as text.
+    """Return the sense of rotation seen on the dial, and the times of one turn and of one division, as a string.
 
     The sense is reversed on a face that points away from the viewing side.
     """
@@ -279,7 +284,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time as text: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+    """Return a time as a string: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
 
     Return a number without a unit if the train has no unit of time.
     """
@@ -293,8 +298,9 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or
-    less.
+    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or one
+    tooth
+    fewer.
     """
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
@@ -387,8 +393,9 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a speed solved in floats, as text; "" for
-    others.
+    """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for an
+    exact
+    speed.
     """
     accuracy = answer.accuracy.get(link)
     if accuracy is None:

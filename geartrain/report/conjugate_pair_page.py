@@ -74,6 +74,7 @@ def _path(design: PairDesign) -> Section:
     for recess, name, arc in ((False, "approach", design.arcs[0]), (True, "recess", design.arcs[1])):
         first, last = path.span(recess) or (0.0, 0.0)
         psi = [degrees(float(path.along(d, recess).psi)) if last else 0.0 for d in (first, last)]
+        # a side without contact has no ends
         ends = (f"{value:.6f}" if last else "-" for value in psi)
         rows.append((name, f"{arc:.6g}", figure(last - first), *ends))
     header = ("side", "pitches", "length of path", "psi at the near end (deg)", "psi at the far end (deg)")
@@ -108,7 +109,7 @@ def _losses_and_stresses(found: DesignLosses) -> Section:
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
     free = [
         ("maximum sliding divided by the pitch-line speed", cost(found.sliding)),
-        ("maximum sliding over the contact's speed along a flank", cost(found.specific_sliding)),
+        ("maximum sliding divided by the contact's speed along a flank", cost(found.specific_sliding)),
         ("minimum speed along a dedendum divided by the pitch-line speed", cost(found.measures.slowest)),
     ]
     text = (
@@ -136,14 +137,14 @@ def _friction(design: PairDesign) -> Section:
 
 
 def pair_name(path: PathOfContact) -> str:
-    """Return the tooth counts and the kind of a pair as text, `24/18 spur`."""
+    """Return the tooth counts and the kind of a pair as a string, `24/18 spur`."""
     pitch = path.pitch
     kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
     return f"{pitch.z1}/{pitch.z2} {kind}"
 
 
 def cost(value: float) -> str:
-    """Return a loss or stress as text; `inf` if it is infinite."""
+    """Return a loss or stress as a string; `inf` if it is infinite."""
     return f"{value:.9g}" if isfinite(value) else "inf"
 
 

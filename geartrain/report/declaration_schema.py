@@ -40,7 +40,9 @@ def schema() -> Schema:
     found = {key: part for key, part in _models().items() if key not in ("title", "required")}
     for name in _MERGED:
         body = _body(found["$defs"][name])
+        # `kind` selects the model of a part, so even an incomplete part must have it
         body["required"] = [key for key in body.pop("required", ()) if key == "kind"]
+    # a child of `extends` inherits its links
     whole = {"if": {"required": ["extends"]}, "then": {}, "else": {"required": ["links"]}}
     return {"$schema": _URL, "title": "geartrain declaration"} | found | whole
 
@@ -70,7 +72,7 @@ def _without_sections(shape: Any) -> Any:
 
 
 def _options(shape: Schema) -> list[Schema]:
-    """Return the members of a union and of its unions, or a schema that is not a union as the only entry."""
+    """Return the members of a union, with nested unions expanded, or a list of only the schema if it is not a union."""
     members = shape.get("anyOf") or shape.get("oneOf")
     return [shape] if members is None else [option for member in members for option in _options(member)]
 
@@ -151,7 +153,7 @@ class _Chapter:
 
     @property
     def anchor(self) -> str:
-        """Fragment of its address."""
+        """Fragment of the section's address within the page."""
         return _anchor(self.title)
 
     @property
@@ -165,7 +167,7 @@ def _anchor(title: str) -> str:
 
 
 def declaration_reference() -> str:
-    """Return the reference of all keys as Markdown, in the order in which a reader meets them."""
+    """Return the reference of all keys as Markdown: the top-level keys, then the keys of their parts."""
     models = _models()
     chapters = [_Chapter(_TITLE, 2, ("Train",)), *_chapters(models, "Train", 2, set())]
     kinds = {part: f"[keys](#{each.anchor})" for each in reversed(chapters) for part in each.parts}
@@ -198,7 +200,7 @@ def _references(shape: Any) -> Iterator[str]:
 
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
-    """Yield the sections of all parts below a part; parts that a top-level key has too are under that key."""
+    """Yield the sections of all parts below a part; parts that a top-level key also has are listed under that key."""
     found = {key: tuple(_references(shape)) for key, shape in _body(_part(models, name))["properties"].items()}
     if name == "Train":
         seen |= {part for parts in found.values() for part in parts}
@@ -239,6 +241,7 @@ def _section(
         yield from ("| key with an example | type | default | meaning |", "|---|---|---|---|")
         for row in new:
             cells = (f"`{tables[0][row]}`", *row[1:])
+            # `chr(92)` is a backslash, which f-strings may not contain before Python 3.12
             yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
         yield ""
     known: dict[_Chapter, list[str]] = {}
@@ -258,6 +261,7 @@ def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
         meaning, *default = _DEFAULT.split(" ".join(shape["description"].split()), maxsplit=1)
         if key in body.get("required", ()):
             default = ["required"]
+        # the model's default, unless the description states it in words
         elif not default and isinstance(value := shape.get("default"), str | int) and value != "":
             default = [f"`{str(value).lower() if isinstance(value, bool) else value}`"]
         row = key, _kind(shape, kinds), *(default or [""]), meaning
@@ -266,7 +270,7 @@ def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
 
 
 def _kind(shape: Schema, parts: Mapping[str, str]) -> str:
-    """Return the type of a key in a few words, in the notation of YAML; `parts` has those of all parts."""
+    """Return the type of a key in a few words, in the notation of YAML; `parts` has the types of all parts."""
     if "$ref" in shape:
         return parts[shape["$ref"].rsplit("/", 1)[-1]]
     if len(options := _options(shape)) > 1:

@@ -35,7 +35,7 @@ class ExactText(str):
 
     @property
     def full(self) -> str:
-        """Unabridged value as text, written only on access because it may have very many digits."""
+        """Unabridged value as a string, written only on access because it may have very many digits."""
         return fraction_text(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
@@ -126,6 +126,7 @@ def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool
 def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellColumn:
     if not isinstance(column, str):
         return column
+    # without `=` the whole string is the field, and `head` and `given` are empty
     head, given, field = column.rpartition("=")
     name, _, digits = field.partition(":")
     unit = _UNIT.search(docs.get(name, ""))
@@ -194,8 +195,8 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it
-    as text.
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, else shows it as
+    plain text.
     """
 
     cite: str
@@ -211,12 +212,12 @@ class PageExtras:
     """Verdict in one or two words. `sound` is True if it is favourable."""
     sound: bool = True
     notes: Sequence[str] = ()
-    """Short remarks below the summary, for example the extra to install for pictures."""
+    """Short remarks below the summary, such as the extra to install for pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
     """Complete HTML page with the animated train; "" for none."""
     sections: Sequence[Section] = ()
-    """Sections after those of the document."""
+    """Sections that follow the sections of the document."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)
     """Bibliographic references by key of the source."""
 
@@ -311,7 +312,9 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return a ratio output divided by input as text: `1 : n`, or `n : 1` if the output is faster than the input."""
+    """Return the ratio output divided by input as `1 : n`, or as `n : 1` if the output is faster; a dash for
+    None or 0.
+    """
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -320,7 +323,7 @@ def one_to(ratio: Fraction | float | None) -> str:
 
 
 def ppm(value: float | None) -> str:
-    """Return parts per million as text with a sign; a dash for None."""
+    """Return parts per million as a string with a sign; a dash for None."""
     # a relative error below 1e-15 is rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
@@ -391,6 +394,7 @@ def column_widths(table: Table, width: int) -> list[int]:
     return sizes
 
 
+# a tilde marks a number solved in floats; both minus signs occur
 _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 

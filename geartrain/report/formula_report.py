@@ -128,9 +128,9 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
 
 
 def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
-    """Yield a section with the formulas of one state, without those of outputs that are inputs.
+    """Yield a section with the formulas of one state that contain tooth counts; nothing if there are none.
 
-    explained   whether the section begins with an explanation of the notation
+    explained   True to begin the section with an explanation of the notation
     """
     # a formula without tooth counts would only repeat a given speed
     shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
@@ -165,6 +165,7 @@ def _lines(each: OutputFormula, latex: bool) -> Iterator[str]:
 def _inverse(each: OutputFormula, latex: bool) -> Iterator[str]:
     if len(each.shares) == 1 and each.shares[0].ratio.formula.wheels:
         ratio = each.shares[0].ratio.inverse
+        # the output is at rest, so the inverse ratio has no value
         value = "infinite" if ratio.value is None else str(exact(ratio.value))
         yield f"{each.shares[0].input}/{each.output} = {ratio.latex if latex else ratio.text} = {value}"
         for pole in ratio.poles:

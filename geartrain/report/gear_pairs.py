@@ -28,7 +28,7 @@ class DrivenPair(Result):
 
     mesh: GearMesh
     states: tuple[str, ...] = ()
-    """Names of the states in which this wheel drives."""
+    """Names of the states in which `mesh.driver` drives."""
 
     @cached_property
     def account(self) -> PairAccount:
@@ -43,7 +43,7 @@ class DrivenPair(Result):
 
 @dataclass(frozen=True)
 class DrivenPin(Result):
-    """Coupling with dimensions whose pin drives."""
+    """Pin-and-slot coupling with declared dimensions, and its results while the pin drives."""
 
     KEYS = ("coupling", Key("ratio", "figures.speed_ratio.mean"), Key("", "figures"))
 
@@ -69,6 +69,7 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     for pair in pairs:
         # pairs with the same description share their tables
         accounts.setdefault(pair.account.words, []).append(pair.account)
+    # each description is printed once
     lines = list(accounts)
     tables = [
         joined_table(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)
@@ -111,9 +112,7 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with real teeth, one entry for each wheel that drives in some state; empty without
-    real teeth.
-    """
+    """Return the pairs with real teeth, with one entry for each wheel that drives in at least one state."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 

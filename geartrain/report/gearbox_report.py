@@ -62,6 +62,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
     # links in the order of their first occurrence
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
+    # links at rest in every state have no column; a missing speed counts as motion
     links = [link for link in known if any(each.speeds.get(link, 1) for each in found.states)]
     yield Section("Speeds", (f"Exact. {_unit(found)}",), (_speeds(found.states, links),))
     yield Section("Slip of open elements", (_unit(found),), (_by_state(found.states, names, "slips"),))
@@ -70,7 +71,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
 
 
 def _unit(found: Gearbox) -> str:
-    """Return a sentence on the unit of speeds, with the states whose speeds refer to another link than the input."""
+    """Return a sentence on the unit of speeds, with the states whose speeds refer to a link other than the input."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")
@@ -91,7 +92,7 @@ def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
 
 
 def _by_state(states: Sequence[GearState], columns: Sequence[str], field: str) -> Table:
-    """Return the values of a field, which is a mapping from elements to numbers, with a row for each state."""
+    """Return a table with a row for each state, of a field that is a mapping from elements to numbers or None."""
     rows = []
     for each in states:
         values = getattr(each, field)

@@ -74,12 +74,14 @@ def to_html(documents: Sequence[Document]) -> str:
     script, numbers = _resource("page.js"), count(1)
     page: str = _template("page.html").render(
         documents=documents,
+        # the first document has no prefix, so that a page with one document has short anchors
         anchors=[_anchors(document, f"{at}-" if at else "") for at, document in enumerate(documents)],
         drawings=[
             [{"caption": each.caption, "svg": Markup(inline(each.svg, next(numbers)))} for each in page.aside.pictures]
             for page in documents
         ],
         words=WORDS,
+        # only resources of this package are marked as safe; all other text is escaped
         style=Markup(_colours() + _resource("page.css")),
         script=Markup(script),
         policy=_policy(script, framed=any(document.aside.viewer for document in documents)),
@@ -93,7 +95,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
     Parameters
     ----------
     documents : sequence of Document
-        Documents to show; pictures and other extras of pages are left out.
+        Documents to show; pictures and other extras of pages are omitted.
 
     Returns
     -------
@@ -103,7 +105,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
     Raises
     ------
     MissingExtraError
-        Without jinja2, which is installed with the extra `report`.
+        If jinja2 is not installed (extra `report`).
     """
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)
@@ -148,7 +150,7 @@ def _with_code(line: str) -> Any:
 
 
 def is_web(url: str) -> bool:
-    """Return whether an address may become a link, which is true for http and https addresses with a host."""
+    """Return True for an http or https address with a host, which may become a link."""
     try:
         parts = urlsplit(url)
     except ValueError:
@@ -167,9 +169,11 @@ def inline(svg: str, number: int) -> str:
     def own(found: re.Match[str]) -> str:
         return f"{found[1]}p{number}-{found[2]}{found[3]}" if found[2] in names else found[0]
 
+    # ids and both kinds of references to them must change together
     for pattern in (r'(\bid=")([^"]+)(")', r'(href="#)([^"]+)(")', r"(url\(#)([^)]+)(\))"):
         element = re.sub(pattern, own, element)
     head, rest = element.split(">", 1)
+    # without a fixed size a picture scales with the page
     head = re.sub(r'\s(width|height)="[^"]*"', "", head)
     return f'{head} role="img">{rest}'.strip()
 

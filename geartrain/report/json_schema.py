@@ -202,10 +202,12 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
         return _fields({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
     if not isinstance(origin, type) or not hasattr(origin, "__iter__"):
         return _of_one(kind, to, keys)
+    # iterators and numpy arrays do not state the kinds of their items
     if not hasattr(origin, "__len__") or origin.__module__ == "numpy":
         return {"type": "array"}
     if issubclass(origin, Mapping):
         return {"type": "object", "additionalProperties": shape_of(parts[1], to, keys)}
+    # only a tuple without an ellipsis has a fixed length
     size = {} if origin is not tuple or parts[-1] is ... else {"minItems": len(parts), "maxItems": len(parts)}
     items = _one_of([shape_of(part, to, keys) for part in parts if part is not ...])
     return {"type": "array", **size, "items": items}
@@ -304,8 +306,9 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of a field or property, given as `attribute` or `part.attribute`. Raise
-    `AttributeError`.
+    """Return the annotation of a field or property, given as `attribute` or `part.attribute`.
+
+    Raises `AttributeError` if the class has no such field or property.
     """
     for name in path.split("."):
         kind = _own_kind(kind, name)
@@ -330,6 +333,7 @@ def _evaluated(annotation: Any, module: ModuleType) -> Any:
     if isinstance(annotation, ForwardRef):
         annotation = annotation.__forward_arg__
     # annotations are strings, because modules import `annotations` from `__future__`
+    # not `typing.get_type_hints`, which fails for names imported only under TYPE_CHECKING
     return eval(annotation, {}, _Names(module)) if isinstance(annotation, str) else annotation
 
 

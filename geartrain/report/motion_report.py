@@ -110,7 +110,8 @@ class MotionFigures(Result):
     """Deviation, speed and further requested results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
     """Speeds of the driving link at which teeth first separate. The computed motion is valid only below these
-    speeds; None if no inertia is declared.
+    speeds; None if no link driven by the input has an inertia, if torques have no units, or if the optional package
+    `simulation` is not installed.
     """
     phases: PhaseSets | None
     """Random tooth phases that were evaluated; None unless requested."""
@@ -133,7 +134,7 @@ class UnfollowedMotion:
 
     @property
     def error(self) -> str:
-        """Reason why the motion cannot be computed, as text."""
+        """Reason why the motion cannot be computed, as a string."""
         return str(self.why)
 
 
@@ -230,6 +231,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
     Return None if no link driven by the input has an inertia, if torques have no units, or if the optional package
     `simulation` is not installed.
     """
+    # reports are part of the core, which imports optional packages only on demand
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
     separation = wing("simulation.contacts.separation_rate")
@@ -239,7 +241,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Return whether the speed ratio of any gear pair or pin varies within a turn."""
+    """Return True if a pin has dimensions, or if the speed ratio of a gear pair varies within a turn."""
     return bool(train.mechanics.pins) or any(not mesh.rigid for mesh in train.meshes)
 
 
@@ -334,7 +336,7 @@ def moving_sections(
 ) -> Iterator[Section]:
     """Yield a section on the motion in each state of a train with real teeth or pins.
 
-    toothed   whether the train has real teeth
+    toothed   True if the train has real teeth
     """
     for each in found:
         head = titled(each.state, "motion")
@@ -369,6 +371,7 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
 def _outputs(tallies: list[RunningStatistics], deviation: str) -> Table:
     rows = []
     for tally in tallies:
+        # a mean speed of 0 cannot be the divisor
         speeds = "{:.5f}..{:.5f}".format(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
         rows.append((tally.name, figure(tally.ratio, 9), *_degrees(tally.peak_to_peak, tally.rms), speeds))
     return Table(("output", "mean speed", *_deviation_heads(deviation), "speed / mean speed"), rows)

@@ -91,7 +91,7 @@ def collect_pair(
     Returns
     -------
     PairDesign, TriangularPair or FormedPair
-        Result class of conjugate teeth at their design distance, of triangular teeth, and of all others.
+        Result class of conjugate teeth at their design distance, of triangular teeth, and of all other teeth.
 
     Examples
     --------
@@ -205,6 +205,7 @@ def describe_pin(transmission: PinTransmission) -> Document:
 
     found = pin_figures(transmission)
     ratio, rms, efficiency = found.speed_ratio, found.transmission_error.rms, found.efficiency
+    # the mean ratio is 1 if the circle encloses the axis, else 0
     kind = "encloses" if ratio.mean else "does not enclose"
     summary = [
         f"The {transmission.driver} drives. The pin's circle, of radius {figure(found.pin_radius)}, "
@@ -231,7 +232,7 @@ def _angle(name: str, angle: float) -> tuple[str, str, str]:
 
 
 def _share(efficiency: float | None) -> str:
-    """Return an efficiency as text; `-` if friction locks the pin or no work is done on a constant load."""
+    """Return an efficiency as a string; `-` if friction locks the pin or no work is done on a constant load."""
     return "-" if efficiency is None else f"{efficiency:.9f}"
 
 
@@ -406,7 +407,7 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under operating conditions; None without these, and for teeth that never touch."""
+    """Return the impacts under operating conditions; None without such conditions, and for teeth that never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

@@ -89,6 +89,7 @@ def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str
         for name, found in answer.outputs.items():
             for target in found.targets:
                 how = labels.setdefault((name, target.label), "")
+                # a single target without `sense` is enough to mark its row
                 labels[name, target.label] = how if target.goal.signed else _MAGNITUDE
     rows = []
     for (name, label), how in labels.items():

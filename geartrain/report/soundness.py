@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """Findings on a train in a file; true as a boolean without failures."""
+    """Findings of `geartrain check` on a train in a file. An instance is true if its `failures` are empty."""
 
     train: GearTrain
     file: str
@@ -40,8 +40,9 @@ class Soundness:
     def lines(self, quiet: bool = False) -> Iterator[str]:
         """Yield the lines of `geartrain check`.
 
-        quiet   whether remarks on trains without failures are omitted
+        quiet   True to omit the remarks on a train without failures
         """
+        # remarks may explain a failure, so they are printed with failures
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
         if whole:
@@ -77,9 +78,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if that is not the expected one, otherwise each unmet
-    expectation.
-    """
+    """Yield the failures of one state: its verdict if another verdict is expected, otherwise each unmet expectation."""
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
@@ -155,7 +154,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return the unit of a train's speeds in turns per second; None if speeds are numbers without a unit without a
+    """Return the unit of a train's speeds in turns per second; None if the speeds have no unit and the train has no
     rate.
     """
     if declared.unit_speed is not None:

@@ -115,6 +115,7 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
     out = StringIO()
     console = Console(file=out, width=width, no_color=True, force_terminal=False, legacy_windows=False, highlight=False)
     to_terminal(documents, console, marks="=-")
+    # rich pads lines to the width of the console
     return "\n".join(line.rstrip() for line in out.getvalue().splitlines()).rstrip()
 
 
@@ -149,6 +150,7 @@ def _heading(title: str, style: str, console: Console, mark: str) -> None:
     shown = _shown(title, style=style)
     console.print(shown)
     if mark:
+        # `cell_len` counts wide characters twice, as terminals do
         console.print(mark * min(console.width, shown.cell_len))
         if mark == "=":
             console.print()

@@ -58,7 +58,7 @@ class DrivenFigures:
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power out divided by power in; None if it is not determined."""
+        """Power output divided by power input; None if it is not determined."""
         return self.way.torques.efficiency if self.verdict else None
 
     @property
@@ -82,7 +82,7 @@ class TorqueFigures(Result):
 
     torques: Torques
     drives: DrivenWays | None
-    """Efficiencies in both directions; None if the train has not exactly one output."""
+    """Efficiencies in both directions; None unless power enters at one link and leaves at one link."""
     watts_per_unit: float | None
     """Watts per unit of power (torque unit times speed unit); None if torques or speeds are numbers without a unit."""
     in_newton_metres: bool
@@ -107,7 +107,7 @@ class TorqueReport(Result):
 
     See Also
     --------
-    collect_torque_report : Return the torques of a train in some states.
+    collect_torque_report : Return the torque report of a train in one or more states.
     """
 
     PAGE = "report.torque_report:describe_torques"
@@ -256,7 +256,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     head = titled(state, "torques")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
-        lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
+        lines.append(f"Candidates for `solve_for`: {', '.join(found.verdict.candidates)}.")
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     lines += _both_directions(figures.drives)
     if not found.verdict:
@@ -281,7 +281,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
 
 
 class _Amounts:
-    """Conversion of powers and torques to text, in W and N m if units are declared."""
+    """Conversion of powers and torques to strings, in W and N m if units are declared."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
@@ -296,6 +296,7 @@ class _Amounts:
 
 def _units(found: Sequence[TorqueFigures]) -> str:
     real = [each.watts_per_unit is not None for each in found if each.torques.verdict]
+    # watts only if all states have units, because the sentence applies to all
     return (_UNITS_IN_WATTS if real and all(real) else _UNITS) + _SIGNS
 
 
@@ -393,7 +394,7 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return the efficiency and the losses by cause as text, or why the efficiency is not determined."""
+    """Return the efficiency and the losses by cause as a string, or why the efficiency is not determined."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
@@ -441,7 +442,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """Return a number of turns as text, for example `1 turn` or `2.5 turns`."""
+    """Return a number of turns as a string, such as `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 

@@ -74,14 +74,14 @@ class AdjacencyLetters:
 
 @dataclass(frozen=True)
 class StateSensitivity:
-    """Change of an output in one state if a wheel of uncertain tooth count has one tooth more or less."""
+    """Change of an output in one state if a wheel of uncertain tooth count has one tooth fewer or one tooth more."""
 
     KEYS = ("state", Key("", "change"))
 
     state: str | None
     """Name of the state; None for a train without states."""
     change: Sensitivity
-    """Relative changes of the output with one tooth less and one tooth more."""
+    """Relative changes of the output with one tooth fewer and one tooth more."""
 
 
 @dataclass(frozen=True)
@@ -120,9 +120,9 @@ class TrainReport(TrainAnswers):
     remarks: tuple[Problem, ...]
     """Notes on conventions and mean values used in the results."""
     sensitivity: tuple[StateSensitivity, ...]
-    """Changes of the outputs if a wheel with an uncertain tooth count has one tooth more or fewer."""
+    """Changes of the outputs if a wheel with an uncertain tooth count has one tooth fewer or one tooth more."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, one entry for each driving wheel that occurs in some state."""
+    """Pairs with real teeth, one entry for each driving wheel that occurs in at least one state."""
     pins: tuple[DrivenPin, ...]
     """Couplings whose dimensions are declared."""
     torques: tuple[TorqueFigures, ...]
@@ -167,6 +167,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     """
     from geartrain.kinematics.graph import adjacency_labels
 
+    # the matrix has as many entries as the square of the number of links
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     own = train.kinematics
@@ -208,7 +209,7 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:
-    """Return whether the state has loads in units, some wheel has a material, and the package `simulation` is
+    """Return True if the loads of a state have units, a wheel has a material, and the package `simulation` is
     installed.
     """
     if not has_wing("simulation"):

@@ -119,7 +119,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield the outputs, targets and speeds of each state, preceded by tables of all states if there are several."""
+    """Yield the outputs, targets and speeds of each state, preceded by tables of all states if the train has states."""
     box = _gearbox(train)
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections
@@ -221,6 +221,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
         return
     gap = " " if len(links) <= _MOST_SPACED else ""
     cells = [[_LETTERS.get(kind, "C") for kind in row] for row in adjacency_kinds(train.declaration)]
+    # only the last digit, so that every column is one character wide
     head = gap.join(str(at % 10) for at in range(1, len(links) + 1))
     rows = [(f"{at} {link}", gap.join(row)) for at, (link, row) in enumerate(zip(links, cells, strict=True), 1)]
     couplings = ", C coupling" if train.declaration.couplings else ""
@@ -229,7 +230,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
 
 
 def _note(link: Link) -> str:
-    """Return the number of copies of a link and its declared note as text."""
+    """Return the number of copies of a link and its declared note as a string."""
     number = f"{link.copies} equal copies" if link.copies > 1 else ""
     return "; ".join(filter(None, (number, link.note or "")))
 
@@ -312,6 +313,7 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')} - {plural(found.gear_pairs, 'gear pair')}{minus}"
     yield f"By count: {pairs} = {found.by_count}."
+    # a rank modulo a prime may be lower than the true rank
     exact = " (exact)." if found.certain else " (rank modulo two primes)."
     yield f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}{exact}"
     if found.redundant:
@@ -417,7 +419,7 @@ def describe_shared_page(
 
 
 def _badge(found: TrainReport) -> tuple[str, bool]:
-    """Return the worst verdict on a train in a few words, and whether it is acceptable."""
+    """Return the worst verdict on a train in a few words, and True if it is acceptable."""
     train, answers = found.train, found.states
     wrong = [answer for answer in answers if not answer.as_expected]
     if wrong:

@@ -313,6 +313,6 @@ def test_a_pair_is_requested_for_by_its_helix() -> None:
     assert "a transverse module is 1.05146222 normal modules" in " ".join(told.stdout.split())
     assert "Contact ratio 1.5" in told.stdout
     assert call("mesh", "21", "50", "--form", "involute", "--helix", "90deg").exception is not None
-    assert "--helix: it does not apply to cycloidal teeth" in str(
+    assert "--helix: this option does not apply to cycloidal teeth" in str(
         call("mesh", "21", "50", "--form", "cycloidal", "--helix", "18deg").exception
     )

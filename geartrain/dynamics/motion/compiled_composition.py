@@ -1,4 +1,4 @@
-"""Composition of transmission errors by a compiled kernel: equal to 1e-12 rad, about ten times as fast.
+"""Compiled kernel for the composition of transmission errors, which agrees with `ErrorComposition` to 1e-12 rad.
 
 This module contains the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
 evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the
@@ -35,7 +35,7 @@ BLOCK = 2048  # positions: enough to amortise the overhead of a block, few enoug
 
 @dataclass(frozen=True)
 class FedBackTransmission:
-    """Transmission function of a pair whose error moves its own driver: by `gain` times the error of its driven side.
+    """Transmission function of a pair whose error turns its own driver, by `gain` times the error of the driven side.
 
     `sense` is the sense of the driven side, 1 or -1.
     """
@@ -58,11 +58,13 @@ class FedBackTransmission:
     def has_no_dead_centre(self) -> bool:
         """True if the driven side never stops and reverses because of the feedback."""
         ratio = float(self.transmission.ratio)
+        # det J > 0 for a single pair, equation (5) of docs/motion.md
         return all(1 - self.sense * (tau - ratio) * self.gain > 0 for tau in self.transmission.speed_range())
 
     def kinks(self) -> list[float]:
         """Return the nominal driver angles [rad] at the kinks of the transmission function."""
         kinks = np.array(self.transmission.kinks(), dtype=float)
+        # a kink is at a fixed total angle S + gain delta of the driver
         found: list[float] = (kinks - self.gain * self.sense * self.transmission.error(kinks)).tolist()
         return found
 
@@ -81,7 +83,7 @@ class FedBackTransmission:
 
 
 class SourceRows(NamedTuple):
-    """Rows of a matrix over the sources: entries of row m begin at `start[m]`."""
+    """Sparse matrix with one column for each source, stored by rows: the entries of row m begin at `start[m]`."""
 
     start: Ints
     of: Ints
@@ -112,7 +114,7 @@ class ComposedSources(NamedTuple):
 
 
 class CompositionArrays(NamedTuple):
-    """Input of the kernel."""
+    """Arrays from which the compiled kernel computes the errors of the outputs."""
 
     drivers: SourceRows
     """Change of each source's driver angle per unit of the error of earlier sources."""
@@ -150,6 +152,7 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
 def _fed_back(source: PairErrorSource, gain: float) -> TransmissionTable | None:
     """Return the table of a pair that moves its own driver; None if it has no table or may reach a dead centre."""
     transmission = FedBackTransmission(source.transmission, source.sense, gain)
+    # a function that differs from position to position is not one table
     changing = type(source.transmission).picked is not TransmissionFunction.picked
     return make_transmission_table(transmission) if transmission.has_no_dead_centre and not changing else None
 

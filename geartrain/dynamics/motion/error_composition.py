@@ -1,9 +1,9 @@
 """Motion with real teeth and pins: the error of every pair propagates to the links and to the driver angles of other
 pairs.
 
-Equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's driver, which includes the errors
-of other pairs. These are computed first in the order of solution, so that one pass composes the transmission functions
-exactly. Errors of coupled pairs are solved simultaneously (5).
+`ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's
+driver, which includes the errors of other pairs. In the order of solution the other pairs come first, so that one pass
+composes the transmission functions exactly. Errors of coupled pairs are solved simultaneously (5).
 """
 
 from __future__ import annotations
@@ -82,11 +82,14 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Sources whose errors are solved together, by index. Their drivers depend on earlier sources and on each other."""
+    """Indices of the sources whose errors are solved together. Their drivers depend on earlier sources and on each
+    other.
+    """
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Earlier sources on which the drivers depend. The coefficients are `from_known`, shape (sources, known)."""
+    """Indices of earlier sources on which the drivers depend, with coefficients `from_known`, shape (sources, known).
+    """
     from_known: Floats
     own: Floats
     """Change of each driver's angle per unit of the error of each source of the step, shape (sources, sources)."""
@@ -98,7 +101,7 @@ class CompositionStep(NamedTuple):
 
 
 class SeenLink(NamedTuple):
-    """Index of a link, and of the link relative to which it is measured. `sense` is -1 if their axes are opposite."""
+    """Index of a link and of its reference link; `sense` is -1 if the axes of the two links are opposite, else 1."""
 
     of: int
     base: int
@@ -141,7 +144,7 @@ class ErrorSamples(NamedTuple):
 
 @dataclass
 class ErrorComposition:
-    """Composition of the error sources of a train for the requested outputs."""
+    """Composition of the error sources of a train. It computes the errors of the requested outputs at any position."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
@@ -176,6 +179,7 @@ class ErrorComposition:
             if (at := waiting.pop()) not in needed:
                 needed.add(at)
                 waiting += drivers[at]
+        # mutually dependent sources form one block, which follows the blocks that it depends on
         blocks = find_blocks([(at, *drivers[at]) if at in needed else (at,) for at in range(len(gains))])
         steps = []
         for block in blocks or ():
@@ -280,8 +284,8 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return position times an exact number of periods per revolution [periods], modulo 1 if there are many
-        periods.
+        """Return position times an exact number of periods per revolution [periods], modulo 1 if `PLAIN` may be
+        exceeded.
 
         Dekker's product makes the result accurate to the rounding of one period, even after 1e12 revolutions.
         """

@@ -127,8 +127,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
     """Return the error [rad] and slope [1] of a single pair by bisection; delta - error increases until a dead centre.
 
     If the transmission function jumps at the solution, as for cut teeth that clash, the position of the jump is
-    returned
-    with slope 0. Without contact the error is infinite, as in the transmission function.
+    returned with slope 0. Without contact the error is infinite, as in the transmission function.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -170,7 +169,7 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
             )
         )
     what = f"the motion of the coupled pairs {names} has no unique solution"
-    return GearTrainError(Problem(what, why, "declare some of them without `tooth_form` (ideal teeth)"))
+    return GearTrainError(Problem(what, why, "declare some of these pairs without `tooth_form` (ideal teeth)"))
 
 
 class ErrorPath(NamedTuple):
@@ -259,6 +258,7 @@ def find_error_propagation(
         if row.label in symbol:
             rows[-1][symbol[row.label]] = Fraction(-1)
     solved = eliminate(rows)
+    # a redundant row would determine the error of a pair from those of other pairs
     if len(rows) != len(at) or solved.rank < len(at):
         return None
     by_link = solved.forms()

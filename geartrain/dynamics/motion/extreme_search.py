@@ -1,10 +1,10 @@
 """Extreme errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
 
-The run is divided into steps narrower than the shortest pitch, and `rate_bounds` bounds errors and rates in each. Steps
-that cannot contain an extreme are discarded, and the others are divided in four, repeatedly. The remaining steps are
-divided
-at the kinks of all transmission functions. Errors are smooth on each piece, and the extremes follow from Chebyshev
-polynomials and from the one-sided limits at jumps. The result does not depend on the sampled positions of a run.
+The run is divided into steps narrower than the shortest pitch, and `rate_bounds` bounds errors and rates in each step.
+Steps that cannot contain an extreme are discarded, and the remaining steps are repeatedly divided into four parts.
+The last steps are divided at the kinks of all transmission functions. Errors are smooth on each piece, and the extremes
+follow from Chebyshev polynomials and from the one-sided limits at jumps. The result does not depend on the sampled
+positions of a run.
 """
 
 from __future__ import annotations
@@ -111,14 +111,16 @@ class StepSearch:
 
     @property
     def tolerance(self) -> Floats:
-        """Difference from the maxima found below which larger values are not searched for, shape (outputs, 4)."""
+        """Search tolerance: maxima that exceed the value found by less than this are not searched for, shape (outputs,
+        4).
+        """
         ranges = np.repeat(self.values[:, ::2] + self.values[:, 1::2], 2, axis=1)
         return np.maximum(_SURE * ranges, _ROUNDING)
 
     # ------------------------------------------------------------------------------------------------ branch and bound
 
     def over(self, start: float, end: float, step: float) -> None:
-        """Search the run between two positions of the input, or its first period, by branch and bound.
+        """Search the run between two positions of the input, at most over its first common period, by branch and bound.
 
         step   width of the first steps, unless there are too many [revolutions]
         """
@@ -145,9 +147,10 @@ class StepSearch:
         self._drop(left)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
-        """Search near some positions of a run, within `step` but at most one narrow step on each side [revolutions]."""
+        """Search within `step`, but at most one narrow step, on each side of some positions of a run [revolutions]."""
         width = min(step, self.step)
         low = np.unique(np.clip(turns - width, start, end))
+        # disjoint steps, because `_cut_at_kinks` assigns each piece to one step
         high = np.minimum(low + 2 * width, np.append(low[1:], end))
         self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 
@@ -158,7 +161,7 @@ class StepSearch:
         return equal_steps(start, end, number, self.chunk)
 
     def _promising_of(self, steps: Iterator[InputSteps]) -> BoundedSteps:
-        """Return the steps that may contain an extreme, sorted by falling bounds."""
+        """Return the steps that may contain an extreme, in descending order of their bounds."""
         return self._promising(BoundedSteps.joined([self._promising(self.bounded(part)) for part in steps]))
 
     def bounded(self, steps: InputSteps) -> BoundedSteps:
@@ -174,9 +177,10 @@ class StepSearch:
         return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
 
     def _promising(self, given: BoundedSteps) -> BoundedSteps:
-        """Return the steps that may exceed the maxima found so far, sorted by falling bounds."""
+        """Return the steps that may exceed the maxima found so far, in descending order of their bounds."""
         excess = (given.above - self.values[:, :, None]) / self.tolerance[:, :, None]
         most = excess.max(axis=(0, 1), initial=-np.inf)
+        # stable, so that ties do not depend on the platform
         order = np.argsort(-most, kind="stable")
         return given.chosen(order[: int(np.count_nonzero(most > 1))])
 
@@ -230,12 +234,13 @@ class StepSearch:
         return found[0] if len(found) == 1 else error_difference(*found)
 
     def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
-        """Return the index of the piece with the largest maximum, and the place of this maximum, -1 to 1, if it is
-        larger.
+        """Return the index of the piece with the largest maximum, and the position of this maximum in the piece, -1 to
+        1.
 
-        The result is None if no piece has a larger maximum in its interior.
+        The result is None if no piece can exceed the maximum found so far, or if the largest maximum is at an end of
+        its piece.
 
-        pieces    values at the Chebyshev nodes of each piece, shape (n, nodes)
+        pieces values at the Chebyshev nodes of each piece, shape (n, nodes)
         """
         # a polynomial of degree 8 hardly exceeds its values at the nodes, so pieces far below the maximum are skipped
         with np.errstate(invalid="ignore"):
@@ -273,7 +278,7 @@ def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
 
 
 class ExtremeSearch:
-    """Extremes of one composition, or of the difference of two, over a run of the input."""
+    """Search for the extremes of one composition, or of the difference of two compositions, over a run of the input."""
 
     def __init__(self, composition: ErrorComposition, less: ErrorComposition | None = None) -> None:
         parts = (composition,) if less is None else (composition, less)
@@ -284,6 +289,7 @@ class ExtremeSearch:
             pairs = (source.pair for part in parts for source in _restricted(part, (at,)).used)
             groups.setdefault(frozenset(pairs), []).append(at)
         self._searches = [
+            # the groups share the limit on stored wide steps
             (group, StepSearch(tuple(_restricted(part, group) for part in parts), 1 / len(groups)))
             for group in groups.values()
         ]
@@ -295,7 +301,7 @@ class ExtremeSearch:
 
     @property
     def uncertainty(self) -> Floats:
-        """Upper bound on the difference between the true maxima and the maxima found, shape (outputs, 4)."""
+        """Upper bound on the true maxima minus the maxima found, 0 within twice the tolerance, shape (outputs, 4)."""
         beyond = [search.dropped - search.values for _, search in self._searches]
         tolerances = [search.tolerance for _, search in self._searches]
         return self._joined([np.where(b > 2 * t, b, 0.0) for b, t in zip(beyond, tolerances, strict=True)])

@@ -194,9 +194,10 @@ class KinkSearch:
 
     @cached_property
     def pairs(self) -> tuple[PairKinks, ...]:
-        """Pairs with their drivers' angles."""
+        """Kinks of each pair on which an output depends, with the angle of the pair's driver."""
         found = []
         for source in self.composition.used:
+            # no offsets: a pointer that is set does not turn any driver
             drivers = replace(self.composition, outputs=(self.composition.seen_driver(source),), offsets=())
             found.append(PairKinks(source, drivers))
         return tuple(found)
@@ -227,7 +228,7 @@ class KinkSearch:
         """Return the kinks between two positions of the input [revolutions], both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
             what = f"there are about {expected:.2g} kinks from {start:g} to {end:g} turns"
-            why = f"at most {MOST_KINKS:g} are listed"
+            why = f"at most {MOST_KINKS:g} kinks are listed in one call"
             raise QuestionError(Problem(what, why, "request fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]
         for steps in self.steps(start, end):

@@ -201,7 +201,7 @@ class Motion(Shown):
         if tolerance is not None and not 0 < tolerance < 1:
             why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
             fix = "give a fraction such as 1e-9, or omit it"
-            raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
+            raise QuestionError(Problem(f"the tolerance {tolerance!r} is out of range", why, fix))
         self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()
@@ -252,7 +252,7 @@ class Motion(Shown):
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
         """Return the composition while the input turns in the declared sense, with additional pairs as sources.
 
-        So pairs with constant ratio can have other transmission functions.
+        Pairs with constant ratio can thus be given other transmission functions.
 
         Parameters
         ----------
@@ -493,6 +493,7 @@ class Motion(Shown):
         done = 0
         for passage in self._stretches(turns, samples):
             part = slice(done, done + len(passage.turns))
+            # `angle` has revolutions here; it is converted to radians below
             angle[part], error[:, part], rate[:, part] = passage[:3]
             done = part.stop
             on_done(len(passage.turns))
@@ -533,8 +534,9 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over some revolutions of the input, with peak values and moments of each output's error
-        and speed.
+        """Compute the motion over a number of revolutions of the input, with peak values and moments of each output's
+        error and
+        speed.
 
         Parameters
         ----------

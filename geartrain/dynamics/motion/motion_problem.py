@@ -1,4 +1,4 @@
-"""Data of a train in one state for its motion: equations, mean speeds, transmission functions, drivers, loops."""
+"""Data from which the motion of a train in one state is computed: equations, transmission functions and drivers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MotionProblem:
-    """Data of a train in one state for its motion, as collected by `find_motion_problem`."""
+    """Data from which the motion of a train in one state is computed, as collected by `find_motion_problem`."""
 
     system: WillisSystem
     """Willis equations with labels, without redundant circuits."""
@@ -115,9 +115,11 @@ class MotionProblem:
 
 
 def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
-    """Collect the data of a train in one state. Raise `QuestionError` if the train does not move.
+    """Collect the data of a train in one state.
 
-    without   pairs to leave out, so that real teeth do not contradict each other around a loop
+    without   redundant pairs to omit, so that real teeth do not contradict each other around a loop
+
+    Raises `QuestionError` if no input turns, or if the speeds of the train are not determined.
     """
     own, declared, meshes, pins = train.kinematics, train.declaration, train.undriven, train.pins
     case = own.case(state)
@@ -131,7 +133,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
     circuits, drivers = own.circuits_without(without), train.drivers(case.state, without)
     links = tuple(declared.links)
     parts = SolvedPart(links, declared.frame, circuits, tuple(case.inputs)).reduced.components
-    # redundant pairs are left out, so that the system is square
+    # redundant pairs are omitted, so that the system is square
     redundant = {parts.circuits[chord].id for chord in parts.closing}
     whole = assemble_willis_system(links, declared.frame, circuits, case, own.signs)
     kept = {circuit.id for circuit in circuits}

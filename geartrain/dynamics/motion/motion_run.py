@@ -1,10 +1,10 @@
-"""Run of a motion over some revolutions of the input, with its statistics and spectrum.
+"""Run of a motion over a number of revolutions of the input, with its statistics and spectrum.
 
 The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
-revolution
-of the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a
-line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is also computed,
-by a Fourier sum with a Hann window. Differences are due to modulation of pairs by each other.
+revolution of the input, an exact rational number, so its harmonics have the orders k cycles. To first order the
+amplitude of a line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is
+also computed, by a Fourier sum with a Hann window. Differences between the two amplitudes are due to modulation of
+pairs by each other.
 """
 
 from __future__ import annotations
@@ -77,8 +77,7 @@ class SpectrumLine(Result):
 def find_spectrum(
     motion: Motion, turns: float, samples: int, most: int = 12, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, list[SpectrumLine]]:
-    """Return the spectral lines of every output with the largest amplitudes, in falling order, from `samples`
-    positions.
+    """Return at most `most` spectral lines of every output, in descending order of their first-order amplitudes.
 
     Lines are resolved if they differ by at least two periods over the run. If the run is an integer number of common
     periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
@@ -93,6 +92,7 @@ def find_spectrum(
     # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
+        # without lines nothing is measured, but the progress must still be complete
         on_done(samples)
         return {name: [] for name in found}
     measured = _measure(motion, turns, samples, orders, on_done)
@@ -108,7 +108,7 @@ def find_spectrum(
 def _harmonics(superposed: Superposition, at: int) -> Complex:
     """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
 
-    Phases are those at the start of the run.
+    Phases refer to the start of the run.
     """
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES
@@ -201,12 +201,12 @@ class MotionRun(Tabular, Pictured):
 
     MEANINGS: ClassVar = {
         "output": "Output or link.",
-        "mean speed": "Mean speed divided by that of the input [1].",
-        "exact": "Mean speed divided by that of the input, as a fraction [1].",
-        "error p-p (rad)": "Maximum less minimum of the transmission error [rad].",
+        "mean speed": "Mean speed divided by the input speed [1].",
+        "exact": "Mean speed divided by the input speed, as a fraction [1].",
+        "error p-p (rad)": "Maximum minus minimum of the transmission error [rad].",
         "error rms (rad)": "Root mean square of the transmission error about its mean [rad].",
-        "slowest": "Minimum of the speed less its mean, over the speed of the input [1].",
-        "fastest": "Maximum of the speed less its mean, over the speed of the input [1].",
+        "slowest": "Minimum speed minus mean speed, divided by the input speed [1].",
+        "fastest": "Maximum speed minus mean speed, divided by the input speed [1].",
     }
 
     PAGE = "report.motion_report:motion_document"
@@ -230,7 +230,7 @@ class MotionRun(Tabular, Pictured):
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
     """First-order estimates of each output's peak and rms errors."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
-    """Spectral lines by output, in descending order of amplitude."""
+    """Spectral lines by output, in descending order of the first-order amplitude."""
     done: int = 0
     """Number of positions evaluated so far; less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
@@ -242,11 +242,13 @@ class MotionRun(Tabular, Pictured):
         if not abs(self.turns) <= MOST_TURNS:
             why = f"float64 resolves single teeth only up to {MOST_TURNS:g} turns"
             fix = f"pass turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
-            raise QuestionError(Problem(f"turns = {self.turns:g}", why, fix))
+            raise QuestionError(Problem(f"turns = {self.turns:g} is out of range", why, fix))
         if self.samples < 2:
             raise QuestionError(
                 Problem(
-                    f"samples = {self.samples}", "at least two positions of the input are needed", "pass samples >= 2"
+                    f"samples = {self.samples} is too small",
+                    "at least two positions of the input are needed",
+                    "pass samples >= 2",
                 )
             )
 
@@ -261,10 +263,10 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each evaluated output: mean speed, error and relative speed.
+        """Table with a row for each evaluated output: mean speed, transmission error and extreme speeds.
 
-        Its columns are the mean speed divided by the input speed [1], the error [rad], and the speed divided by its
-        mean [1].
+        The mean speed is divided by the input speed [1], and the error is in rad. `slowest` and `fastest` are the
+        extreme speeds minus the mean speed, divided by the input speed [1].
         """
         return {
             "output": [each.name for each in self.statistics],
@@ -318,7 +320,9 @@ class MotionRun(Tabular, Pictured):
         """
         self.seed = seed if count else None
         if seed < 0:
-            raise QuestionError(Problem(f"seed = {seed}", "a random seed must not be negative", "pass seed >= 0"))
+            raise QuestionError(
+                Problem(f"seed = {seed} is out of range", "a random seed must not be negative", "pass seed >= 0")
+            )
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)

@@ -76,10 +76,10 @@ class PairErrors:
         return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
-        """Return 0 if the circuit's first link is driven, 1 if its second is.
+        """Return 0 if the circuit's first link is driven, 1 if its second link is driven.
 
-        The transmission function of a pin gives the angle of its slot, even if the slot drives, because they have no
-        backlash.
+        The transmission function of a pin gives the angle of its slot, even if the slot drives, because pins and slots
+        have no backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
@@ -139,6 +139,7 @@ class PairErrors:
         if circuit.kind != "gear":  # the error of a pin counts in the sense of the slot's own angle
             sense = forward
         else:
+            # a wheel's coefficient in the Willis equation is its tooth count
             teeth = abs((circuit.b, circuit.a)[driven])
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]

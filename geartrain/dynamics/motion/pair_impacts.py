@@ -91,7 +91,9 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
 
 @dataclass(frozen=True)
 class PairOperation:
-    """Operating data of a pair in SI units, as far as they are known. `rate` is the driver's speed [1/s]."""
+    """Operating data of a pair: inertia [kg m2], speed of the driver [revolutions/s] and load torque [N m]; None if
+    unknown.
+    """
 
     inertia: float | None = None
     rate: float | None = None
@@ -99,7 +101,7 @@ class PairOperation:
 
     @property
     def omega1(self) -> float | None:
-        """Speed of the driver [rad/s]."""
+        """Speed of the driver [rad/s]; None if it is unknown."""
         return None if self.rate is None else 2 * pi * self.rate
 
 
@@ -134,6 +136,7 @@ def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperati
     leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:
         return None
+    # at this speed the inertia torque J w^2 s equals the load torque
     void = sqrt(load / (inertia * steepest)) / (2 * pi) if load is not None and steepest > 0 else None
     # the limiting speed does not depend on the speed of operation
     if omega1 is None:

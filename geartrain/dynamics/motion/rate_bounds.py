@@ -98,6 +98,7 @@ class SpeedRanges:
         kinks = np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period)
         self.cells = max(_CELLS, _A_KINK * len(kinks))
         width = transmission.period / self.cells
+        # not at the edges of a cell, where the ratio of the neighbouring cell may apply
         inside = (np.arange(_WITHIN) / (_WITHIN - 1)) * (1 - 2 * _BESIDE) + _BESIDE
         values = transmission.speed((np.arange(self.cells)[:, None] + inside) * width)
         minimum, most = np.nanmin(values, axis=1), np.nanmax(values, axis=1)

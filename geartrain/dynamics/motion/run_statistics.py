@@ -147,6 +147,7 @@ class RunningStatistics(Result):
     def speeds(self) -> tuple[float, float]:
         """Minimum and maximum speed divided by the mean speed, or by the input speed if the mean is 0."""
         scale = self.mean or 1.0
+        # a negative mean exchanges minimum and maximum
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high
 
@@ -178,6 +179,7 @@ class SampledPeaks:
 
     def add(self, passage: ErrorSamples) -> None:
         """Update the peaks with the errors at further positions."""
+        # one peak per bin, so that the kept positions are not all at one broad peak
         bins = [_peaks(passage, slice(start, start + _BIN)) for start in range(0, len(passage.turns), _BIN)]
         values = np.concatenate([self.values, np.stack([value for value, _ in bins], axis=2)], axis=2)
         turns = np.concatenate([self.turns, np.stack([turns for _, turns in bins], axis=2)], axis=2)

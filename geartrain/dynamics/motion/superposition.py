@@ -1,10 +1,10 @@
-"""First-order estimates of the transmission error, equation (6) of docs/motion.md, and their accuracy: sums over
-pairs.
+"""First-order estimates of the transmission error, equation (6) of docs/motion.md, and their accuracy.
 
-The estimates neglect the effect of pairs on each other. To first order an output's error is the sum of its
-sensitivities times the pairs' errors. The sum of these terms' ranges is a bound on its range. For independent phases
-the squares of their rms values add. Superposition in phase neglects only the change of driver angles by errors. Part of
-this change is corrected by the mean error of each driver relative to position 0 (lag).
+The estimates neglect the effect of pairs on each other. To first order an output's error is the sum over all pairs of
+its sensitivity times the pair's error. The sum of the ranges of these terms is an upper bound on the range of the
+output's error. For independent phases the squares of their rms values add. Superposition in phase neglects only the
+change of driver angles by errors. Part of this change is corrected by the mean error of each driver relative to
+position 0 (lag).
 """
 
 from __future__ import annotations
@@ -56,6 +56,7 @@ class Superposition:
     @property
     def independent(self) -> list[float]:
         """Rms value of each output's error for independent phases of the pairs [rad]."""
+        # variances of independent terms add
         return [hypot(*row) for row in self.response * self.moments[1]]
 
     @cached_property
@@ -125,8 +126,7 @@ class ErrorEstimates(Result):
     nominal: SuperpositionEstimate
     """First-order superposition of the pairs' errors, with each driver at its mean angle."""
     lagged: SuperpositionEstimate
-    """First-order superposition of the pairs' errors, with each driver displaced by the mean error (lag) of the
-    preceding pairs.
+    """First-order superposition of the pairs' errors, with each driver displaced by the mean errors of all pairs (lag).
     """
 
     @property
@@ -155,6 +155,7 @@ def find_estimates(
         for counted, tallies in ((False, nominal), (True, lagged)):
             error = superposed.at(passage.turns, counted)
             for at, (own, off) in enumerate(zip(*tallies, strict=True)):
+                # rates are not estimated; the exact rates only complete the statistics
                 own.add(error[at], passage.rate[at])
                 off.add(error[at] - passage.error[at], passage.rate[at])
         on_done(len(passage.turns))

@@ -45,7 +45,7 @@ LoadGroup = frozenset[str]
 
 
 def group_text(group: LoadGroup) -> str:
-    """Return the first names of a set of loads in alphabetical order, and the number of the others."""
+    """Return up to three names of a set of loads in alphabetical order, and the number of further names."""
     names = sorted(group)[:_NAMED]
     if rest := len(group) - len(names):
         names.append(f"{rest} more")
@@ -81,6 +81,7 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
     for number, name in enumerate(names):
         for link, torque in loads[name].items():
             if at.get(link) in known:
+                # each load is a symbol, which has a negative column
                 known[at[link]][-1 - number] = torque
     forms = solve_block(balance.columns, balance.whole, dict.fromkeys(range(len(balance.columns)), 0), known)
     found = {}
@@ -94,7 +95,7 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """Return the driving wheel of every pair and the driving link of every coupling in one state, found when first
+    """Return the driving wheel of every pair and the driving link of every coupling in one state, computed when first
     read.
 
     circuits   circuits of the pairs and couplings to include
@@ -191,7 +192,7 @@ def _pointers(setting: LoadCase) -> UnitLoads:
 def _output_shafts(setting: LoadCase) -> UnitLoads:
     """Return unit loads at every output shaft that turns in the frame.
 
-    Outputs on carriers, or relative to a carrier, are only displays without power.
+    Outputs on carriers, or relative to a carrier, are treated as displays, which take no power.
     """
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
@@ -224,7 +225,7 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""Assumed resistances in order of precedence, with the text for pairs through which they take no power."""
+"""Assumed resistances in order of precedence, each with its name for notes on pairs through which it takes no power."""
 
 
 def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
@@ -280,9 +281,7 @@ def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return the load applied equally to all planets that are equal to the loaded planet, and as often to their
-    carrier.
-    """
+    """Return the load applied to each planet equal to the loaded one, and the same number of times to their carrier."""
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)
@@ -323,8 +322,9 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver of a pair whose driver is undetermined: the wheel with fewer teeth (then by name), or
-    the pin.
+    """Return the assumed driver of a pair whose driver is undetermined: the pin, or the wheel with fewer teeth.
+
+    An external wheel precedes a ring gear, and wheels with equal tooth counts are ordered by name.
     """
     if circuit.kind != "gear":
         return circuit.j

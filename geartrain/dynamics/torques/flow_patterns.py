@@ -34,7 +34,7 @@ Values = dict[int, Fraction | None]
 
 
 def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
-    """Return the echelon form of a block's rows for one pattern, over the rationals: equation (3)."""
+    """Return the exact echelon form of a block's equations (3) for one pattern of power flow."""
     rows = {row: dict(form) for row, form in known.items()}
     for column in block.columns:
         for row, value in columns[column].pieces[sides[column]].items():
@@ -58,6 +58,7 @@ def solve_block(
     echelon = eliminate_block(columns, block, sides, known)
     if echelon.conditions:
         return None
+    # an unknown is determined if only symbols (negative columns) are left in its form
     closed = {column: form for column, form in echelon.forms().items() if all(other < 0 for other in form)}
     return {column: closed.get(column) for column in block.columns}
 
@@ -83,7 +84,7 @@ class _Partial:
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
-    """Return all consistent patterns of power flow, and whether all patterns were tried.
+    """Return all consistent patterns of power flow, and True if all patterns were tried.
 
     The blocks of the Dulmage-Mendelsohn decomposition are solved in order, each by enumeration of its patterns or by
     fixed-point iteration.
@@ -96,7 +97,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Return all combinations of the solutions of the blocks, and whether all patterns were tried.
+    """Return all combinations of the solutions of the blocks, and True if all patterns were tried.
 
     The result is None if a block leaves a torque open that a later block may need or determine.
     """
@@ -161,7 +162,7 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return all consistent sides and torques of one block, and whether all sides were tried."""
+    """Return all consistent sides and torques of one block, and True if all sides were tried."""
     known = {row: rows[row] for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
@@ -189,7 +190,7 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
 ) -> bool:
-    """Return whether power flows in the assumed directions, equation (7), for at least one choice of undetermined
+    """Return True if power flows in the assumed directions, equation (7), for at least one choice of undetermined
     torques.
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):

@@ -49,6 +49,7 @@ def unbalanced_motions(
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
     forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
     found = []
+    # one motion for each free speed, with the other free speeds 0
     for column in sorted({column for form in forms.values() for column in form}):
         speeds = {link: form[column] for link, form in forms.items() if form.get(column)}
         power = sum((loads.get(link, Fraction(0)) * speed for link, speed in speeds.items()), Fraction(0))
@@ -92,10 +93,10 @@ _ONE = Fraction(1)  # efficiency without loss
 
 @dataclass(frozen=True)
 class MeanEfficiencies:
-    """Efficiencies of one pair: with the first link driving, and with the second link driving."""
+    """Mean efficiencies of one pair. Each tuple has the values with the first link and with the second link driving."""
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driver's torque is constant over a revolution."""
+    """Efficiencies if the driver's torque is constant over a revolution; at most 1."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
     """Efficiencies if the driven side's torque is constant over a revolution."""
     exact: bool = True
@@ -199,7 +200,7 @@ class LoadCase:
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
     def has_friction(self, part: GearPair | Coupling) -> bool:
-        """Return whether the declared friction of a pair or coupling is above 0 or depends on speed."""
+        """Return True if the declared friction of a pair or coupling is above 0 or depends on speed."""
         friction = self.train.friction_of(part)
         return friction is not None and friction.has_friction
 
@@ -238,7 +239,7 @@ class LoadCase:
         return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
-        """Return the friction torque of a link's bearing [N m, or number without a unit]."""
+        """Return the friction torque of a link's bearing, 0 if none is declared [N m, or number without a unit]."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)
@@ -246,9 +247,9 @@ class LoadCase:
 
 
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
-    """Return the only input and the link at which power leaves the train; None if they are not unique.
+    """Return the links at which power enters and leaves the train; None if they are not unique.
 
-    Power leaves at the only loaded link, or at the only output.
+    Power enters at the crank, or at the only input. It leaves at the only loaded link, or at the only output.
     """
     if len(case.inputs) != 1:
         return None

@@ -1,8 +1,9 @@
-"""Mean efficiency of a pair: declared, or computed from its teeth or its pin, equations (17) to (20).
+"""Mean efficiency of a pair: declared, or computed from its teeth or its pin, by equations (17) to (20) of
+docs/torques.md.
 
-docs/torques.md, section 12. Over a revolution the torques on the two sides of a pair cannot both be constant. If the
-driver's torque is constant, the mean efficiency is mean(eta). If the driven side's torque is constant, it is
-mean(tau)/mean(tau/eta). A torque is constant if the balance of its own link alone determines it.
+Over a revolution the torques on the two sides of a pair cannot both be constant. If the driver's torque is constant,
+the mean efficiency is mean(eta). If the driven side's torque is constant, it is mean(tau)/mean(tau/eta). A torque is
+constant if the balance of its own link alone determines it.
 """
 
 from __future__ import annotations
@@ -72,6 +73,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
     # 15 digits, so that equal efficiencies are equal fractions
     found = [Fraction(f"{screw_efficiency(*pair, friction.sliding, angle):.15g}") for pair in (helix, helix[::-1])]
+    # a screw gear has a constant ratio, so both torques may be constant
     return MeanEfficiencies((found[0], found[1]), (found[0], found[1]), exact=False)
 
 
@@ -102,10 +104,9 @@ def _mean(efficiency: float | None) -> Fraction:
 def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
-    """Return the balance with the applicable mean efficiency of each pair, and the pairs neither of whose torques is
-    constant.
+    """Return the balance with the applicable mean efficiency of each pair, and the pairs without a constant torque.
 
-    The result is the balance, and the pairs neither of whose torques is constant.
+    A pair is listed only if its efficiency depends on which of its torques is constant, and neither of them is.
     """
     if not any(each.differ for each in means.values()):
         return balance, ()
@@ -124,6 +125,7 @@ def _given(balance: TorqueBalance) -> dict[str, int]:
     """Return by pair the link whose own balance determines its torque: 1 for the first link, -1 for the second."""
     found: dict[str, int] = {}
     for block in balance.parts:
+        # rows beyond those of the links are declared shares, not balances
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
             continue
         link, column = balance.links[block.rows[0]], balance.columns[block.columns[0]]
@@ -165,5 +167,6 @@ def screw_efficiency(driving: float, driven: float, friction: float, pressure_an
     True
     """
     slide = tan(driving) + tan(driven)
+    # the normal force on an inclined flank is larger by 1 / cos(pressure angle)
     rough = friction / cos(pressure_angle) * (1 if slide >= 0 else -1)
     return (1 - rough * tan(driven)) / (1 + rough * tan(driving))

@@ -280,7 +280,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the friction of pins that is not a fraction of the transmitted power."""
+    """Yield the friction of pins in followers, and of pins in slots without declared dimensions."""
     couplings = setting.couplings
     bearing_friction = [
         circuit for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
@@ -319,7 +319,7 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return whether a pair is a worm drive or a pair of crossed helical gears, whose tooth forms have no mean loss."""
+    """Return True if a pair is a worm drive or a pair of crossed helical gears, whose tooth forms have no mean loss."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)

@@ -101,7 +101,7 @@ def find_circulation(
 ) -> tuple[list[PowerStream], list[RecirculatingPower]]:
     """Return the streams with their recirculating parts, and the power loops.
 
-    Cycles are removed in the order of falling bottleneck power.
+    Cycles are removed in descending order of their bottleneck power.
     """
     left = [stream.power for stream in streams]
     rounds: list[tuple[PowerNode, Fraction]] = []
@@ -152,11 +152,13 @@ def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
     try:
         TopologicalSorter(before).prepare()
     except CycleError as error:
+        # the second argument is the cycle, with its first node repeated at the end
         return [stream_of[ends] for ends in pairwise(error.args[1])]
     return []
 
 
 def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerNode]:
+    # strongly connected component: nodes reached both along and against the streams
     ways: list[set[PowerNode]] = []
     for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
         after: dict[PowerNode, list[PowerNode]] = {}
@@ -316,7 +318,7 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
 
 
 def has_torque_units(train: Train, state: str | None) -> bool:
-    """Return whether the loads and bearings of one state have units."""
+    """Return True if the loads and bearings of one state have units."""
     return train.has_torque_units(state)
 
 

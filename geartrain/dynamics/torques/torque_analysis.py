@@ -32,14 +32,14 @@ class LoadedBalance:
     enough: bool = True
     """True if the number of unknown torques equals the number of degrees of freedom.
 
-    If it is smaller, the loads must be in equilibrium without them.
+    With fewer unknown torques, the loads must be in equilibrium without them.
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
 
     @property
     def names(self) -> str:
-        """Links with unknown torques as text, separated by commas."""
+        """Names of the links with unknown torques, separated by commas; "any link" if there are none."""
         return ", ".join(self.balance.unknown) or "any link"
 
     @property
@@ -95,7 +95,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
 
 
 def _some(links: Sequence[str]) -> str:
-    """Return up to three names as text, followed by the number of the others."""
+    """Return up to three names, separated by commas, followed by the number of further names."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
@@ -166,7 +166,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a text on a load that puts power in, but cannot drive the train without further power."""
+    """Return a note on a load that puts power in but cannot drive the train alone; "" otherwise."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
@@ -198,7 +198,9 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flow patterns; it describes the resulting one and mentions the others."""
+    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the other
+    patterns.
+    """
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -209,8 +211,8 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a text on one flow pattern; `resisted` is True if power leaves at the unknown torque in the resulting
-    pattern.
+    """Return a description of one flow pattern; `resisted` is True if power leaves at the unknown torque in the
+    returned one.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -283,10 +285,15 @@ class UnknownLinks:
 
     links: tuple[str, ...]
     enough: bool = True
-    """True if their number equals the number of degrees of freedom; if it is smaller, the loads must be in equilibrium.
+    """True if the number of unknown torques equals the number of degrees of freedom.
+
+    If the number is smaller, the loads must be in equilibrium.
     """
     undecided: TorqueVerdict | None = None
-    """Verdict that requests more unknown torques; it is returned if the loads are not in equilibrium without them."""
+    """Verdict that requests a further unknown torque, returned if the loads are not in equilibrium without it; None if
+    no
+    choice is open.
+    """
 
 
 @dataclass(frozen=True)
@@ -352,12 +359,14 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
         if not setting.speeds.get(link):
             why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
             return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
+    # a single unknown torque is enough for one degree of freedom
     requested = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
+    # the torque that takes one unit of power out at this speed
     return _balanced(setting, {load: -1 / setting.speeds[load]}, requested, bearings=False)
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
-    """Return the links with unknown torques: as many as inputs, or fewer if only these are certain."""
+    """Return the links with unknown torques: as many as there are inputs, or only the links that are certain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)

@@ -18,7 +18,9 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Mesh -> driving side: 1 if its first link drives in the carrier's frame, -1 if the second does, 0 without loss."""
+"""Mesh -> driving side: 1 if the first link drives in the carrier's frame, -1 if the second link drives, 0 without
+loss.
+"""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """Link, and the meshes on one of its wheels, each with its fraction of the wheel's torque."""
@@ -33,7 +35,7 @@ class LoadedPair:
     links: tuple[str, str, str]
     """Links i, j and k: first link, second link, and carrier."""
     senses: tuple[int, int, int]
-    """Senses of the axes of these links, 1 or -1."""
+    """Senses of the axes of links i, j and k, 1 or -1."""
     a: int
     """Coefficient of the first link in the pair's Willis equation."""
     b: int
@@ -66,8 +68,8 @@ class LoadedPair:
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides to be tried. A self-locking side is omitted: it has no torque, as has the other side at zero
-        power.
+        """Driving sides to be tried. Self-locking sides are omitted, unless both sides are self-locking: then it is
+        (1,).
         """
         if not self.loses:
             return (0,)
@@ -102,7 +104,7 @@ class TorqueUnknown:
     """Unknown torque that one or more meshes have in common, with its coefficient in each row of the balance."""
 
     pieces: Mapping[int, LinearForm]
-    """Driving side -> row -> coefficient. The side is that of the first lossy mesh; side 0 is without loss."""
+    """Driving side -> row -> coefficient. Sides refer to the first lossy mesh; side 0 is without loss."""
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
     """Driving sides to be tried."""
@@ -112,13 +114,13 @@ class TorqueUnknown:
     """True if no power can flow, so that the torque must be 0."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
-        """Return whether a torque transmits power in the direction of `side`, or no power."""
+        """Return True if a torque transmits power in the direction of `side`, or no power."""
         if self.barred and torque:
             return False
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one of its meshes, whose links may have another order."""
+        """Return the driving side of one mesh of this unknown, whose links may be in another order; 0 without loss."""
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 
@@ -211,7 +213,8 @@ class TorqueBalance:
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
         """Mesh -> rows of declared shares that contain its torque.
 
-        Such a row means: torque of the mesh on the link, over its share, equals the same quotient of the first mesh.
+        Such a row states that the torque of a mesh on the link, divided by its share, is the same as for the first
+        mesh.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
@@ -271,9 +274,9 @@ class SolvedTorques:
     locks: tuple[Fraction | None, ...]
     """Torque of each lock on its first link, about the reference direction of parallel axes; None if undetermined."""
     loose: tuple[str, ...]
-    """Meshes with undetermined torque, such as those of several planets; their multiplier is set to 0 here."""
+    """Meshes with undetermined torque, such as meshes of several planets; their multiplier is set to 0 here."""
     open: tuple[str, ...]
-    """Requested or braked links whose external torque is undetermined for this reason, and therefore omitted."""
+    """Requested or braked links whose torque is undetermined, and therefore omitted from `external` and `brakes`."""
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:
@@ -308,6 +311,7 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
             mesh,
             # equal planets get equal coefficients, other meshes different ones
             a=_SCALES[0] * mesh.a + group.get(mesh.id, len(balance.ties) + at),
+            # b = 0 is a follower, which transmits torque at single positions, but not on average
             b=_SCALES[1] * (mesh.b or -1),
             forward=Fraction(1),
             backward=Fraction(1),

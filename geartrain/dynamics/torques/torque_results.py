@@ -45,7 +45,7 @@ class HoldingTorque(Result):
     torques: tuple[Fraction, ...] | None
     """Torque on each of the links about its own axis [N m, or number without a unit]; None if undetermined."""
     clutch: str | None = None
-    """Name of the brake or clutch; empty if no clutch is declared for it."""
+    """Name of the brake or clutch; None if no clutch is declared for it."""
     cause: tuple[str, ...] = ()
     """Links of the declared lock that implies this brake or lock; empty if the brake or lock is itself declared.
 
@@ -376,7 +376,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Draw the power flow under these torques with `geartrain.drawing.power_figure`."""
+        """Draw the power flow under these torques as a matplotlib figure, with `geartrain.drawing.power_figure`."""
         return imported_function("drawing", "power_figure")(self, self.state or "")
 
     @property
@@ -426,6 +426,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         """
         if not self.power_in or self.open_speeds or any(link not in self.external for link in self.requested):
             return None
+        # the net external power is the loss, even if torques of pairs are undetermined
         found = 1 - self._missing / self.power_in
         return found if all(pair.exact for pair in self.pairs.values()) else float(found)
 

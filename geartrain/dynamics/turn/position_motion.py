@@ -31,7 +31,8 @@ class LinkMotion(NamedTuple):
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     speeds: Floats
-    """Speeds of links about the reference direction of parallel axes, over the magnitude of the input speed, shape
+    """Speeds of links about the reference direction of parallel axes, divided by the magnitude of the input speed [1],
+    shape
     (links, n).
     """
     angles: Mapping[str, Floats]
@@ -39,10 +40,10 @@ class LinkMotion(NamedTuple):
 
 
 class PositionMotion:
-    """Motion of the links that transmit torque.
+    """Motion of the links that transmit torque, for any choice of the flanks in contact.
 
-    motion     motion of these links relative to the frame
-    pairs      names of pairs whose ratio or losses depend on their position
+    motion  motion of these links relative to the frame
+    pairs   names of pairs whose ratio or losses depend on their position
     """
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:

@@ -50,7 +50,7 @@ class PlaceInRun(NamedTuple):
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
-    """Energies over a run [J; if torques are declared without a unit, that torque unit times rad].
+    """Energies over a run [J, or torque without a unit times rad].
 
     Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
 
@@ -91,9 +91,14 @@ class CycleEnergy(Result):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output divided by energy input; None if the net energy input is not positive."""
+        """Energy output divided by energy input; None if neither the unknown torques nor the loads have a net input.
+
+        If the unknown torques have no net input, the loads drive, and the output is the energy that the unknown torques
+        absorb.
+        """
         if self.net_in > 0:
             return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))
+        # the loads drive, and the unknown torques absorb energy
         return -self.net_in / -self.net_out if self.net_out < 0 else None
 
     @property
@@ -118,9 +123,7 @@ class PairCycle(Result):
     loss: float
     """Energy lost in the part [J, or torque without a unit times rad]."""
     passed: float
-    """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it is equal to the
-    loss.
-    """
+    """Energy input of the driving side relative to the carrier, in the same unit. It equals the loss for a bearing."""
     flank_changes: int = 0
     """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each sign change.
 
@@ -219,17 +222,17 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     losses: LabelledArray | None = None
     """Lost power divided by the input speed, axes (part, position) [N m, or number without a unit]."""
     mean: float | None = None
-    """Mean torque over the run [N m, or number without a unit]; None if the train locks."""
+    """Mean torque over the run [N m, or number without a unit]; None if the train locks at some position."""
     maximum: TorqueExtreme | None = None
-    """Maximum torque over all solutions at all positions; None if the train locks."""
+    """Maximum torque over all solutions at all positions; None if the train locks at some position."""
     minimum: TorqueExtreme | None = None
-    """Minimum torque over all solutions at all positions; None if the train locks."""
+    """Minimum torque in the solution with minimum loss; None if the train is locked at all positions."""
     starting: TorqueExtreme | None = None
-    """Torque that starts the train from rest at the position with the maximum breakaway torque; None if the train locks
-    there.
+    """Maximum breakaway torque, which starts the train from rest at any position; None if no torque starts it at some
+    position.
     """
     energy: CycleEnergy | None = None
-    """Energies over the run; None if the train locks."""
+    """Energies over the run; None if the train locks at some position."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
     """Name -> loss and torque of each gear pair and coupling, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0
@@ -282,17 +285,20 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def maximum_torque(self) -> float | None:
-        """Maximum torque [N m, or number without a unit]; None if the train locks."""
+        """Maximum torque [N m, or number without a unit]; None if the train locks at some position."""
         return None if self.maximum is None else self.maximum.torque
 
     @property
     def maximum_place(self) -> PlaceInRun | None:
-        """Position of the maximum torque."""
+        """Position of the maximum torque; None if the train locks at some position."""
         return _place(self.maximum)
 
     @property
     def minimum_torque(self) -> float | None:
-        """Minimum torque [N m, or number without a unit], negative if the loads drive; None if the train locks."""
+        """Minimum torque, negative if the loads drive; None if the train is locked at all positions [N m, or number
+        without a
+        unit].
+        """
         return None if self.minimum is None else self.minimum.torque
 
     @property
@@ -302,8 +308,8 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def starting_torque(self) -> float | None:
-        """Torque that starts the train from rest at the position with the maximum breakaway torque; None if the train
-        locks there.
+        """Maximum breakaway torque [N m, or number without a unit]; None if no torque starts the train at some
+        position.
         """
         return None if self.starting is None else self.starting.torque
 
@@ -314,7 +320,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output divided by energy input of the run; None if the train locks or has no net energy input."""
+        """Energy output divided by energy input of the run; None if the train locks at some position or has no net
+        input.
+        """
         return None if self.energy is None else self.energy.efficiency
 
     @property

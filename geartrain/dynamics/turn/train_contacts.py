@@ -96,7 +96,9 @@ class ContactLosses:
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """Declared efficiencies for both driving sides. A value of 0 or less locks the pair in this direction."""
+    """Declared efficiencies of a pair, for each driving side. The pair locks for a driving side with a value of 0 or
+    less.
+    """
 
     has_friction: ClassVar[bool] = True
     driver: float
@@ -175,6 +177,7 @@ class PinFriction(SlidingFriction):
     ) -> ContactTorques:
         """Return the torques from lever arms, which are finite also at dead points."""
         del transmission
+        # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
@@ -322,12 +325,13 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
     static = coefficient if declared is None else declared.static
     if transmission is None:
         return ToothFriction(coefficient, static)
+    # proportional to the driver's speed, which varies with the position
     pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
     return ToothFriction(lambda sliding, turning: PairFriction(transmission, pitch_line * turning)(sliding), static)
 
 
 class BearingTorques(NamedTuple):
-    """Friction torque of a bearing in motion and at rest, and viscous drag torque per unit of the input's speed."""
+    """Friction torque of a bearing in motion and at rest, and viscous drag torque divided by the input speed."""
 
     sliding: float
     static: float
@@ -335,8 +339,8 @@ class BearingTorques(NamedTuple):
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """Return the friction of every link with bearing friction; viscous drag is included if its absolute speed is
-    known.
+    """Return the friction of every link with bearing friction; viscous drag is included if speeds and torques have
+    units.
     """
     train, unit = setting.train, _radians_per_second(setting)
     found = {}

@@ -70,6 +70,7 @@ def find_extreme(
     highest = np.argsort(-signed.reshape(-1, NODES).max(axis=1), kind="stable")[:_CELLS]
     top = int(np.argmax(signed))
     best, at = float(signed[top]), float(cells.turns[top])
+    # inside the cell: beyond its end another transmission function may apply
     low, high = cells.low[highest] + cells.aside, cells.high[highest] - cells.aside
     for _ in range(_ROUNDS):
         grid = low[:, None] + (high - low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)
@@ -104,11 +105,15 @@ def solve(
     if setting is None:
         return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
     if not 0 < turns <= MOST_TURNS:
-        what, why = f"turns = {turns:g}", f"a run has more than 0 and at most {MOST_TURNS:g} turns"
+        what, why = f"turns = {turns:g} is out of range", f"a run has more than 0 and at most {MOST_TURNS:g} turns"
         raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
     if samples < 2:
         raise QuestionError(
-            Problem(f"samples = {samples}", "at least two positions of the input are needed", "pass samples >= 2")
+            Problem(
+                f"samples = {samples} is too small",
+                "at least two positions of the input are needed",
+                "pass samples >= 2",
+            )
         )
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"

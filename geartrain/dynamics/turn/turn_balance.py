@@ -82,7 +82,7 @@ class _Trial:
 def solve_positions(
     columns: Sequence[ColumnPieces], parts: Sequence[Block], known: Floats
 ) -> tuple[list[BalanceLayer], bool]:
-    """Return every solution of the balance at every position, and whether all patterns were tried.
+    """Return every solution of the balance at every position, and True if all patterns were tried.
 
     known   known torques of each row, shape (rows, n)
     """
@@ -102,7 +102,7 @@ def solve_positions(
 
 
 def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> tuple[list[_Trial], bool]:
-    """Return the distinct consistent solutions of one block, and whether all patterns were tried."""
+    """Return the distinct consistent solutions of one block, and True if all patterns were tried."""
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)
@@ -170,6 +170,7 @@ def _eliminated(
     values = np.empty((size, len(block.columns), 1))
     regular = np.zeros(size, bool)
     if len(block.rows) == len(block.columns):
+        # Hadamard's bound makes the test independent of the units of the rows
         lengths = np.linalg.norm(matrices, axis=2).prod(axis=1)
         regular = np.abs(np.linalg.det(matrices)) > SINGULAR * lengths
         values[regular] = np.linalg.solve(matrices[regular], right[regular])
@@ -256,7 +257,8 @@ class PositionTorques(NamedTuple):
     valid: Bools
     """True at positions where a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """True at positions where no choice of flanks agrees with the signs of the torques."""
+    """True at positions where a link rests within its backlash, or where no choice of flanks agrees with the torques.
+    """
     layers: Floats
     torque: Floats
     """Unknown torque on each requested link about its own axis, in the solution with minimum loss, shape (requested,
@@ -287,6 +289,8 @@ class PositionTorques(NamedTuple):
 
 class _State(NamedTuple):
     """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
+
+    Only the first of several equal planets has torques here.
 
     Of several equal planets only the first has torques here.
     """
@@ -329,7 +333,7 @@ class TurnBalance:
 
     @cached_property
     def outside(self) -> tuple[str, ...]:
-        """Links with an external torque, which may do work."""
+        """Links with a requested torque or a load, whose external torques may do work."""
         return tuple(dict.fromkeys((*self.requested, *self.loads)))
 
     @cached_property
@@ -364,6 +368,7 @@ class TurnBalance:
         """
         size = min(_CHUNK, self.motion.composition.chunk)
         parts = []
+        # at least one chunk, so that the arrays of an empty run have the right shapes
         for start in range(0, max(len(turns), 1), size):
             parts.append(self._chunk(turns[start : start + size], static))
             if self.on_done is not None:

@@ -172,6 +172,7 @@ class TurnRun:
         for column in coasting.T:
             names = frozenset(name for name, coasts in zip(train.flanked, column, strict=True) if coasts)
             sets[names] = sets.get(names, 0) + 1
+        # kinks of rarer sets are found later, as sign changes within cells
         usual = sorted(sets, key=lambda names: -sets[names])[:_MOST_SETS]
         return np.concatenate([train.motion.kinks(names, self.span) for names in usual])
 
@@ -179,6 +180,7 @@ class TurnRun:
     def narrowest(self) -> float:
         """Period of the fastest transmission function [revolutions of the input]."""
         fastest = max((float(each.cycles) for each in self.train.motion.sources.values()), default=0.0)
+        # the length of the run if no pair is evaluated at positions
         return 1 / max(fastest, 1 / self.span)
 
     @cached_property

@@ -2,10 +2,10 @@
 
 link_inertia        moments of inertia of links, declared or by Green's theorem from the outlines of wheels
 inertial_contacts   torques that pairs carry due to inertia, loads and friction (d'Alembert's principle)
-separation_rate     the rate of the input at which teeth first separate (`find_separation`), and impacts of teeth
+separation_rate     rate of the input at which teeth first separate (`find_separation`), and impacts of teeth
 time_case           inertia, drag, restitution and the drive of a train in one state
-train_model         a train as coordinates and contacts, with ideal pairs eliminated exactly
-compliant_train     the same with stiffness and damping of teeth
+train_model         train as coordinates and contacts, with ideal pairs eliminated exactly
+compliant_train     train model with stiffness and damping of teeth
 contact_model       coordinates, contacts, bearings, stops and springs in solved order: the arrays of the kernels
 pair_tables         transmission functions as tables of polynomials between kinks
 rubbing_arms        friction of teeth and pins as an addition to the lever arm of the driver

@@ -49,7 +49,7 @@ _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of 
 
 @dataclass(frozen=True)
 class CompliantTrain(TrainModel):
-    """Contact model of a train with compliant teeth in one case; `restitution` overrides the declared coefficients."""
+    """Contact model of a train with compliant teeth in one state; `restitution` overrides the declared coefficients."""
 
     restitution: float | None = None
 
@@ -74,7 +74,7 @@ class CompliantTrain(TrainModel):
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Texts on the estimates that replace missing declarations."""
+        """Notes on the estimates that replace undeclared stiffness and damping."""
         names = [pair.name for pair in self.model.pairs]
         yields = [self.table.pairs[name] for name in names]
         notes = [each.note for each in yields if each.note]
@@ -102,7 +102,9 @@ class CompliantTrain(TrainModel):
         """
         if self.case.escapements:
             what = f"'{self.train.name}' has an escapement, which compliant teeth do not support"
-            raise QuestionError(Problem(what, "the stops of an escapement are rigid", "use rigid teeth"))
+            raise QuestionError(
+                Problem(what, "the stops of an escapement are rigid", "use rigid teeth (`--model rigid`)")
+            )
         lacking = [pair.name for pair in self.model.pairs if pair.name not in self.table.pairs]
         if lacking:
             what = f"the stiffness of {', '.join(lacking)} is not known"
@@ -205,7 +207,7 @@ class CompliantTrain(TrainModel):
 
 @dataclass(frozen=True)
 class PairCompliance:
-    """Torsional stiffness and damping of one pair about its driven wheel, with the driver fixed."""
+    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
 
     stiffness: float
     source: Literal["declared", "estimated"]
@@ -335,6 +337,7 @@ def damping_ratio(restitution: float) -> float:
     from scipy.optimize import brentq
 
     wanted = max(restitution, _MINIMUM)
+    # the root is bracketed: at a ratio of 10 the coefficient is 0.002, below the minimum
     return float(brentq(lambda ratio: restitution_at(ratio) - wanted, 0.0, 10.0, xtol=1e-14)) if wanted < 1 else 0.0
 
 

@@ -1,8 +1,9 @@
 """Model of a train for the kernels: coordinates, contacts, bearings, stops and springs, with an elimination order.
 
-The coordinates are the independent motions while no contact touches. A pair has two rows over them, the speeds of its
-driver and of its driven side in forward angles. In the solved order each touching pair determines one coordinate from
-earlier ones; that coordinate appears in only one side of the pair. Prescribed coordinates come first.
+The coordinates are the independent motions while no contact touches. A pair has two rows over the coordinates: the
+speeds of its driver and of its driven side in forward angles. In the solved order each touching pair determines one
+coordinate from earlier coordinates; this coordinate appears on only one side of the pair. Prescribed coordinates come
+first.
 """
 
 from __future__ import annotations
@@ -40,10 +41,11 @@ class ContactPair:
     start: tuple[float, float]
     """Forward angles of driver and driven side where all coordinates are 0 [rad]."""
     front: TabledFunction
-    """Driven angle by the driver's angle, in contact on the drive flank [rad]."""
+    """Driven angle as a function of the driver's angle, in contact on the drive flank [rad]."""
     back: TabledFunction
-    """Driven angle by the driver's angle, in contact on the coast flank [rad]; the object `front` for a pair without
-    backlash.
+    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; for a pair without
+    backlash it is
+    the same object as `front`.
     """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
@@ -67,7 +69,7 @@ class ContactPair:
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
 
     def could_determine(self, coordinate: int) -> bool:
-        """Return whether one side only contains the coordinate, with a coefficient that never vanishes."""
+        """Return True if exactly one side contains the coordinate, with a coefficient that never vanishes."""
         driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
         return driven != driver and (driven or self.has_no_dwell)
 
@@ -95,7 +97,10 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring with the torque stiffness (rest + rate t - angle) on a form of the coordinates [N m/rad, rad, rad/s]."""
+    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates [N m/rad,
+    rad,
+    rad/s].
+    """
 
     name: str
     angle: Form
@@ -105,7 +110,7 @@ class Spring:
 
 
 class SolvedOrder(NamedTuple):
-    """Elimination order of the coordinates.
+    """Order in which the kernels eliminate the coordinates, and the pair that determines each coordinate.
 
     `owner` is the index of the pair that determines each coordinate, -1 for none.
     """
@@ -116,7 +121,7 @@ class SolvedOrder(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """Contact model of a train for simulation in time."""
+    """Contact model of a train for time-domain simulation: matrices, torques, contacts, bearings, stops and springs."""
 
     mass: Floats
     """Mass matrix over the coordinates [kg m2]."""
@@ -136,7 +141,7 @@ class ContactModel:
 
     @cached_property
     def order(self) -> SolvedOrder:
-        """Elimination order.
+        """Order in which the coordinates are eliminated, and the pair that determines each coordinate.
 
         A pair whose row has one undetermined coordinate determines it; if no pair has, one coordinate is left free.
         """
@@ -161,6 +166,7 @@ class ContactModel:
                 rows = [each for m in left for each in self.pairs[m].row if each not in order]
                 order.append(next((each for each in rows if each not in driven), rows[0]))
                 owner.append(-1)
+        # coordinates that appear in no pair
         rest = [each for each in range(len(self.torque)) if each not in order]
         order += rest
         owner += [-1] * len(rest)
@@ -181,6 +187,7 @@ class ContactModel:
         for stop in self.stops:
             speed = sum(self.typical[at] * c for at, c in stop.angle.items())
             if torque > 0 and speed:
+                # constant acceleration from rest: pitch = |speed| (torque/heavy) t^2 / 2
                 found.append(float(np.sqrt(2 * stop.pitch * heavy / (torque * abs(speed)))))
         return found
 

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 
 _SLOPE = 1e-12  # tolerance, relative to the mean ratio, of tables of the speed that are differentiated
+# degree of these tables: the derivative loses one order, and few cells must reach the tolerance
 _DEGREE = 9
 _LEAP = 1e-7  # relative to the larger of the input's and the link's maximum speed: smaller jumps are rounding
 _MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
@@ -63,7 +64,7 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links divided by the speed of the input at n positions, and the coupling of the
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the coupling of the
     pairs.
     """
 
@@ -76,7 +77,7 @@ class _State(NamedTuple):
 
 
 class InertialContacts:
-    """Torque that each pair of a moving train must transmit at every position."""
+    """Computation of the torque that each pair of a moving train must transmit at every position."""
 
     def __init__(
         self,
@@ -155,6 +156,7 @@ class InertialContacts:
             S = composition.driver_angle(source, phase, error)
             turning = source.mean + sum(sign * found.rate[link] for link, sign in composition.turned_by(source))
             slope[row] = source.sense * (source.transmission.speed(S) - float(source.transmission.ratio))
+            # second derivative of the error at constant speed of the driver: (d tau/dS) S'^2
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
             arm[row] = slope[row]
             if source.id in self.rubbing:
@@ -199,7 +201,7 @@ class InertialContacts:
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques with the driving torque of the crank subtracted, which supplies all virtual work."""
+        """Return the torques minus the driving torque of the crank, such that the total virtual power is 0."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -243,8 +245,8 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 
 
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
-    """Return a table of d tau / dS of a transmission function [1/rad], from a table of its speed divided at its
-    kinks.
+    """Return a table of d tau / dS of a transmission function [1/rad], the derivative of a table of its speed ratio
+    tau.
     """
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(
@@ -290,7 +292,7 @@ def find_inertial_loads(
             if _is_plain(torque):
                 what = f"the {key} torque of '{link}', {torque}, has no unit"
                 raise QuestionError(
-                    Problem(what, "torques are compared with inertias in kg m2", f"write for example '{torque} N m'")
+                    Problem(what, "torques are compared with inertias in kg m2", f"for example, write '{torque} N m'")
                 )
     return InertialLoads(
         {each.link: each.value for each in inertias},
@@ -328,7 +330,7 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
     """Return loads and bearing friction by link.
 
-    Loads on inputs do no virtual work unless a crank drives, so they are left out.
+    Loads on inputs do no virtual work unless a crank drives, so they are omitted.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

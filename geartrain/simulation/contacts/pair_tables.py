@@ -51,7 +51,7 @@ class PairTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """Function slope S + periodic table, with the minimum jump of its derivative, for `PairTables`."""
+    """Function of a driver angle S, slope S + a periodic table, with the minimum jump of its derivative."""
 
     slope: float
     table: CellTable

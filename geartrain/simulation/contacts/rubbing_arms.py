@@ -1,8 +1,9 @@
 """Friction terms of the driver's lever arm of a pair: T_1 = (tau + more) T_2, docs/dynamics.md (10).
 
-There are four cases of flank and sense of rotation. On one flank the sliding velocity changes its sign with the sense
-of rotation. A contact that transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards requires
-tau/eta(f) of the driver, and tau/eta(-f) backwards, whichever wheel is the power input.
+There are four cases: two flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign
+with the sense of rotation. If a contact transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards,
+the driver's torque is tau/eta(f) times the driven torque, and tau/eta(-f) times it backwards, whichever wheel is the
+power input.
 """
 
 from __future__ import annotations
@@ -95,10 +96,10 @@ def _friction_term(
 def separate_rubbing(
     moving: MotionProblem, gears: Sequence[GearPair] = ()
 ) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
-    """Return friction terms of the drive flanks by pair, and the names of other pairs and pins with losses.
+    """Return friction terms of the drive flanks by pair, and the names of the pairs and pins whose losses have no term.
 
-    Friction terms are returned for teeth with a variable ratio. Teeth that friction locks at some angle and gears
-    with a declared efficiency are among the others.
+    Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
+    some angle, and gears with a declared efficiency below 1 have none.
     """
     found: dict[str, FlankArms] = {}
     left = []

@@ -100,7 +100,7 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` gives a result: a link behind the input has an inertia, and torques have
+    """Return True if `find_separation` has a result: a link that is not prescribed has an inertia, and torques have
     units.
     """
     declared = train.declaration
@@ -147,6 +147,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
     inertias = {each.link: each.value for each in find_link_inertias(train, state)}
     moving = find_motion_problem(train, state)
+    # real teeth lock such a train, so that it has no motion
     if moving.contradictions():
         return {}
     every = {link: (link, moving.frame) for link in train.declaration.links}
@@ -259,7 +260,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
 
 
 def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """Return the rate above which a pair separates [turn/s] and its position [turn], as text."""
+    """Return the rate above which a pair separates [turn/s] and its position [turn], as strings."""
     if pair.rate is None:
         return "never", "-"
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"

@@ -1,4 +1,4 @@
-"""Data of a simulation in time other than the kinematics: inertia, drag, restitution and drive, in SI units."""
+"""Data of a time-domain simulation other than the kinematics: inertia, drag, restitution and drive, in SI units."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class PowerInput:
     """Drive of a train: a prescribed speed, a torque, a spring or a compliant hand."""
 
     link: str
-    """Link on which it acts."""
+    """Link on which the drive acts."""
     kind: Literal["rate", "torque", "spring", "hand"]
     rate: float = 0.0
     """Prescribed speed of the link or of the hand [rad/s]."""
@@ -46,7 +46,7 @@ class PowerInput:
 
 @dataclass(frozen=True)
 class TimeCase:
-    """Train in one state, with the data of its motion in time."""
+    """Data of a train in one state for time-domain simulation, in SI units."""
 
     drive: PowerInput
     """Drive of the train; `rate` is the mean speed of the driving link, which sets the time scale [rad/s]."""
@@ -76,9 +76,9 @@ def find_time_case(
     restitution: float | None = None,
     scale: float | None = None,
 ) -> TimeCase:
-    """Return the declared data of one case; `rate` [rad/s of the first input that turns] and `restitution` override
-    them.
+    """Return the data of one state in SI units; `rate` and `restitution` override the declared values.
 
+    rate    speed of the first input that turns [rad/s]
     scale   magnitude of the rate if none is declared either, for results that do not depend on it
     """
     links = {name: link for name, link in train.links.items() if name != train.frame}
@@ -91,6 +91,7 @@ def find_time_case(
         # a stop has only the restitution of the whole train
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
+    # each beat lets half a tooth pass
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
     drive = _power_input(train, case, None if rate is not None else case.drive, problem, turning)
     if drive.kind == "rate" and passed:
@@ -115,7 +116,7 @@ def find_time_case(
 def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
     """Raise `QuestionError` if a prescribed speed would make an escapement pass more than one tooth per beat.
 
-    passed   speed of the escape wheel relative to its bearing link, over the driving link's
+    passed   speed of the escape wheel relative to its bearing link, divided by the speed of the driving link
     """
     beats = train.escapement
     if beats is None or not problem.ratio(drive.link):
@@ -140,9 +141,7 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s]: as declared, or of the escapement, or of a hand, or else
-    `scale`.
-    """
+    """Return the speed of the driving link [rad/s] from the rate, else from the escapement, the hand, or `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.driving_link])

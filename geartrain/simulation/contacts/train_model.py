@@ -63,17 +63,18 @@ class SlackPin(ExactRatio):
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio at pin angles S [rad]."""
         square, half = self.transmission._reach(S)[1], self.clearance / 2
+        # derivative of asin(half/rho), with d(rho^2)/dS = 2 r e sin S
         turning = half * self.transmission.r * self.transmission.e * np.sin(S) / (square * np.sqrt(square - half**2))
         return np.asarray(self.transmission.speed(S) - self.side * turning)
 
 
 @dataclass(frozen=True)
 class TrainModel:
-    """Contact model of a train in one case.
+    """Contact model of a train in one state.
 
     problem   rows, mean speeds, transmission functions and drivers of the train
-    case      inertia, drag, and the drive
-    tree      turning pairs of the train
+    case   inertia, drag, and the drive
+    tree   turning pairs of the train
     """
 
     train: Train
@@ -98,7 +99,7 @@ class TrainModel:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Texts on effects that are not included."""
+        """Notes on effects that the simulation does not include."""
         found = []
         if not self.contacts:
             found.append("backlash and impacts: no pair has real teeth, a pin or losses, so all links turn as one")
@@ -109,7 +110,7 @@ class TrainModel:
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Texts on the estimates that replace missing declarations."""
+        """Notes on the estimates that replace undeclared stiffness and damping; empty for rigid teeth."""
         return ()
 
     @property

@@ -39,7 +39,7 @@ _UNITS = {
 
 
 class TrainSlave(Fmi2Slave):  # type: ignore[misc]
-    """Slave of the train whose declaration is packed in the unit's resources."""
+    """Co-simulation slave for the train whose declaration is in the resources of the unit."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
@@ -158,6 +158,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         try:
             simulation = self.simulation
             self._begun = True
+            # rounding of the tool's times must not give a negative duration
             simulation.advance(max(0.0, current_time + step_size - self._start - simulation.time))
         except GearTrainError as error:
             self.log(str(error), Fmi2Status.error)

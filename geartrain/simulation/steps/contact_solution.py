@@ -144,14 +144,14 @@ class StepEquations(NamedTuple):
 
 
 class StepRules(NamedTuple):
-    """Numerical parameters of a run."""
+    """Numerical parameters of the time steps of a run: length, tolerances and limits."""
 
     step: float
     """Time step [s]; `stride` is the number of steps between samples."""
     stride: int
     share: float
     """Fraction of the step at which forces are evaluated: 1 (implicit Euler) for rigid teeth, 1/2 (midpoint rule) for
-    compliant ones.
+    compliant teeth.
     """
     creep: float
     """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
@@ -306,7 +306,7 @@ AT_ONCE = 6
 def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
-    """Correct the wrong contact states, all or only the one of lowest index (Murty's method); return their number."""
+    """Correct the wrong contact states, all or only the state of lowest index (Murty's method); return their number."""
     # with `single` the first wrong state ends the search, pairs before bearings before stops
     found = correct_pairs(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):
@@ -349,7 +349,7 @@ def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquation
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, and stick those that turn against their friction; return the number of
+    """Release bearings that creep too fast, and stick bearings that turn against their friction; return the number of
     changes.
     """
     found = 0

@@ -43,9 +43,8 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run.
-
-    Its fields are the time step [s], the numbers of skipped and of counted steps, and the steps between samples.
+    """Time steps of a run: their length [s], the numbers of skipped and of counted steps, and the steps between
+    samples.
     """
 
     step: float
@@ -93,9 +92,8 @@ def simulate(
 ) -> SimulatedRun:
     """Return the results of a simulated run; with `fast` the kernels are compiled.
 
-    on_done   called with the steps done since the last call; the run stops if it returns True, and the plan of the
-              result
-              has the number of counted steps
+    on_done   called with the steps done since the last call; if it returns True, the run stops, and the plan of the
+              result has the number of counted steps
     yields    stiffness and damping of each pair; None for rigid teeth
     """
     system, n = model.system(plan.step, yields), len(model.torque)
@@ -108,6 +106,7 @@ def simulate(
     skip = plan.skip - plan.skip % plan.stride
     rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps), 1.0 if yields is None else 0.5)
     run = run_steps.chosen(fast)
+    # whole samples, so that no sample is divided between two calls of the kernel
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def go(steps: int, counted: bool) -> int:
@@ -200,7 +199,7 @@ def step_rules(
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     """Return the initial state with all coordinates at 0.
 
-    The speeds are the model's initial speeds, or those with all front flanks in contact.
+    The speeds are the model's initial speeds, or the speeds with all front flanks in contact.
     """
     n, pairs = len(model.torque), len(model.pairs)
     place = {each: at for at, each in enumerate(model.order.coordinates)}
@@ -255,7 +254,7 @@ def empty_equations(n: int, pairs: int, stops: int) -> StepEquations:
 
 
 def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:
-    """Return the data of compliant teeth; zeros for rigid ones."""
+    """Return the data of compliant teeth, with zero stiffness and damping for rigid teeth."""
     stiffness, damping = (np.zeros(pairs), np.zeros(pairs)) if yields is None else yields
     return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2)))
 

@@ -285,7 +285,7 @@ def find_bounds(
 ) -> None:
     """Compute speed ratios, lever arms and bounds k of both flanks at the extrapolated positions.
 
-    Closing speeds are those before the step.
+    Closing speeds are the speeds before the step.
     """
     for m in range(len(system.stiff)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0

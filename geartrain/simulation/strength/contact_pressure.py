@@ -111,7 +111,7 @@ class ContactPlace(Result):
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """Load on a pair with a path of contact."""
+    """Line contact of a loaded pair with a path of contact: forces and pressures along the path."""
 
     path: PathOfContact
     """Path of contact, lengths in modules."""
@@ -155,9 +155,9 @@ class ContactLoad:
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """Return the arcs X between which one tooth pair carries the whole load.
+        """Return the arcs X between which one tooth pair carries the whole load [module].
 
-        If two pairs never touch at once, they are the ends of the path.
+        With a contact ratio below 1 the result is both ends of the path of contact.
         """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
@@ -306,7 +306,9 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
         why = f"their generatrices cross at only {crossing:.3g} rad"
         raise RangeError(
             Problem(
-                "two parallel cylinders touch along a line", why, "use the pressure of a line contact, `hertz_pressure`"
+                "nearly parallel cylinders have no contact ellipse",
+                why,
+                "use the pressure of a line contact, `hertz_pressure`",
             )
         )
     else:
@@ -392,7 +394,7 @@ class CrossedWheels:
 
     @property
     def contact_ratio(self) -> float:
-        """Contact ratio: length of contact over the base pitch."""
+        """Contact ratio: length of contact divided by the base pitch."""
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
@@ -436,10 +438,12 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
 
 def deepest_passage(load: ContactLoad, gear: int) -> float:
-    """Return the maximum force per width times sliding distance at a point of a flank in one passage [N]:
-    docs/strength.md (15).
+    """Return the maximum of force per width times sliding distance at a point of a flank in one passage [N]:
+    docs/strength.md
+    (15).
 
-    Multiplied by K and divided by the hardness it is a depth. A point at which the contact does not move is left out.
+    This value times the wear coefficient K, divided by the hardness, is a wear depth. A point at which the contact does
+    not move is omitted.
     """
     approach, recess = load.path.arcs
     X = np.linspace(-approach, recess, 801)

@@ -105,7 +105,7 @@ class RackPair:
             raise RangeError(
                 Problem(
                     what,
-                    "its load sharing applies to contact ratios from 1 to 2",
+                    "its load sharing applies to contact ratios from 1 to 2, excluding 2",
                     "use the stresses by Lewis and Hertz",
                 )
             )
@@ -117,7 +117,7 @@ class RackPair:
 
 @dataclass(frozen=True, slots=True)
 class IsoContact(Result):
-    """Contact stress by ISO 6336-2."""
+    """Contact stress of a gear pair by ISO 6336-2, with the factors from which it is computed."""
 
     ZH: float
     """Zone factor."""
@@ -169,6 +169,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
     ZH = sqrt(2 * cos(pair.lean.base) * cos(aw) / (cos(a) ** 2 * sin(aw)))
     Zeps, Zbeta = pair.lean.Zeps(eps), pair.lean.Zbeta
     far = [sqrt((each.tip / (each.z / 2 * cos(a))) ** 2 - 1) for each in (pair.first, pair.second)]
+    # M1 and M2 convert the stress at the pitch point to the inner points of single contact
     M1 = tan(aw) / sqrt((far[0] - 2 * pi / z1) * (far[1] - (eps - 1) * 2 * pi / z2))
     M2 = tan(aw) / sqrt((far[1] - 2 * pi / z2) * (far[0] - (eps - 1) * 2 * pi / z1))
     # the gear ratio of the standard
@@ -181,6 +182,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -> float:
     """Return the radius of the outer point at which one tooth pair carries the whole load [module]."""
     base = wheel.z / 2 * cos(angle)
+    # (contact ratio - 1) base pitches before the tip, measured along the line of action
     return sqrt((sqrt(wheel.tip**2 - base**2) - pi * cos(angle) * (contact_ratio - 1)) ** 2 + base**2)
 
 
@@ -209,6 +211,7 @@ def root_stress(
     lever = (reach - z * cos(pi / 3 - th) - G / cos(th) + rho) / 2
     YF = 6 * lever * cos(aF) / (chord**2 * cos(angle))
     L, q = chord / lever, chord / (2 * radius)
+    # stress correction factor of ISO 6336-3, given for 1 <= q < 8
     YS = (1.2 + 0.13 * L) * q ** (1 / (1.21 + 2.3 / L))
     return IsoRoot(chord, radius, lever, YF, YS, tangential / (width * module) * YF * YS)
 
@@ -335,9 +338,8 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return a force at `radius` whose line of action passes the wheel's axis at the distance `arm` [module].
-
-        docs/strength.md (4).
+        """Return a force at `radius` whose line of action passes the axis at the distance `arm`, docs/strength.md (4)
+        [module].
         """
         # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
@@ -371,6 +373,7 @@ class ToothSide:
             deepest = int(np.argmin(x * self.outward))
             return RootSection(float(x[deepest]), float(2 * y[deepest]), 0.0)
         x, y, lever = x[below], y[below], lever[below]
+        # bending stress 6 F l/(b s^2), with the force F = torque/apex across the centre line
         factors = 6 * lever / (load.apex * (2 * y) ** 2)
         at = int(np.argmax(factors))
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))

@@ -53,13 +53,14 @@ _POSITIONS = 401
 
 @dataclass(frozen=True)
 class WheelUnderLoad:
-    """Wheel of a loaded pair."""
+    """Wheel of a loaded pair: its teeth, material, design torque and revolutions."""
 
     name: str
     gear: int
     """Number of the gear in the transmission function, 1 or 2."""
     z: float
-    """Number of teeth; `teeth` are the cut teeth, in modules. For a bevel, both are those of the virtual spur wheel."""
+    """Number of teeth; `teeth` are the cut teeth, in modules. For a bevel, both fields describe the virtual spur wheel.
+    """
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
@@ -75,7 +76,7 @@ class WheelUnderLoad:
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """Gear pair under load; lengths in mm."""
+    """Gear pair under load, whose pressures, stresses and wear are computed; lengths in mm."""
 
     mesh: GearMesh
     """Mesh of the pair."""
@@ -92,7 +93,7 @@ class PairUnderLoad:
     swing: float = 1.0
     """Ratio of the design torque, for stresses, to the mean torque, for wear."""
     remarks: tuple[str, ...] = ()
-    """Restrictions that apply to its wheels."""
+    """Restrictions that apply to the wheels of the pair."""
 
     def strength(self) -> PairStrength:
         """Return the stresses, safety factors and wear of the pair."""
@@ -131,7 +132,7 @@ class PairUnderLoad:
 
     @property
     def tangential(self) -> float:
-        """Tangential force at the pitch line [N]: the larger of both wheels, because friction reduces the other
+        """Tangential force at the pitch line [N]: the larger force of both wheels, because friction reduces one
         torque.
         """
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))

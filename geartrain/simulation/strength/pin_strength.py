@@ -41,13 +41,13 @@ class PinnedDisc:
         return elasticity_factor(*(Elasticity.of(material) for _, material in self.materials))
 
     def lobes(self, pair: str, disc: CycloidalDisc, module: float) -> PinContact:
-        """Return the contact of its lobes with the pins of the ring; `module` in mm."""
+        """Return the contact of the disc's lobes with the pins of the ring; `module` in mm."""
         load = lobe_load(disc)
         force = load.force * abs(self.torque) * _MM / (disc.lobes / 2 * module)
         return self._contact(pair, disc.pins, force, load.curvature / module)
 
     def holes(self, coupling: PinsInHoles) -> PinContact | None:
-        """Return the contact of its holes with the pins of a flange; None if sizes are not declared."""
+        """Return the contact of the disc's holes with the pins of a flange; None if sizes are not declared."""
         if coupling.pin_radius is None or coupling.offset is None or coupling.pin_diameter is None:
             return None
         circle, offset, pin = (
@@ -101,7 +101,8 @@ def hole_share(pins: int) -> float:
     """Return the maximum force on one of the pins in holes, times the radius of their circle, divided by their torque:
     docs/strength.md (29).
 
-    All pins press in the same direction, from their centres to those of the holes; those on one side carry the load.
+    All pins press in the same direction, from the centre of a pin to the centre of its hole; the pins on one side carry
+    the load.
 
     >>> round(hole_share(6), 6), round(hole_share(12), 6)
     (0.666667, 0.333333)

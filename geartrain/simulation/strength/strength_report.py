@@ -34,9 +34,9 @@ _CONTACT = (
 )
 _POINT = (
     "Teeth on crossed axes touch at a point: Hertz's ellipse, with the load shared equally by the tooth pairs in "
-    "contact. The pressure is the maximum where the fewest touch; flank safety is 1.6 times the strength over it. At "
-    "the root one tooth pair carries the whole load at the tip, in the normal section. It bends a length of the tooth "
-    "of twice the lever arm. The stress concentration of the fillet is not included."
+    "contact. The pressure is the maximum where the fewest touch; flank safety is 1.6 times the strength divided by "
+    "the pressure. At the root one tooth pair carries the whole load at the tip, in the normal section. It bends a "
+    "length of the tooth of twice the lever arm. The stress concentration of the fillet is not included."
 )
 _WHERE = {
     "root": "at the root of its teeth",

@@ -78,7 +78,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     wear_coefficients: WearRange = NO_WEAR
     """Minimum and maximum wear coefficient K of Archard's law."""
     neglected: tuple[NeglectedEffect, ...] = ()
-    """Reasons why pairs have no results, by name of the pair."""
+    """Pairs and arbors without results, and neglected torque variations, each with the reason."""
     forces: tuple[WheelForce, ...] = ()
     """Tooth forces of all pairs that carry a torque and whose module is known."""
     points: Mapping[str, PointContact] = field(default_factory=dict)
@@ -127,7 +127,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
 @dataclass(frozen=True)
 class WeakestPart(Result):
-    """Part with the minimum safety factor.
+    """Part of a train with the minimum safety factor, and its mode of failure.
 
     See Also
     --------
@@ -240,15 +240,18 @@ class WheelStrength(Result):
     torque: float
     """Torque on the wheel [N m]."""
     section: float
-    """Distance of the tooth section with the maximum bending stress from the axis of the wheel [mm]."""
+    """Distance of the tooth section with the maximum bending stress from the axis of the wheel [mm]; 0 for pins."""
     thickness: float
-    """Thickness of the tooth at the section with the maximum bending stress [mm]."""
+    """Thickness of the tooth at the section with the maximum bending stress [mm]; 0 for pins."""
     lewis: float
-    """Lewis form factor Y of the tooth for a load at its tip."""
+    """Lewis form factor Y of the tooth for a load at its tip [1]; 0 for pins."""
     tip_stress: float
-    """Root stress if one tooth pair carries the whole load at the tip [MPa]."""
+    """Root stress if one tooth pair carries the whole load at the tip [MPa]; for pins, the bending stress of a pin."""
     shared_stress: float | None
-    """Maximum root stress if tooth pairs share the load equally [MPa]; None without a path of contact."""
+    """Maximum root stress if tooth pairs share the load equally [MPa]; None for pins, helical teeth, and forms without
+    a path
+    of contact.
+    """
     pressure: float | None
     """Maximum contact pressure while one tooth pair is in contact [MPa]; None if the pressure is unbounded or the form
     has no path of contact.
@@ -258,7 +261,7 @@ class WheelStrength(Result):
     spread: float | None
     """Relative uncertainty of the material's strength; None if it is not known."""
     iso: IsoRoot | None = None
-    """Root stress according to ISO 6336-3, for a wheel that is cut with a hob."""
+    """Root stress according to ISO 6336-3, for a wheel that is cut with a hob; None if the standard does not apply."""
     wear: FlankWear | None = None
     """Wear of the flanks of the wheel; None if the service life or the hardness is unknown."""
 
@@ -291,7 +294,7 @@ class FlankWear(Result):
     mean_depth: WearRange
     """Mean wear depth of the flanks [mm]."""
     depth: WearRange | None
-    """Maximum wear depth of the flanks [mm]; None without a path of contact."""
+    """Maximum wear depth of the flanks [mm]; None for helical teeth and without a path of contact."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces

@@ -31,7 +31,7 @@ WheelParts = tuple[float, float, float | None]
 
 @dataclass(frozen=True)
 class ToothForces:
-    """Tooth forces of one load case."""
+    """Tooth forces at the pitch points of all gear pairs in one load case."""
 
     setting: LoadCase
     modules: Mapping[str, float]
@@ -152,6 +152,7 @@ class ToothForces:
         # the lead is the same at all radii, so the helix angle increases with the radius
         lean = tan(wheel.helix) * self._rolling_radius(circuit, at) / self._radius(circuit, at)
         apart = mesh.separation
+        # 0.0 - x instead of -x avoids -0.0 for spur wheels
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
@@ -235,6 +236,7 @@ def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: i
     direction of its axis, and -1 otherwise. The axial force acts away from the apex.
     """
     apart = abs(tangential) * tan(pressure_angle)
+    # the separating force is perpendicular to the pitch cone
     return PitchForce(tangential, facing * apart * sin(cone), apart * cos(cone))
 
 

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from geartrain.train import ArborSizes, GearPair, Material, Wheel
 
 
+# Julian year, as in the units of declarations
 _YEAR = 365.25 * 86400  # s
 _PINS = "steel"  # material of the pins of couplings if the train declares none
 
@@ -60,7 +61,9 @@ def solve_strength(
     if not has_torque_units(train.declaration, found.state):
         what = "the loads have no unit"
         raise QuestionError(
-            Problem(what, "stresses are computed from torques in N m", "declare them with a unit, such as `-0.5 N m`")
+            Problem(
+                what, "stresses are computed from torques in N m", "declare the loads with a unit, such as `-0.5 N m`"
+            )
         )
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
@@ -89,15 +92,16 @@ class Service:
     """Minimum and maximum wear coefficient; None for `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
-        """Return the range of wear coefficients. Raises `QuestionError` if it is not a range, or a time is not a
-        number.
+        """Return the range of wear coefficients.
+
+        Raises `QuestionError` if the coefficients are not a range, or if `turns` or `years` is not a number.
         """
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
         if not 0 < own.minimum <= own.maximum < inf:
             what = f"{own.minimum:g} to {own.maximum:g} is not a range of wear coefficients"
             raise QuestionError(
-                Problem(what, "K must be positive, with the minimum first", "give for example --wear 1e-7 1e-3")
+                Problem(what, "K must be positive, with the minimum first", "for example, give --wear 1e-7 1e-3")
             )
         return own
 
@@ -110,7 +114,7 @@ class Service:
             raise QuestionError(
                 Problem(
                     "both turns and years are given",
-                    "they are two ways to give the service life",
+                    "turns and years both define the service life",
                     "omit --turns or --years",
                 )
             )
@@ -129,7 +133,7 @@ class Service:
                 Problem(
                     f"'{declared.name}' does not move",
                     "no input has a speed other than 0",
-                    "declare one under `inputs`",
+                    "declare a non-zero speed under `inputs`",
                 )
             )
         if turns is not None:
@@ -171,14 +175,15 @@ class StrengthQuestion:
     meshes: Sequence[GearMesh]
     """Pairs with real teeth, with their drivers in this load case."""
     scale: float | None
-    """Total revolutions per unit of relative speed; None if wear is not requested. `turns` are those of the input."""
+    """Total revolutions per unit of relative speed; None if wear is not requested. `turns` is the number for the input.
+    """
     turns: float | None
     wear: WearRange
     """Minimum and maximum wear coefficient."""
     over: float | None = None
     """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
-    """Maximum torque on the driven side of each pair in these revolutions [N m]."""
+    """Maximum torque on the driven side of each pair over the revolutions `over` [N m]; empty for mean torques."""
     neglected: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
@@ -375,7 +380,9 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates."""
+        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates; None if there is
+        none.
+        """
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
@@ -384,7 +391,7 @@ class StrengthQuestion:
         self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield texts on data that a pair lacks, and on features that are not supported."""
+        """Yield descriptions of the data that a pair lacks, and of features that are not supported."""
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
@@ -404,7 +411,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield texts on data that a pair of any kind lacks."""
+        """Yield descriptions of the missing data that a pair of any kind needs."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
@@ -457,7 +464,7 @@ class StrengthQuestion:
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return the names of pairs of some wheels that carry a torque and whose forces are not known."""
+        """Return the names of the pairs of the given wheels that carry a torque but have no known forces."""
         known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
@@ -503,9 +510,9 @@ class ArborLoad:
 
 
 def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
-    """Return the strength of an arbor between two bearings for any positions of its wheels.
-
-    docs/strength.md (16), (17) and (26).
+    """Return the strength of an arbor between two bearings for any positions of its wheels: docs/strength.md (16), (17)
+    and
+    (26).
     """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
@@ -525,6 +532,7 @@ def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: Arbor
         bending,
         torsion,
         sqrt(bending**2 + 3 * torsion**2),
+        # all transverse forces, and the reaction to their moment, on one pivot
         (load.across + load.couple / span) / (pivot * length),
         load.thrust / shoulder if shoulder > 0 else None,
         strength,
@@ -542,7 +550,8 @@ def torsional_stress(torque: float, diameter: float) -> float:
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:
-    """Return the maximum bending moment of a bar between two bearings [N mm], for any positions of its loads: (26).
+    """Return the maximum bending moment of a bar between two bearings for any positions of its loads [N mm]:
+    docs/strength.md (26).
 
     A transverse force at x L causes F L x (1 - x) there, and a moment at most M max(x, 1 - x).
 

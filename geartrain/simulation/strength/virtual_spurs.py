@@ -109,6 +109,7 @@ class VirtualSpurs:
 
     def count(self, gear: int) -> float:
         """Return the virtual number of teeth, in general not an integer."""
+        # Tredgold's approximation: the back cone is developed into a plane
         return self.middle.cones.teeth_of(gear) / cos(self.middle.cone(gear))
 
     @cached_property

@@ -64,7 +64,7 @@ _Figure = tuple[str, str, float, Literal["mean", "extreme"]]
 
 @dataclass(frozen=True)
 class RunFigures:
-    """Results of one run of a train, with some outputs."""
+    """Results of one run of a train for the requested outputs, computed from the samples and counts of the run."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
@@ -100,7 +100,7 @@ class RunFigures:
         return found
 
     def turns_of(self, link: str) -> Floats:
-        """Return the revolutions of a link since the start."""
+        """Return the revolutions of a link since the start, shape (samples,)."""
         return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
 
     @cached_property
@@ -213,6 +213,7 @@ class RunFigures:
             for each in (link, base):
                 row = names.index(each)
                 mean = float(self.of.problem.ratio(each)) * tau * turns
+                # the last column is position 0, from which angles are counted
                 touching = mean + at[row, :-1] - at[row, -1]
                 parts.append(self.turned[self.of.index[each]] - forwards * touching)
             sense = self.of.sense(link, base)
@@ -273,7 +274,7 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the result of this run, compared with the coarser run; without a comparison if that is None."""
+        """Return the result of this run, compared with the run `coarse` of longer time steps, unless that is None."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]
@@ -406,6 +407,7 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
     found = []
     for at in strongest:
         # a parabola through the logarithms of three bins locates the line between them
+        # the small number avoids log 0 in an empty bin
         left, middle, right = np.log(size[at - 1 : at + 2] + 1e-300)
         shift = (left - right) / 2 / (left - 2 * middle + right)
         frequency = float((at + shift) * bin_width)
@@ -430,8 +432,8 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return harmonic and name of the pair with the lowest harmonic at an order, within the resolution; empty without
-    one.
+    """Return harmonic and name of the pair with the lowest harmonic at an order, within the resolution; "" if no pair
+    has one.
     """
     near = [
         (harmonic, name)

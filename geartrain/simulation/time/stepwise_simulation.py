@@ -86,7 +86,7 @@ class Simulation(Shown):
     ) -> None:
         if not 0 < step < inf:
             what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
-            raise QuestionError(Problem(what, why, "pass a step above 0, for example step=1e-4"))
+            raise QuestionError(Problem(what, why, "pass a step above 0, such as step=1e-4"))
         self._of, self._outputs, self._fast = of, tuple(outputs), fast
         self.step = step
         self.drive_link, self.drive_kind = of.case.drive.link, of.case.drive.kind
@@ -98,6 +98,7 @@ class Simulation(Shown):
             stops = tuple(replace(each, restitution=restitution[each.name]) for each in model.stops)
             model = replace(model, pairs=pairs, stops=stops)
         if self.drive_kind == "rate":
+            # all prescribed speeds keep their ratios to the speed of the drive
             model = replace(model, given={at: speed * self._share for at, speed in model.given.items()})
         self.restitution = {pair.name: pair.restitution for pair in model.pairs}
         self.restitution |= {stop.name: stop.restitution for stop in model.stops}
@@ -153,7 +154,7 @@ class Simulation(Shown):
                 f"a restitution of {outside[0]:g} is out of range",
                 "a coefficient of restitution is from 0 to 1",
             )
-            raise QuestionError(Problem(what, why, "pass for example 0.3"))
+            raise QuestionError(Problem(what, why, "pass a value from 0 to 1, such as 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
         return Simulation(self._of, self._outputs, step, self._fast, bounces, drive, given)
@@ -192,7 +193,7 @@ class Simulation(Shown):
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """Names of the links that are declared as outputs."""
+        """Names of the links of the recorded outputs, each once."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
     def _by_output(self, links: Floats) -> dict[str, float]:
@@ -219,7 +220,11 @@ class Simulation(Shown):
             return
         if self.drive_kind == "spring":
             raise QuestionError(
-                Problem("the drive is a spring", "the torque of a spring cannot be set", "declare another `drive`")
+                Problem(
+                    "the drive is a spring",
+                    "the torque of a spring cannot be set",
+                    "declare a `drive` other than a spring",
+                )
             )
         before, self.drive = self.drive, value
         if self.drive_kind == "hand":

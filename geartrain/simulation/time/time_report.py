@@ -1,4 +1,4 @@
-"""Report of a motion in time, and its data for JSON."""
+"""Report of a time-domain simulation, as a document and as data for JSON."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _CLOSE = 0.01  # target of the relative discretisation error
 
 @dataclass(frozen=True)
 class TimeReport(Result):
-    """Results of a simulation in time, with the predicted input speeds at which teeth separate.
+    """Results of a time-domain simulation, with the predicted input speeds at which teeth separate.
 
     See Also
     --------
@@ -46,11 +46,11 @@ class TimeReport(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the moving links."""
     run: TimeRun
-    """Result of the simulation in time."""
+    """Result of the time-domain simulation."""
 
 
 def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...] = ()) -> TimeReport:
-    """Return the report on a simulation in time, with the input speeds at which teeth first separate.
+    """Return the report on a time-domain simulation, with the input speeds at which teeth first separate.
 
     Parameters
     ----------
@@ -84,8 +84,8 @@ def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...]
 
 
 def describe_time_run(found: TimeReport) -> Document:
-    """Return a document on a simulation in time: separation speed, contacts, drive, outputs, energy, spectra,
-    convergence and inertias.
+    """Return a document on a time-domain simulation: separation, contacts, drive, outputs, energy, spectra and
+    convergence.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Results of a motion in time: angles, speeds, torques, times in contact, impacts, and the energy balance."""
+"""Results of a time-domain simulation: angles, speeds, torques, times in contact, impacts, and the energy balance."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeRun(Tabular, Pictured, TrainResult):
-    """Motion of a train in time, simulated with a constant time step h and again with h/2. All data are from the run
-    with h/2.
+    """Time-domain simulation of a train with a constant time step h, and again with h/2. All data are from the run with
+    h/2.
 
     See Also
     --------
@@ -42,7 +42,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         "* speed (rad/s)": "Speed of the link [rad/s].",
         "* torque (N m)": "Torque on the driven side of the contact or where power enters, mean between samples [N m].",
         "* gap (rad)": "Distance of the driven side from its flank [rad].",
-        "* ahead (rad)": "Angle by which the output is ahead of its motion without inertia [rad].",
+        "* ahead (rad)": "Angle by which the output is ahead of the motion with all drive flanks in contact [rad].",
     }
 
     PAGE = "simulation.time.time_report:time_document"
@@ -210,12 +210,14 @@ class ContactInTime(Result):
     peak: float | None = None
     """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts have impulses."""
     dynamic_factor: float | None = None
-    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None if no speed is prescribed."""
+    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth, and if no speed is
+    prescribed.
+    """
 
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """Impacts of a run in the order of time, up to a storage limit.
+    """Impacts of a run in chronological order, up to a storage limit.
 
     See Also
     --------

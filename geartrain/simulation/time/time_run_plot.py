@@ -1,4 +1,4 @@
-"""Plot of a motion in time: gaps of teeth with impacts, deviations of outputs, and their spectrum."""
+"""Plot of a time-domain simulation: gaps of teeth with impacts, deviations of outputs, and their spectrum."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     Raises
     ------
     QuestionError
-        If no pair has backlash and no output vibrates.
+        If no pair has backlash, no output vibrates, and the train has no escapement.
 
     Examples
     --------
@@ -124,8 +124,8 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the pairs with backlash in the order of the train; at most `_PAIRS`, those that are apart for most of the
-    time.
+    """Return the pairs with backlash in the order of the train: at most `_PAIRS`, which are apart for the longest
+    times.
     """
     names = [
         name
@@ -186,7 +186,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Mark impacts at the lower edge of a panel, with sizes by their energy."""
+    """Mark impacts at the lower edge of a panel; the area of a marker grows with the energy of its impact."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return
@@ -196,6 +196,7 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
     energy = run.impacts.energy[own]
     near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
     if near.any():
+        # matplotlib's size is an area, so the area of a marker grows with the energy
         size = 4 + 36 * energy[near] / energy.max()
         foot = panel.get_xaxis_transform()
         panel.scatter(

@@ -1,4 +1,4 @@
-"""Study of the motion of a train in time: two runs with time steps h and h/2, and their comparison."""
+"""Time-domain simulation of a train by two runs with time steps h and h/2, whose results are compared."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _SLOW = 7e-5  # time of one step of one contact in plain Python [s]
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """Study of the motion of a train in time by two runs."""
+    """Time-domain simulation of a train by two runs, the second with half the time step of the first."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
@@ -55,9 +55,9 @@ class TimeStudy:
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
-            what = f"turns = {self.turns:g}, skip = {self.skip:g}"
+            what = f"turns = {self.turns:g} or skip = {self.skip:g} is out of range"
             raise QuestionError(
-                Problem(what, "turns must be above 0, and skip 0 or more", "pass for example turns=10, skip=1")
+                Problem(what, "turns must be above 0, and skip 0 or more", "for example, pass turns=10, skip=1")
             )
         if self.steps is not None and self.steps < 1:
             raise QuestionError(
@@ -68,7 +68,7 @@ class TimeStudy:
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:
             what = f"the run would take {self.per_turn * (self.turns + self.skip):.3g} steps"
             raise QuestionError(
-                Problem(what, f"the maximum is {_MOST_STEPS:.0e}, which takes days", "give fewer turns or steps")
+                Problem(what, f"the maximum is {_MOST_STEPS:.0e} steps, which take days", "give fewer turns or steps")
             )
 
     @cached_property
@@ -119,11 +119,10 @@ class TimeStudy:
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
         """Simulate both runs and return the result.
 
-        on_done   called with the fraction of the work of each interval; if it returns True, the result is that of the
-                  completed
-                  part of the first run, without a comparison
+        on_done   called with the fraction of the total work done since the last call; if it returns True, the result is
+                  that of the completed part of the first run, without a comparison
 
-        Raises `KeyboardInterrupt` if it returns True before the counted part begins.
+        Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
         """
         model = self.of.model
         plans = self.plan(1), self.plan(2)

@@ -1,4 +1,4 @@
-"""Entry points of the simulation in time: runs, step-by-step simulation, and vibration modes."""
+"""Entry points of the time-domain simulation: runs, step-by-step simulation, and vibration modes."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DrivenTrain:
-    """Train with its drive for simulation in time; equal planets are merged into one."""
+    """Train with its drive for time-domain simulation; equal planets are merged into one."""
 
     train: TrainMechanics
     state: str | None = None
     rate: str | float | None = None
-    """Rate of the first input that turns, as text or in rad/s; None for the declared drive."""
+    """Rate of the first input that turns, as a string with a unit or in rad/s; None for the declared drive."""
     restitution: float | None = None
     """Coefficient of restitution of every impact; None for the declared values."""
     outputs: Sequence[str] = ()
     """Names of recorded outputs or links; by default all outputs, or all links of a train without outputs."""
     without: Sequence[str] = ()
-    """Names of pairs that are left out."""
+    """Names of pairs to omit from the simulation."""
 
     def study(
         self,
@@ -149,7 +149,7 @@ def find_vibration_modes(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not positive."""
+    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not a positive speed."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity
@@ -159,7 +159,7 @@ def radians_per_second(rate: str | float | None) -> float | None:
             rate = Quantity.parse(rate, "speed", plain=True).si
         except PydanticCustomError as error:
             raise QuestionError(
-                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "write for example '1 turn/s'")
+                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "for example, write '1 turn/s'")
             ) from None
     check_numbers(rate=rate)
     if rate is not None and not 0 < rate < inf:
@@ -224,7 +224,7 @@ class VibrationModes(Tabular, Result):
 
 
 def find_modes(of: CompliantTrain) -> VibrationModes:
-    """Return the vibration modes of a train in one case."""
+    """Return the vibration modes of a train in one state."""
     squares, modes = of.vibration
     speeds = np.sqrt(squares)
     # damping ratio of each mode, neglecting coupling of modes by damping

@@ -51,18 +51,10 @@ def test_teeth_that_cannot_turn_fail_the_check_and_the_report(tmp_path, clearanc
     assert data["teeth"][0]["verdict"]["kind"] == kind
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        (("p: 20", "p: 2"), "a wheel of 2 teeth"),
-    ],
-)
-def test_a_pair_the_model_does_not_cover_is_refused_with_what_it_covers(change: tuple[str, str], said: str) -> None:
-    train = load(PAIR.format(rest=TEETH).replace(*change))
-    with pytest.raises(GearTrainError) as caught:
+def test_a_pair_with_too_few_teeth_is_refused() -> None:
+    train = load(PAIR.format(rest=TEETH).replace("p: 20", "p: 2"))
+    with pytest.raises(GearTrainError, match="a wheel of 2 teeth cannot have triangular teeth"):
         _ = train.meshes
-    assert said in str(caught.value)
-    assert "spur wheel" in str(caught.value)
 
 
 def test_an_ideal_pair_costs_nothing_even_among_real_ones() -> None:

@@ -231,8 +231,9 @@ class Triangular(ToothForm):
                     "flanks of fewer teeth do not meet in valleys",
                     f"give at least {FEWEST} teeth, or another tooth_form",
                 )
-        if ring and z1 <= z2 if ring == 1 else ring and z2 <= z1:
-            what = f"a ring of {(z1, z2)[ring - 1]} teeth cannot contain a wheel of {(z2, z1)[ring - 1]} teeth"
+        outer, inner = (z1, z2) if ring == 1 else (z2, z1)
+        if ring and outer <= inner:
+            what = f"a ring of {outer} teeth cannot contain a wheel of {inner} teeth"
             raise refused(what, "it needs at least one tooth more than its pinion", "give the ring more teeth")
         sizes = self._sizes_at_deepest(z1, z2, ring)
         # less distance only makes an overlap worse, and the backlash of such teeth is undefined

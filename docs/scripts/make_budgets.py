@@ -187,7 +187,7 @@ are not declared, the command reports "not declared"; it never assumes that the 
 
 ## Run it
 
-The train `freeth-2021` declares no tooth form. Extend it with the teeth that you assume:
+The train `freeth-2021` declares no tooth form. To examine the effect of real teeth, extend the train with an assumed tooth form:
 
 <!-- file: assumed.yaml -->
 ```yaml

@@ -41,7 +41,7 @@ SHORT = 5.0
 """Processor seconds for the rank where meshes are told, and for what weighs more."""
 LISTED = 20_000
 """Explanations among which a train is looked for."""
-TITLE = "Trains found again"
+TITLE = "Recovery of known trains"
 _LESS = ("reached", "told", "better")
 """What is asked beside a question itself; the last only where that was not finished."""
 _MEMORY = 4.0  # GB for a question

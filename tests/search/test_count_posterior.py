@@ -516,7 +516,7 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
         ({"outputs": ["moon"]}, "no output 'moon'"),
         ({"state": "night"}, "no state 'night'"),
         ({"against": "figures"}, "no output that depends on uncertain counts"),
-        ({"against": "hopes"}, "'hopes' is not a kind of observations"),
+        ({"against": "hopes"}, "'hopes' is not a kind of observation"),
         ({"limit": 0}, "limit is 0"),
         ({"most": 0}, "most is 0"),
         ({"samples": 0}, "samples is 0"),

@@ -537,8 +537,8 @@ def test_what_cannot_be_requested_is_refused_with_a_way_out(options: dict[str, A
     ("doubt", "said"),
     [
         ({"value": 20, "range": [22, 19]}, "is empty"),
-        ({"value": 20, "range": [19, 21], "weights": [1, -1, 1]}, "not probabilities"),
-        ({"value": 20, "range": [19, 21], "weights": [0, 0, 0]}, "not probabilities"),
+        ({"value": 20, "range": [19, 21], "weights": [1, -1, 1]}, "do not define probabilities"),
+        ({"value": 20, "range": [19, 21], "weights": [0, 0, 0]}, "do not define probabilities"),
         ({"value": 20, "range": [1, 10**6]}, "possible counts"),
     ],
 )

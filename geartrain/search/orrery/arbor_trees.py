@@ -188,7 +188,7 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
         raise RangeError(
             Problem(
                 f"{len(admissible)} tooth counts are too many",
-                f"the table of ratios is limited to {_MOST_PAIRS:.0e} entries, one for every two counts",
+                f"the table of ratios is limited to {_MOST_PAIRS:.0e} entries, one for each pair of counts",
                 "narrow the range of tooth counts",
             )
         )

@@ -36,7 +36,8 @@ def write_template(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small commented declaration that runs without changes, to KIND.yaml in this folder or to the file of -o.
+    """Write a small commented declaration that runs without changes, to KIND.yaml in the current folder or to the file
+    of -o.
 
     Example: `geartrain init planetary -o first.yaml`.
     """

@@ -173,7 +173,7 @@ TURNS, SKIP = "10", "1"
 Rate = Annotated[
     str | None,
     typer.Option(
-        "--rate", help="Input speed, in turns per second or with a unit such as '30 rpm'; default: the declared drive."
+        "--rate", help="Input speed, in turns per second or with a unit such as '30 rpm'; default: as declared."
     ),
 ]
 Turns = Annotated[
@@ -188,7 +188,8 @@ Steps = Annotated[
         "--steps",
         min=1,
         max=MOST_COUNT,
-        help="Time steps per revolution of the driving link; the default depends on the tooth counts.",
+        help="Time steps per revolution of the driving link; default: chosen from tooth counts, stiffness and "
+        "escapements.",
     ),
 ]
 Restitution = Annotated[

@@ -57,7 +57,8 @@ def run(
     ] = None,
     exact: Annotated[bool, typer.Option("--exact", help="Move the axes until all pitches are equal.")] = False,
     graph: Annotated[
-        Path | None, typer.Option("--graph", help="File with a graph of gears, two names per line.")
+        Path | None,
+        typer.Option("--graph", help="File with the meshes of a set of gears, one mesh per line as two gear names."),
     ] = None,
     aim: Annotated[
         str,

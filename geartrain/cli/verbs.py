@@ -212,7 +212,8 @@ def usage_problem(error: Any) -> Problem:
         place = param.opts[0] if param.param_type_name == "option" else param.metavar or param.name.upper()
     place = place.strip("{}.'")
     if not what:  # a required parameter
-        return Problem("it is missing", "", f"give {place}; {see}", place)
+        kind = param.param_type_name if param is not None else "argument"
+        return Problem(f"this {kind} is required", "", f"give {place}; {see}", place)
     if one := re.fullmatch(r"'(.*)' is not one of ('.*')", what):
         return Problem(f"'{one[1]}' is not a valid value", "", suggest(one[1], re.findall("'(.*?)'", one[2])), place)
     what = what.partition(", unable to parse")[0].replace("Input should be", "it must be")

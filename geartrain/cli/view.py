@@ -48,7 +48,7 @@ Page = Annotated[
         "--output-file",
         "-o",
         metavar="FILE",
-        help="Write the page to FILE (- is standard output); default: NAME.html in this folder.",
+        help="Write the page to FILE (- is standard output); default: NAME.html in the current folder.",
     ),
 ]
 Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: revolutions of the driving link to show.")]
@@ -68,7 +68,10 @@ def view(
     discs: Annotated[bool, typer.Option("--discs", help="Draw wheels as plain discs, without teeth.")] = False,
     dynamics: Annotated[
         bool,
-        typer.Option("--dynamics", help="Simulate and play one state in the time domain, with backlash and impacts."),
+        typer.Option(
+            "--dynamics",
+            help="Simulate one state in the time domain, with backlash and impacts, and animate the result.",
+        ),
     ] = False,
     rate: Rate = None,
     turns: Turns = None,

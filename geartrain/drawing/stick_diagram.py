@@ -306,7 +306,8 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Set the heights of shafts in place, and return the rows of axes and the total height [in].
+    """Set the height of every shaft in `shafts`, and return the lowest and highest row of each axis and the total
+    height [in].
 
     Shafts of one axis that overlap are drawn above each other, with the longest shaft lowest.
     """

@@ -38,7 +38,9 @@ class PinMesh:
 
     @property
     def reversed(self) -> SlotToPinTransmission:
-        """Transmission function while the slot drives the pin; a pin follower has none, because it only oscillates."""
+        """Transmission function with the slot driving the pin. Raises `RangeError` for a pin follower, whose slot only
+        oscillates and cannot drive the pin.
+        """
         from geartrain.teeth.pin_transmission import SlotToPinTransmission
 
         return SlotToPinTransmission(self.transmission.r, self.transmission.e, self.transmission.friction)

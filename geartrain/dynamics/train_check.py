@@ -28,7 +28,7 @@ def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
 
 
 def _cuts_teeth(declared: Train) -> bool:
-    """Return True if a pair declares a tooth form, and numpy is installed."""
+    """Return True if any gear pair has a declared tooth form and numpy is installed."""
     # only tooth forms need numpy; other declarations are checked without it
     return any(map(declared.form_of, declared.gears)) and find_spec("numpy") is not None
 

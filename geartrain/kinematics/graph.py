@@ -101,7 +101,7 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """Return the adjacency matrix of the links, with the number of edges between every two links.
+    """Return the adjacency matrix of the links: the number of edges between each pair of links.
 
     Parameters
     ----------

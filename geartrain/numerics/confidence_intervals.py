@@ -29,7 +29,7 @@ def deviations(confidence: float = CONFIDENCE) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ProbabilityEstimate(Result):
-    """Probability estimated from independent trials, with the 95 % confidence interval of Wilson.
+    """Probability estimated from independent trials, with its 95 % Wilson score interval.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
         return IntervalEstimate(float(values.std(ddof=1)) if n > 1 else nan, 0.0, inf)
     off = values - values.mean()
     squares = float(off @ off)
-    if not squares or not np.ptp(values):  # the mean of equal values may be off by rounding
+    if not squares or not np.ptp(values):  # the mean of equal values may be off due to rounding
         return IntervalEstimate(0.0, 0.0, 0.0)
     # Bonett trims the fraction 1 / (2 sqrt(n - 4)) at each end
     trimmed = int(n / (2 * sqrt(n - 4)))

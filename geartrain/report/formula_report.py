@@ -97,8 +97,8 @@ def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) 
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with the formula, value and locking condition of each output, and with elasticities if
-    requested.
+    """Return a document with the formula, value and locking condition of each output, and with the elasticities if
+    `found` contains them.
 
     Parameters
     ----------

@@ -182,7 +182,7 @@ def tables_and_sources(
     sources = []
     for source in composition.sources:
         transmission = tabulated(source.id, source.transmission)
-        # compared bit by bit: functions that differ by rounding errors come from different pairs
+        # compared bit by bit: functions that differ due to rounding errors come from different pairs
         key = transmission.period, transmission.breaks.tobytes(), transmission.coefficients.tobytes()
         transmissions.setdefault(key, transmission)
         response = way * composition.spread.response[:, source.pair]

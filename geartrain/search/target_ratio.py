@@ -261,7 +261,7 @@ def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, st
 
 
 def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
-    """Return the number of revolutions of a period during one period `per`, and a note on the origin of both."""
+    """Return the number of periods `term` in one period `per`, and a note on the origin of both values."""
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
         raise _problem(

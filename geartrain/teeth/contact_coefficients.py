@@ -46,7 +46,7 @@ class CoulombFriction(BaseModel):
     @model_validator(mode="after")
     def _check_static(self) -> CoulombFriction:
         if self.static is not None and self.static.value < self.sliding.value:
-            what = f"a static friction of {self.static.text} is below the sliding friction of {self.sliding.text}"
+            what = f"the static coefficient of friction {self.static.text} is below the sliding one {self.sliding.text}"
             raise bad("friction", what, "give a `static` friction of `sliding` or more, or omit `static`")
         return self
 

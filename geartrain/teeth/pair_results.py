@@ -131,7 +131,7 @@ class SlidingEfficiency(Result):
 
     Examples
     --------
-    A slot that drives its pin locks at a friction of sqrt(r^2 - e^2)/e or more.
+    A slot that drives its pin locks at a coefficient of friction of sqrt(r^2 - e^2)/e or more.
 
     >>> from geartrain.teeth import SlotToPinTransmission
     >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))
@@ -281,9 +281,9 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 def friction_lock(friction: float, locking: float) -> Problem:
     """Return the problem of teeth that lock because the coefficient `friction` is at least the limit `locking`."""
     return Problem(
-        f"a friction of {friction:g} locks these teeth",
-        f"at a friction of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
-        f"give a friction below {locking:.4g}, or let the other wheel drive",
+        f"a coefficient of friction of {friction:g} locks these teeth",
+        f"at a coefficient of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
+        f"give a coefficient of friction below {locking:.4g}, or let the other wheel drive",
     )
 
 

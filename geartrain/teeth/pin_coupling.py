@@ -206,7 +206,7 @@ def pin_transmission(
 
     transmission = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
     if friction >= transmission.locking_friction:
-        what = f"a friction of {friction:g} locks the pin in its slot"
-        why = f"a pin driven by its slot locks at a friction of {transmission.locking_friction:.6g} or more"
-        raise RangeError(Problem(what, why, "give a smaller friction, or let the pin drive", "friction"))
+        what = f"a coefficient of friction of {friction:g} locks the pin in its slot"
+        why = f"a pin driven by its slot locks at a coefficient of {transmission.locking_friction:.6g} or more"
+        raise RangeError(Problem(what, why, "give a lower coefficient of friction, or let the pin drive", "friction"))
     return transmission

@@ -34,8 +34,8 @@ def check_friction(friction: float) -> float:
     if not 0 <= friction < inf:
         raise RangeError(
             Problem(
-                f"a friction of {friction:g} is out of range",
-                "a coefficient of friction is finite and not negative",
+                f"a coefficient of friction of {friction:g} is out of range",
+                "it must be finite and not negative",
                 "give 0 or more, such as 0.1",
             )
         )

@@ -311,7 +311,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     if name in known:
         return known[name]
     siblings = [*known, *(path.name for path in folder.glob("*.yaml"))]
-    where = "this folder" if folder == Path() else folder
+    where = "the current folder" if folder == Path() else folder
     raise DeclarationError(
         Problem(
             f"`extends` names the unknown parent '{name}'",

@@ -110,7 +110,9 @@ class ArborSizes(Declared):
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """Return the shipped material table by name. A material of the same name in a train takes precedence.
+    """Return the materials of the built-in table, by name.
+
+    A material declared in a train takes precedence over one with the same name.
 
     Returns
     -------

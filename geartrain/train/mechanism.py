@@ -289,8 +289,8 @@ class Teeth(Declared):
         """Reason why the weights do not define probabilities; None if they do."""
         weights = [figure.value for figure in self.weights or ()]
         if any(weight < 0 for weight in weights):
-            return "one is negative"
-        return "all are 0" if weights and not any(weights) else None
+            return "one weight is negative"
+        return "all weights are 0" if weights and not any(weights) else None
 
 
 # ------------------------------------------------------------------------------------------------------------ mechanism

@@ -49,7 +49,7 @@ error: my.yaml:7: `inputs.a`: '30 1/min' has an unknown unit
 
 # an unknown parent: |links:|extends: planetery\nlinks:|
 error: my.yaml:1: `extends` names the unknown parent 'planetery'
-  why: this folder contains no such file, and no shipped train or evidence has that name
+  why: the current folder contains no such file, and no shipped train or evidence has that name
   fix: did you mean 'planetary' or 'norton-planetary' or 'planetary-24-18-60'?
 
 # no turning pairs: |revolutes: {A: [frame, a], B: [frame, b]}\n||

@@ -101,7 +101,7 @@ def test_a_shaft_angle_lies_between_the_ways_in_which_both_wheels_face(
         (INVOLUTE, "{teeth: 20, kind: bevel}", "{teeth: 60, kind: contrate}", "", ("pitch cones", "ideal")),
         (INVOLUTE, "2", "60", "", ("a wheel of 2 teeth", "at least 3")),
         ("{form: lantern}", "20", "{teeth: 60, internal: true}", "", ("a ring of pins", "another tooth_form")),
-        ("{form: cycloidal, centre_distance: 45}", "20", "60", "", ("never touch", "reduce the distance")),
+        ("{form: cycloidal, centre_distance: 45}", "20", "60", "", ("never touch", "change the centre distance")),
         (
             INVOLUTE,
             "{teeth: 20, kind: bevel}",
@@ -205,7 +205,7 @@ def test_teeth_that_cannot_run_fail_check_and_report_with_what_would_fit(
 
 def test_friction_that_locks_is_a_fault_and_the_train_is_self_locking() -> None:
     mesh = only(pair(INVOLUTE, "18", more="inputs: {a: 1}\nfriction: 4"))
-    assert "a friction of 4 locks" in mesh.faults[0].what
+    assert "a coefficient of friction of 4 locks" in mesh.faults[0].what
     train = pair(INVOLUTE, "18", more="inputs: {a: 1}\nfriction: 4\nloads: {b: 1}")
     assert train.torques().verdict.kind == "self-locking"
 

@@ -516,7 +516,7 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
         ({"outputs": ["moon"]}, "no output 'moon'"),
         ({"state": "night"}, "no state 'night'"),
         ({"against": "figures"}, "no output that depends on uncertain counts"),
-        ({"against": "hopes"}, "'hopes' is not a kind of observations"),
+        ({"against": "hopes"}, "'hopes' is not a kind of observation"),
         ({"limit": 0}, "limit is 0"),
         ({"most": 0}, "most is 0"),
         ({"samples": 0}, "samples is 0"),
@@ -537,8 +537,8 @@ def test_what_cannot_be_requested_is_refused_with_a_way_out(options: dict[str, A
     ("doubt", "said"),
     [
         ({"value": 20, "range": [22, 19]}, "is empty"),
-        ({"value": 20, "range": [19, 21], "weights": [1, -1, 1]}, "not probabilities"),
-        ({"value": 20, "range": [19, 21], "weights": [0, 0, 0]}, "not probabilities"),
+        ({"value": 20, "range": [19, 21], "weights": [1, -1, 1]}, "do not define probabilities"),
+        ({"value": 20, "range": [19, 21], "weights": [0, 0, 0]}, "do not define probabilities"),
         ({"value": 20, "range": [1, 10**6]}, "possible counts"),
     ],
 )

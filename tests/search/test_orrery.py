@@ -158,7 +158,7 @@ def test_the_published_clock_misses_its_month_alone() -> None:
 
 
 def test_nothing_found_says_what_was_walked() -> None:
-    with pytest.raises(QuestionError, match=r"no orrery found(.|\n)*enumerated(.|\n)*tolerance"):
+    with pytest.raises(QuestionError, match=r"no orrery was found(.|\n)*enumerated(.|\n)*tolerance"):
         find_orrery({"far": Fraction(10**6)}, [6, 7], Fraction(1, 1000))
 
 

@@ -142,7 +142,7 @@ def test_a_child_replaces_friction_bearing_and_drive_whole(tmp_path: Path) -> No
 
 SLIPS = {
     "friction: -0.1": "`friction`: the coefficient of friction -0.1 is negative",
-    "friction: {sliding: 0.2, static: 0.1}": "a static friction of 0.1 is below the sliding friction of 0.2",
+    "friction: {sliding: 0.2, static: 0.1}": "the static coefficient of friction 0.1 is below the sliding one 0.2",
     "friction: {slidign: 0.2}": "did you mean 'sliding'",
     "friction: {static: 0.2, kinetic: 0.1, speed: 1 m/s}": "add `law:`",
     "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "0.5 is below the sliding friction torque 1",

@@ -47,6 +47,8 @@ def test_a_posterior_and_a_reconstruction_begin_with_the_same_chances() -> None:
     assert dict(requested.arbors[0].wheels[0].counts) == {20: Fraction(4, 7), 22: Fraction(3, 7)}
 
 
-@pytest.mark.parametrize(("weights", "fault"), [((1, -1), "one is negative"), ((0, 0), "all are 0"), ((0, 1), None)])
+@pytest.mark.parametrize(
+    ("weights", "fault"), [((1, -1), "one weight is negative"), ((0, 0), "all weights are 0"), ((0, 1), None)]
+)
 def test_what_is_wrong_with_weights(weights: tuple[int, int], fault: str | None) -> None:
     assert Teeth.model_validate({"value": 20, "range": [20, 21], "weights": weights}).fault_of_weights == fault

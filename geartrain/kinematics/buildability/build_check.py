@@ -269,9 +269,9 @@ def check_shared_wheels(
                 "P2",
                 "error",
                 Problem(
-                    f"pairs '{one.name}' and '{other.name}' need different distances between their axes: {first:.6g} "
+                    f"pairs '{one.name}' and '{other.name}' need different centre distances: {first:.6g} "
                     f"and {second:.6g} modules",
-                    f"the teeth of '{wheel}' have the same size in both pairs, and two axes have only one distance",
+                    f"they connect the same two axes, and the shared wheel '{wheel}' has the same teeth in both",
                     "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with the "
                     f"same radius of '{wheel}'",
                     other.place,
@@ -305,12 +305,12 @@ def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: Pitc
 
 def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Fraction) -> BuildFinding:
     first, second = pair.axes
-    sides = " and ".join(f"'{wheel}' {radius:.6g}" for wheel, radius in zip(pair.wheels, radii, strict=True))
+    sides = " and ".join(f"'{wheel}' {radius:.6g} mm" for wheel, radius in zip(pair.wheels, radii, strict=True))
     what = (
         f"pair '{pair.name}': axes '{first}' and '{second}' are {sum(radii) + off:.6g} mm apart, "
         f"but the pair needs {sum(radii):.6g} mm"
     )
-    why = f"the pitch radii are {sides} mm, and their sum is the distance between the axes"
+    why = f"the distance between the axes must equal the sum of the pitch radii, {sides}"
     fix = f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles"
     return BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", Problem(what, why, fix, pair.place))
 

@@ -174,7 +174,11 @@ def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tupl
 
 
 def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
-    """Return the value of a linear form of the unknowns of the core."""
+    """Evaluate a linear form in the unknowns of the core, as a fraction.
+
+    values        numerators of the unknowns
+    determinant   common denominator of the unknowns
+    """
     one, total = Laurent.constant(1, determinant.width), Laurent.constant(0, determinant.width)
     denominator = determinant if any(column in values for column in form) else one
     for column, entry in form.items():

@@ -250,7 +250,7 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write files by name to a folder and return their number.
+    """Write named files to a folder and return their number.
 
     The files are created in a temporary folder next to the destination and moved when all files are complete, so that
     an error in creating them leaves the destination unchanged. Existing files are overwritten only with `force`. Raises

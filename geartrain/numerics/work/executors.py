@@ -25,7 +25,7 @@ def cores() -> int:
 def open_executor(
     workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
 ) -> Iterator[Executor | None]:
-    """Return a context manager with an executor for `run`, or with None if the tasks run in this process.
+    """Open a context that yields an executor for `run`, or None if the tasks run in this process.
 
     On exit the context manager ends all running work.
 

@@ -2,7 +2,7 @@
 
 Relative to the nearest link that carries two axes, each of them stays in an annulus about the axis of a carrier. All
 points of both annuli are used, as if the angles of carriers were independent, which gives an interval of distances for
-every two axes.
+each pair of axes.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     Flags = NDArray[np.bool_]
     Disc: TypeAlias = "WheelBlock | WheelSize"
 
-_SLACK = 1e-9  # relative to a radius: touching discs must not overlap by rounding errors
+_SLACK = 1e-9  # relative to a radius: touching discs must not overlap due to rounding errors
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
@@ -38,7 +38,7 @@ def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
 
 @dataclass(frozen=True)
 class SweptDistances:
-    """Minimum and maximum distance between every two of n parallel axes while carriers turn [mm], shape (n, n)."""
+    """Minimum and maximum distance between each pair of n parallel axes while carriers turn [mm], shape (n, n)."""
 
     near: Floats
     far: Floats

@@ -325,7 +325,7 @@ def _shifts(count: int) -> Iterator[Indices]:
 # -------------------------------------------------------------------------------------------------------------- heights
 
 
-_SLACK = 1e-9  # relative to the radii: touching wheels must not collide by rounding errors
+_SLACK = 1e-9  # relative to the radii: touching wheels must not collide due to rounding errors
 
 
 def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:

@@ -487,8 +487,12 @@ class FramePlan:
             place = self.stack.layout.wheels.get(name)
             root = next(disc.root for disc in member.discs if disc.name == name)
             if place is not None and root < member.outer / 2 - 1e-9:
-                what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
-                why = f"its root radius is {root:.3f} mm, and '{member.link}' has a diameter of {member.outer:g} mm"
+                shaft = "pipe" if member.inner else "arbor"
+                what = f"wheel '{name}' is too small for its {shaft}"
+                why = (
+                    f"its root diameter is {2 * root:.3f} mm, and the outer diameter of the {shaft} '{member.link}' is "
+                    f"{member.outer:g} mm"
+                )
                 yield Problem(what, why, "use a smaller --bore, or a larger module")
 
 

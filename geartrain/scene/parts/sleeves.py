@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _WALLS = (1.5, 1.0, 0.6)  # mm: walls, of which the thickest that fits is used
 _SHORTEST = 0.5  # mm: minimum length
 _LONGEST = 1.2  # maximum length of a collet in diameters of its arbor
-_SAME = 1e-6  # mm: touching faces must not overlap by rounding errors
+_SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 _FREE = 0.3  # mm between a collet and the next turning part
 
 

@@ -18,7 +18,7 @@ from geartrain.teeth.outlines.contour import Contour
 Point = tuple[float, float]
 
 EDGE = 1.0  # mm from the stack to the middle of the gaps below and above it
-_SAME = 1e-6  # mm: touching faces must not overlap by rounding errors
+_SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 
 
 @dataclass(frozen=True, slots=True)

@@ -220,16 +220,16 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     """Return a wheel that has no mates, with a notice.
 
-    An escape wheel keeps its teeth, and any other wheel becomes a disc in the size of its pitch circle.
+    An escape wheel keeps its teeth, and any other wheel becomes a disc with the diameter of its pitch circle.
     """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
         fix = "make an anchor to match it, or recut its teeth for another escapement"
         return blank, Problem(what, "no anchor is declared", fix)
     r = blank.pitch_radius
-    form = "a disc without teeth in the size of its pitch circle, because its teeth are not known"
-    what = f"wheel '{blank.wheel}' is cut as a disc without teeth, in the size of its pitch circle"
-    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part with which it engages"
+    form = "a disc without teeth, with the diameter of its pitch circle, because its teeth are not known"
+    what = f"wheel '{blank.wheel}' is cut as a disc without teeth, with the diameter of its pitch circle"
+    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part that it engages"
     notice = Problem(what, why, fix)
     return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), notice
 

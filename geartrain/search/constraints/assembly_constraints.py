@@ -329,7 +329,8 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
             "require the declared number, declare one planet set that represents all, or give a number for each "
             "carrier, such as planets={'arm': 3}"
         )
-    return Problem(f"{number} equal planets {one.title} on '{one.carrier}' cannot be required", why, fix)
+    what = f"cannot require {number} equal copies of the planet set {one.title} on '{one.carrier}'"
+    return Problem(what, why, fix)
 
 
 # ------------------------------------------------- declared positions: centre distances and the phasing of loops

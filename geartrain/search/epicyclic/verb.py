@@ -48,7 +48,13 @@ def run(
     shift: Shift = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
-    by: Annotated[str, typer.Option("--sort", help="Order of the solutions: error, total or largest.")] = "error",
+    by: Annotated[
+        str,
+        typer.Option(
+            "--sort",
+            help="Sort the solutions by error, total (sum of tooth counts) or largest (largest tooth count).",
+        ),
+    ] = "error",
     per: Per = None,
     pick: Pick = 1,
     json: Json = False,

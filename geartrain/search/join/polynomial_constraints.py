@@ -179,7 +179,10 @@ class PolynomialInequality:
 
 
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return for each row the half-open range of the values of the free variable that satisfy a case, exactly."""
+    """Return, for each row, the exact half-open index range of the values of variable `item` that satisfy a case.
+
+    Both arrays have the shape (rows,) and contain indices into `rows.items[item]`.
+    """
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
     for inequality in case:
         first, last = _ray(inequality, rows, item)
@@ -188,8 +191,9 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return the half-open range of the values that satisfy one inequality. A range that is not empty includes the
-    first or the last value.
+    """Return, for each row, the half-open index range of the values of variable `item` that satisfy one inequality.
+
+    The arrays contain indices into `rows.items[item]`. A range that is not empty includes the first or the last index.
     """
     polynomial, most = inequality.polynomial, len(rows.items[item])
 
@@ -337,7 +341,10 @@ class PolynomialConstraint:
         return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
 
     def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
-        """Return the half-open range of the admissible values of the free variable for each row, for each case."""
+        """Return, for each case, the half-open index range of the admissible values of variable `item` in each row.
+
+        Both arrays of a case have the shape (rows,) and contain indices into `rows.items[item]`.
+        """
         return [find_window(case, rows, item) for case in self.cases]
 
 

@@ -176,11 +176,19 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
             )
         )
     # terms below 2^31, because both terms of a ratio are packed into one integer below
-    if len(admissible) ** 2 > _MOST_PAIRS or admissible[-1] >= 2**31:
+    if admissible[-1] >= 2**31:
         raise RangeError(
             Problem(
-                f"{len(admissible)} tooth counts up to {admissible[-1]} are too many or too large",
-                f"the table of ratios of two counts is limited to {_MOST_PAIRS:.0e} entries, and counts to 2^31 - 1",
+                f"the tooth count {admissible[-1]} is too large",
+                "tooth counts are limited to 2^31 - 1",
+                "reduce the upper end of the range",
+            )
+        )
+    if len(admissible) ** 2 > _MOST_PAIRS:
+        raise RangeError(
+            Problem(
+                f"{len(admissible)} tooth counts are too many",
+                f"the table of ratios is limited to {_MOST_PAIRS:.0e} entries, one for each pair of counts",
                 "narrow the range of tooth counts",
             )
         )

@@ -160,8 +160,8 @@ def _check(
     if against not in LIKELIHOOD_KINDS:
         raise QuestionError(
             Problem(
-                f"'{against}' is not a kind of observations",
-                "the kinds are all, targets and figures",
+                f"'{against}' is not a kind of observation",
+                "valid kinds are all, targets and figures",
                 suggest(against, LIKELIHOOD_KINDS),
             )
         )
@@ -319,8 +319,8 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     if teeth.range is not None and teeth.choices is None:
         _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
     if why := teeth.fault_of_weights:
-        what = f"the weights of wheel '{name}' are not probabilities"
-        raise QuestionError(Problem(what, why, "give weights of 0 or more, at least one of them above 0", place))
+        what = f"the weights of wheel '{name}' do not define probabilities"
+        raise QuestionError(Problem(what, why, "give non-negative weights, at least one of them above 0", place))
     probabilities = teeth.probabilities
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""

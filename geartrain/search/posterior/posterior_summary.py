@@ -150,8 +150,8 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
 def _share(weight: float, examined: int, tally: PosteriorTally, soft: bool) -> CountProbability:
     """Return the evidence estimated from a sample, with its 95 % interval.
 
-    The interval is Wilson's for combinations that satisfy the observations or not, and normal for a Gaussian
-    likelihood.
+    The interval is the Wilson score interval for combinations that satisfy the observations or not, and a normal
+    interval for a Gaussian likelihood.
     """
     if not examined:
         return CountProbability(0.0, 0.0, 1.0)

@@ -156,7 +156,8 @@ def find_stages(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> StageFindings:
-    """Find, count and list the best solutions for a ratio by stages of gear pairs, with a meet-in-the-middle search.
+    """Find and count all solutions for a ratio with gear pairs in series, and list the best, by a meet-in-the-middle
+    search.
 
     For every product of denominator counts, the range of numerator products within the tolerance is located in a sorted
     list. The ends of the ranges are determined in integers, and the search is exhaustive.

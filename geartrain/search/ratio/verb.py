@@ -38,14 +38,22 @@ def run(
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, hunting or centres.")
+        str,
+        typer.Option(
+            "--sort",
+            help="Sort the solutions by error, total (sum of tooth counts), largest (largest tooth count), distinct "
+            "(number of different tooth counts), hunting (number of stages with coprime counts) or centres (number of "
+            "different centre distances).",
+        ),
     ] = "error",
     per: Per = None,
     internal: Annotated[
         int, typer.Option("--internal", min=0, help="Number of internal gear pairs, which keep the sense of rotation.")
     ] = 0,
     hunting: Hunting = False,
-    reverted: Annotated[bool, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
+    reverted: Annotated[
+        bool, typer.Option("--reverted", help="Require the same centre distance for all gear pairs.")
+    ] = False,
     different: Different = False,
     maximum_total: Annotated[
         int | None, typer.Option("--max-total", min=2, help="Maximum sum of all tooth counts.")

@@ -369,8 +369,13 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
                 evidence.place(*place, "teeth"),
             )
     if why := teeth.fault_of_weights:
-        fix = "give weights of 0 or more, at least one of them above 0"
-        yield Problem("the weights of a tooth count are invalid", why, fix, evidence.place(*place, "teeth", "weights"))
+        fix = "give non-negative weights, at least one of them above 0"
+        yield Problem(
+            "the weights of a tooth count do not define probabilities",
+            why,
+            fix,
+            evidence.place(*place, "teeth", "weights"),
+        )
 
 
 def _unused(evidence: Train) -> Iterator[str]:

@@ -139,7 +139,9 @@ class PathGrowth:
     keys: NDArray[np.uint64]
     """Hash key of the quotient that the added wheels must have."""
     powers: NDArray[np.int8]
-    """Powers of large primes in the quotient that the added wheels must have."""
+    """Exponents of the large primes in the quotient of tooth counts that the added wheels must provide, shape (paths,
+    primes).
+    """
     drivers: NDArray[np.int8]
     """Number of added driving wheels on surviving arbors."""
     driven: NDArray[np.int8]

@@ -158,8 +158,8 @@ class Standing(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Tabular, Result):
-    """Results of a search for the tooth counts of a train: the solutions of each independent part, and their
-    numbers.
+    """Results of a search for the tooth counts of a train: the best solutions of each independent part, and the number
+    of solutions.
 
     See Also
     --------
@@ -251,11 +251,14 @@ class TrainFindings(Tabular, Result):
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
-        if not whole or self._stand is None:
+        if not whole:
+            what = "the assignment does not contain all wheels of any part"
             why = f"the parts of the train are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
-            raise QuestionError(
-                Problem("the assignment is incomplete in every part", why, "give the counts of all wheels of a part")
-            )
+            raise QuestionError(Problem(what, why, "give the counts of all wheels of at least one part"))
+        if self._stand is None:
+            what = "the rank of an assignment cannot be determined"
+            why = "these results were not returned by `search_train`, so they do not contain the search"
+            raise QuestionError(Problem(what, why, "repeat the search with `search_train`"))
         return tuple(self._stand(at, teeth) for at in whole)
 
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:

@@ -37,7 +37,12 @@ def run(
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct or change.")
+        str,
+        typer.Option(
+            "--sort",
+            help="Sort the solutions by error, total (sum of tooth counts), largest (largest tooth count), distinct "
+            "(number of different tooth counts) or change (number of changed wheels).",
+        ),
     ] = "error",
     planets: Annotated[
         str | None,

@@ -178,8 +178,8 @@ class PairStrength(Result):
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
-    """Strength of an arbor that is supported by two bearings, with wheels at any positions; docs/strength.md (16),
-    (17), (26).
+    """Stresses and strength of an arbor between two bearings, as upper bounds for all positions of its wheels;
+    docs/strength.md (16), (17), (26).
 
     See Also
     --------

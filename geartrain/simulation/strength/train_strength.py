@@ -510,9 +510,9 @@ class ArborLoad:
 
 
 def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
-    """Return the strength of an arbor between two bearings for any positions of its wheels: docs/strength.md (16), (17)
-    and
-    (26).
+    """Return the stresses and the strength of an arbor between two bearings: docs/strength.md (16), (17) and (26).
+
+    The stresses are upper bounds for all positions of its wheels.
     """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3

@@ -160,7 +160,7 @@ def _stretch(run: TimeRun, pairs: list[str]) -> slice:
 
 
 def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
-    """Plot the driven side between its flanks, with a band for the coast flank and markers at impacts."""
+    """Plot the gap at the drive flank of a pair, with the coast flank as a band and markers at impacts."""
     at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
     back = front + np.degrees(run.coast_gaps[pair][stretch])
     panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")

@@ -20,7 +20,7 @@ PER_TOOTH = 200
 """Number of steps of the coarser run in the shortest tooth-passing period."""
 PER_SWING = 40
 """Number of steps in the period of the fastest mode of compliant teeth."""
-_UNEVEN = 1.00618  # steps that meet a kink at every tooth would be evaluated on either side of it by rounding
+_UNEVEN = 1.00618  # steps that meet a kink at every tooth would be evaluated on either side of it due to rounding
 _FEWEST = 200  # minimum steps per revolution of the driving link
 _FEWEST_TOUCHING = 1000  # the same with contacts: a pin's speed may change much within a small angle
 _PER_BEAT = 1000  # steps between two beats of an escapement
@@ -62,7 +62,9 @@ class TimeStudy:
         if self.steps is not None and self.steps < 1:
             raise QuestionError(
                 Problem(
-                    f"{self.steps} steps per turn are too few", "a turn has at least 1 step", "pass steps=200 or more"
+                    f"{self.steps} steps per revolution are too few",
+                    "at least 1 step per revolution is required",
+                    "for example, pass steps=200",
                 )
             )
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:

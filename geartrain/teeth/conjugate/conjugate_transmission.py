@@ -148,10 +148,10 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         p, (approach, recess) = self.path.pitch.p, self._arcs
         ahead = self._half_tooth + approach + self.direction * self._reach * np.asarray(S, dtype=float)
         first = np.mod(ahead, p) - approach
-        # a contact ratio that exceeds an integer only by rounding needs no additional row
+        # a contact ratio that exceeds an integer only due to rounding needs no additional row
         rows = int(np.ceil((approach + recess) / p * (1 - _TOUCH)))
         X = np.stack([first + k * p for k in range(max(rows, 1))])
-        # a contact just beyond the end by rounding counts as the last contact
+        # a contact just beyond the end due to rounding counts as the last contact
         slack = _TOUCH * p
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 

@@ -107,8 +107,9 @@ class PiecewiseTransmission:
         return extremes(self.speeds)
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio between intervals, in order of angle; steps by rounding are
-        omitted.
+        """Return the upward steps of the speed ratio at the breakpoints, in order of angle.
+
+        Steps due to rounding are omitted.
         """
         start, before = ends(self.speeds)
         # the first interval follows the last one in the next period
@@ -213,13 +214,12 @@ def tabulate(
     fitter = _Fitter(pair_contact, tolerance)
     done, breaks, kinks = fitter.fit()
     if (done.kind < 0).all():
-        raise RangeError(
-            Problem(
-                "the two wheels never touch",
-                f"at a distance of {distance:.9g} the teeth of one are out of range of the other",
-                "reduce the distance, or check that both outlines have the same unit",
-            )
-        )
+        where, change = f"a centre distance of {distance:.9g}", "change the centre distance"
+        if first.bevel:
+            where, change = f"a shaft angle of {distance:.9g} rad", "change the shaft angle"
+        why = f"at {where} the teeth of one wheel do not reach the teeth of the other"
+        fix = change if first.bevel else f"{change}, or check that both outlines have the same unit"
+        raise RangeError(Problem("the two wheels never touch", why, fix))
     return PiecewiseTransmission(
         fitter.ratio,
         fitter.period,

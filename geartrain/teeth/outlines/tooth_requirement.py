@@ -267,8 +267,9 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
     return QuestionError(
         Problem(
             f"gear {demand.gear} cannot have a root circle",
-            f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above that circle",
-            "give less clearance, or more backlash, which makes the teeth thinner",
+            f"with a clearance of {demand.clearance:.4g} modules, the flanks of neighbouring teeth meet before they "
+            "reach it",
+            "reduce the clearance, or increase the backlash, which makes the teeth thinner",
             "--blank clearance",
         )
     )

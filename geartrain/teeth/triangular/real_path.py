@@ -90,8 +90,9 @@ class RealPath:
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Pieces of recess, then of approach, divided where the curvature of f changes sign; empty for teeth without
-        valleys.
+        """Monotone pieces of the path, divided where the curvature of f changes sign: recess, then approach.
+
+        With `slips`, the contacts beyond the exit come first. Empty for teeth without valleys.
         """
         if not self.sizes.has_valleys:
             return []

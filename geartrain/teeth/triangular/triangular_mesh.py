@@ -269,8 +269,8 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
 def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, str, str]:
     """Return problem, cause and remedy for teeth that friction locks."""
     return (
-        f"a friction of {transmission.friction:g} locks these teeth",
-        "before the line of centres sliding opposes the push on the driven apex: friction times the tangent of the "
-        f"flank's inclination reaches 1 at a friction of {transmission.locking_friction:.6g}",
-        f"give a friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
+        f"a coefficient of friction of {transmission.friction:g} locks these teeth",
+        "before the line of centres sliding opposes the push on the driven apex: the coefficient times the tangent "
+        f"of the flank's inclination reaches 1 at a coefficient of {transmission.locking_friction:.6g}",
+        f"give a coefficient of friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
     )

@@ -118,7 +118,7 @@ def find_budget(
     means: Execution | None = None,
     on_stage: Callable[[], None] = lambda: None,
 ) -> TrainBudget:
-    """Return the error budget of each pointer of a train, with its causes in degrees and in days.
+    """Return the error budget of each pointer of a train: the contribution of every cause, in degrees and in days.
 
     Parameters
     ----------

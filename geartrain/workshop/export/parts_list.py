@@ -76,7 +76,7 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
     alike: dict[tuple[object, ...], ListedPart] = {}
     for part in work.parts:
         row = ListedPart((part.name,), part.kind, _material(work, part), _size(part), 0.0, "; ".join(_fits(work, part)))
-        # volumes to two decimals separate shapes of equal size, but not mirrored shapes that differ by rounding
+        # volumes to two decimals separate shapes of equal size, but not mirrored shapes that differ due to rounding
         volume = _volume(part)
         key = (row.kind, row.size, row.fits, round(volume, 2))
         # 1 mm3 times 1 kg/m3 is 1e-6 g

@@ -95,8 +95,7 @@ def run(
         str | None,
         typer.Option(
             "--rate",
-            help="Input speed of the FMU, in turns per second or with a unit such as '30 rpm'; "
-            "default: the declared drive.",
+            help="Input speed of the FMU, in turns per second or with a unit such as '30 rpm'; default: as declared.",
         ),
     ] = None,
     restitution: Annotated[

@@ -64,7 +64,8 @@ class FrictionSpread(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionPlan(Shown):
-    """Train with random friction coefficients, and the run of the input that each trial evaluates.
+    """Plan of Monte Carlo trials with random friction coefficients: the train, and the input positions that each trial
+    evaluates.
 
     See Also
     --------

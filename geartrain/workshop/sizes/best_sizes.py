@@ -217,7 +217,9 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
         what = "the loss cannot be minimised without friction"
         raise QuestionError(
             Problem(
-                what, "without friction the loss is 0 for all teeth", "give a friction above 0, or another objective"
+                what,
+                "without friction the loss is 0 for all teeth",
+                "give a coefficient of friction above 0, or another objective",
             )
         )
     return checked_ranges(free)

@@ -187,7 +187,8 @@ are not declared, the command reports "not declared"; it never assumes that the 
 
 ## Run it
 
-The train `freeth-2021` declares no tooth form. To examine the effect of real teeth, extend the train with an assumed tooth form:
+The train `freeth-2021` declares no tooth form. To examine the effect of real teeth, extend the train with an
+assumed tooth form:
 
 <!-- file: assumed.yaml -->
 ```yaml

@@ -150,4 +150,4 @@ def test_many_outputs_of_a_motion_stand_in_rows() -> None:
     links = tuple(link for link in train.declaration.links if link != train.declaration.frame)
     figure = motion_figure(MotionRun(train.motion(outputs=links), 0.02, 21), title=train.name)
     assert not faults_of(figure)
-    assert "outputs with smaller deviations are left out" in figure.get_suptitle()
+    assert "outputs with smaller deviations are omitted" in figure.get_suptitle()

@@ -306,7 +306,7 @@ def test_planets_with_places_are_judged_there() -> None:
     even = [at / 5 for at in range(5)]
     train = planets(5, 24, 18, 60, more=placed(5, even))
     assert found(train) == [("A1", "error")]
-    assert "off by 0.4 of a pitch" in words(train)
+    assert "misaligned by 0.4 pitch" in words(train)
     # the nearest of the 84 places, as docs/closure.md has them
     steps = [at / 84 for at in (0, 17, 34, 50, 67)]
     assert found(planets(5, 24, 18, 60, more=placed(5, steps))) == []

@@ -160,7 +160,7 @@ def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:
     [
         ("four-gear-loop", "close a loop"),
         ("gm-4t60", "has several states"),
-        ("lantern-mill", "the link has contrate wheels"),
+        ("lantern-mill", "it has contrate wheels"),
         ("rv-reducer", "it has couplings other than pin and slot"),
     ],
 )

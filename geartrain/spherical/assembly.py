@@ -18,7 +18,7 @@ from geartrain.kinematics.components import find_components
 from geartrain.kinematics.phasing import DivisibilityRule, MeshPhasing
 from geartrain.kinematics.phasing.azimuths import EPS, MOUNT, PitchPoints, contact_families
 from geartrain.kinematics.phasing.phase_system import PhaseSystem
-from geartrain.spherical.configuration import Configuration, kinds_in_order
+from geartrain.spherical.configuration import Configuration, kinds_in_order, require_tooth_numbers
 from geartrain.spherical.pitch_cones import azimuths
 
 if TYPE_CHECKING:
@@ -62,16 +62,8 @@ def spherical_phasing(configuration: Configuration, teeth: Mapping[str, int] | N
     [True, False]
     """
     counts = {**configuration.teeth, **(teeth or {})}
-    missing = [kind for kind in kinds_in_order(configuration) if kind not in counts]
-    if missing:
-        what = f"no tooth count is given for {', '.join(missing)}"
-        raise QuestionError(
-            Problem(
-                what,
-                "phases depend on tooth counts",
-                "give `teeth` for every kind, or use `spherical_divisibility_rule`",
-            )
-        )
+    fix = "give `teeth` for every kind, or use `spherical_divisibility_rule`"
+    require_tooth_numbers(kinds_in_order(configuration), counts, "phases depend on tooth numbers", fix)
     return _closure(configuration, [counts[kind] for kind in configuration.kinds])
 
 

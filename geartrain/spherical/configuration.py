@@ -5,7 +5,7 @@ A train is declared with a link, a bevel wheel and an axis for each gear.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
@@ -111,6 +111,19 @@ def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
     return tuple(dict.fromkeys(configuration.kinds))
 
 
+def require_tooth_numbers(
+    names: Iterable[Hashable], teeth: Mapping[Any, int], why: str, fix: str = "give the tooth number of every gear"
+) -> None:
+    """Raise `QuestionError` with the cause and the fix if some of the names have no tooth number in `teeth`.
+
+    In `fix`, {} is replaced by the first of these names.
+    """
+    missing = [name for name in names if name not in teeth]
+    if missing:
+        what = f"no tooth number is given for {', '.join(map(str, missing))}"
+        raise QuestionError(Problem(what, why, fix.format(repr(missing[0]))))
+
+
 def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
     """Return the kinds of mesh in the order of their gears' kinds; angles are treated as equal within 1e-9 rad."""
     order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
@@ -207,11 +220,8 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     >>> geartrain.GearTrain.declare(data).solve()["3-1"]
     Fraction(-5, 3)
     """
-    missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
-    if missing:
-        what = f"no tooth number is given for {', '.join(missing)}"
-        fix = f"give teeth={{{missing[0]!r}: 20, ...}}"
-        raise QuestionError(Problem(what, "a declaration needs the tooth number of every wheel", fix))
+    why = "a declaration needs the tooth number of every wheel"
+    require_tooth_numbers(kinds_in_order(configuration), configuration.teeth, why, "give teeth={{{}: 20, ...}}")
     if not configuration.names:
         what, why = "a set without gears is not a train", "a declaration needs at least one gear"
         raise QuestionError(Problem(what, why, "drop fewer gears"))

@@ -19,6 +19,7 @@ from geartrain.spherical.configuration import (
     Configuration,
     kinds_in_order,
     mesh_kinds,
+    require_tooth_numbers,
     unmeshed_angles,
 )
 from geartrain.spherical.pitch_cones import (
@@ -65,15 +66,12 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
     """Return the tooth number of every gear; raise `QuestionError` with the kinds whose tooth numbers are not
     chosen.
     """
-    missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
-    if missing:
-        raise QuestionError(
-            Problem(
-                f"no tooth number is given for {', '.join(missing)}",
-                "sizes depend on the teeth of every kind of gear",
-                f"give teeth={{{missing[0]!r}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
-            )
-        )
+    require_tooth_numbers(
+        kinds_in_order(configuration),
+        configuration.teeth,
+        "sizes depend on the teeth of every kind of gear",
+        "give teeth={{{}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
+    )
     return np.array([configuration.teeth[kind] for kind in configuration.kinds], dtype=np.int64)
 
 

@@ -27,7 +27,7 @@ from geartrain.spherical.axis_adjustment import (
     loop_sums,
 )
 from geartrain.spherical.circle_packing import SpherePacking, pack_circles
-from geartrain.spherical.configuration import Configuration
+from geartrain.spherical.configuration import Configuration, require_tooth_numbers
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
 
 if TYPE_CHECKING:
@@ -344,15 +344,7 @@ def _answer(
 
 
 def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
-    missing = [str(name) for name in names if name not in teeth]
-    if missing:
-        raise QuestionError(
-            Problem(
-                f"no tooth number is given for {', '.join(missing)}",
-                "if `teeth` is given, no tooth numbers are derived from the circle packing",
-                "give the tooth number of every gear",
-            )
-        )
+    require_tooth_numbers(names, teeth, "if `teeth` is given, no tooth numbers are derived from the circle packing")
     return np.array([teeth[name] for name in names], dtype=np.int64)
 
 

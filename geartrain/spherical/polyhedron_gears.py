@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Result
-from geartrain.spherical.configuration import Configuration
+from geartrain.spherical.configuration import Configuration, require_tooth_numbers
 from geartrain.spherical.gear_sphere import GearSphere
 from geartrain.spherical.polyhedra import Polyhedron, from_the_top, polyhedron, solid
 from geartrain.spherical.symmetric_displacement import SymmetricFreedom, equal_pitch
@@ -166,15 +166,12 @@ def _placed(
     """
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
-        missing = sorted({kinds[at] for pair in meshes for at in pair if not teeth[at]})
-        if missing:
-            raise QuestionError(
-                Problem(
-                    f"no tooth number is given for {', '.join(missing)}",
-                    "exact=True requires the tooth number of every kind that meshes",
-                    "give `teeth` for these kinds",
-                )
-            )
+        require_tooth_numbers(
+            sorted({kinds[at] for pair in meshes for at in pair}),
+            counts,
+            "exact=True requires the tooth number of every kind that meshes",
+            "give `teeth` for these kinds",
+        )
         return equal_pitch(plan.movement, plan.axes, meshes, teeth, range(len(kinds))) if meshes else plan.axes
     axes = plan.axes
     for kind in dict.fromkeys(kind for kind in kinds if letter_of(kind) == "e"):

@@ -727,7 +727,7 @@ def test_what_is_answered_can_be_read_and_written() -> None:
 
 
 def test_tooth_numbers_must_be_chosen_and_regular_gears_must_be_regular() -> None:
-    with pytest.raises(GearTrainError, match="no tooth count is given for 5"):
+    with pytest.raises(GearTrainError, match="no tooth number is given for 5"):
         spherical_phasing(from_polyhedron("icosidodecahedron"), {"3": 12})
     config = from_polyhedron("cuboctahedron")
     wrong = Configuration(config.names, config.axes, config.meshes, config.kinds, (7,) * len(config.names))

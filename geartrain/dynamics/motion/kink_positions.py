@@ -69,15 +69,6 @@ class InputSteps(NamedTuple):
     high: Floats
 
 
-def equal_steps(start: float, end: float, number: int, chunk: int) -> Iterator[InputSteps]:
-    """Yield equal steps from one position of the input to another [revolutions], at most `chunk` at once."""
-    for first in range(0, number, chunk):
-        at = np.arange(first, min(first + chunk, number) + 1)
-        ends = start + (end - start) * (at / number)
-        ends[at == number] = end
-        yield InputSteps(ends[:-1], ends[1:])
-
-
 @dataclass(frozen=True)
 class PairKinks:
     """Kinks of one transmission function, with the angle of its driver as a function of the input position.
@@ -216,9 +207,13 @@ class KinkSearch:
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Return narrow steps from one position of the input to another [revolutions], in chunks."""
+        """Yield equal narrow steps from one position of the input to another [revolutions], in chunks."""
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
-        return equal_steps(start, end, number, self.composition.chunk)
+        for first in range(0, number, self.composition.chunk):
+            at = np.arange(first, min(first + self.composition.chunk, number) + 1)
+            ends = start + (end - start) * (at / number)
+            ends[at == number] = end
+            yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
         """Return the kinks within the given narrow steps."""

@@ -17,7 +17,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
+from geartrain.dynamics.motion.error_composition import (
+    ErrorComposition,
+    ErrorSamples,
+    SeenLink,
+    common_period,
+    evaluate,
+)
 from geartrain.dynamics.motion.kink_positions import KinkPositions, KinkSearch
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
@@ -31,8 +37,8 @@ if TYPE_CHECKING:
     from numpy.random import Generator
 
     from geartrain.dynamics.motion.compiled_composition import CompiledComposition
+    from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
-    from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
 
 _PACE = 2e6  # positions of pairs per second evaluated by numpy in typical trains
@@ -420,11 +426,7 @@ class Motion(Shown):
             Transmission errors [rad] and speed deviations [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
-        composition = self._sampler(1, len(turns))
-        chunk = composition.chunk
-        parts = [composition.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
-        error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
-        return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
+        return evaluate(self._sampler(1, len(turns)), turns)
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
-from geartrain.dynamics.motion.extreme_search import ExtremeSearch
-from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
+from geartrain.dynamics.motion.extreme_search import count_extremes
+from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -292,19 +292,17 @@ class MotionRun(Tabular, Pictured):
             If coupled pairs have no unique solution.
         """
         self.statistics = self.motion._statistics()
-        peaks = SampledPeaks(len(self.statistics))
         for passage in self.motion._stretches(self.turns, self.samples):
             for at, tally in enumerate(self.statistics):
                 tally.add(passage.error[at], passage.rate[at])
-            peaks.add(passage)
             self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         # samples miss sharp peaks, so extremes are searched between them
         composition = self.motion._forward if self.turns >= 0 else self.motion._backward
-        search = ExtremeSearch(composition)
-        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
-        self.reversing_drivers |= search.reversing_drivers
+        positions = int(3 * KinkSearch(composition).rate * abs(self.turns))
+        sampler = self.motion._sampler(self.turns, max(self.samples, positions))
+        self.reversing_drivers |= count_extremes([composition], sampler, self.turns, self.statistics)
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.

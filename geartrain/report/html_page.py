@@ -90,22 +90,9 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return titles, paragraphs and tables of documents as HTML without the style and script of a page.
+    """Return documents as HTML for a notebook, without the style and script of a page; pictures are omitted.
 
-    Parameters
-    ----------
-    documents : sequence of Document
-        Documents to show; pictures and other extras of pages are omitted.
-
-    Returns
-    -------
-    str
-        HTML for a notebook. Texts are escaped.
-
-    Raises
-    ------
-    MissingExtraError
-        If jinja2 is not installed (extra `report`).
+    Raise `MissingExtraError` if jinja2 is not installed (extra `report`).
     """
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)

@@ -12,33 +12,14 @@ from typing import Any
 import numpy as np
 import pytest
 from commands import call
-from scipy.optimize import brentq, fsolve
+from scipy.optimize import brentq
 
 from geartrain import GearTrainError, load
 from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
 from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
 from geartrain.kinematics.speeds import solve
 from geartrain.simulation import find_tooth_impacts
-from geartrain.teeth import Ideal, PinToSlotTransmission
-
-
-def test_along_an_ordinary_train_transmissions_are_composed_one_in_the_other() -> None:
-    train = load("moon-triangular")
-    motion = train.motion(outputs=["sun", "c", "d", "moon"])
-    ripples = motion.transmission_errors(3.0, 5001)
-    angle = next(iter(ripples.values())).angle
-    transmissions = [mesh.transmission for mesh in train.meshes]
-    S, rate = angle, np.ones_like(angle)
-    for name, transmission in zip(ripples, transmissions, strict=True):
-        # each wheel turns as far as the pair before turns it, from a tooth on the line of centres
-        rate = rate * transmission.speed(S)
-        S = transmission.angle(S) - transmission.angle(0.0)
-        ripple = ripples[name]
-        sense = 1 if ripple.mean > 0 else -1
-        assert np.allclose(ripple.mean * angle + ripple.error, sense * S, rtol=0, atol=1e-10)
-        near_kink = np.abs(ripple.speed - sense * rate) > 1e-9
-        assert near_kink.mean() < 1e-3
-
+from geartrain.teeth import Ideal
 
 # a driver of the study starts where the pair before holds it back: the phases (pitches) at which its teeth are then
 LAGGING = """
@@ -136,76 +117,6 @@ outputs: {right: {}}
 """
 
 
-def test_a_differential_is_the_solution_of_its_two_transmissions() -> None:
-    train = load(DIFFERENTIAL)
-    motion = train.motion()
-    found = motion.transmission_errors(0.5, 101)
-    angle = next(iter(found.values())).angle
-    ripple = found["right"]
-    first, second = (mesh.transmission for mesh in train.meshes)
-    for at in (0, 13, 50, 99):
-        left, arm = angle[at], angle[at] / 3
-
-        def residue(unknown: np.ndarray, left: float = left, arm: float = arm) -> list[float]:
-            planet, right = unknown
-            # in the arm's frame: left drives the planet backwards, the planet drives right backwards
-            one = -(planet - arm) - float(first.angle(left - arm) - first.angle(0.0))
-            other = (right - arm) - float(second.angle(-(planet - arm)) - second.angle(0.0))
-            return [one, other]
-
-        mean = train.solve()
-        guess = [float(mean["planet"]) * angle[at], float(mean["right"]) * angle[at]]
-        solution, *_ = fsolve(residue, guess, xtol=1e-13, full_output=True)
-        assert np.abs(residue(solution)).max() < 1e-12
-        assert ripple.mean * angle[at] + ripple.error[at] == pytest.approx(solution[1], abs=1e-9)
-
-
-SHUNT = """
-links:
-  frame: {}
-  left: {wheels: {l: 40}}
-  right: {wheels: {r: 44, v: 50}}
-  planet: {wheels: {p: 20, q: 18}}
-  arm: {wheels: {y: 60}}
-  lay: {wheels: {w: 40, u: 30}}
-revolutes:
-  - {pair: [frame, left], axis: A}
-  - {pair: [frame, right], axis: A}
-  - {pair: [frame, arm], axis: A}
-  - {pair: [arm, planet], axis: P}
-  - {pair: [frame, lay], axis: B}
-gears:
-  - {pair: [l, p], driver: l}
-  - {pair: [q, r], driver: q}
-  - {pair: [v, w], driver: v}
-  - {pair: [u, y], driver: u}
-tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-inputs: {left: 1}
-outputs: {right: {}, arm: {}, lay: {}, planet: {}}
-"""
-
-
-def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_transmissions() -> None:
-    """The arm is turned by the wheel that its own planet turns."""
-    train = load(SHUNT)
-    motion = train.motion()
-    assert [len(step.sources) for step in motion._forward.steps if step.coupled] == [4]
-    found = motion.transmission_errors(0.3, 61)
-    angle = next(iter(found.values())).angle
-    transmissions = {mesh.name: mesh.transmission for mesh in train.meshes}
-    pairs = (("l~p", "left", "planet", "arm"), ("q~r", "planet", "right", "arm"))
-    pairs += (("v~w", "right", "lay", None), ("u~y", "lay", "arm", None))
-    mean = {link: float(speed) for link, speed in train.solve().speeds.items()}
-    for at in (7, 22, 41, 60):
-        place = {name: ripple.mean * angle[at] + ripple.error[at] for name, ripple in found.items()}
-        place["left"] = angle[at]
-        for name, driver, driven, carrier in pairs:
-            base, still = (place[carrier], mean[carrier]) if carrier else (0.0, 0.0)
-            ahead = np.sign(mean[driver] - still)
-            turned = float(transmissions[name].angle(ahead * (place[driver] - base)) - transmissions[name].angle(0.0))
-            assert -ahead * turned == pytest.approx(place[driven] - base, abs=1e-10), name
-
-
 def test_teeth_that_close_a_redundant_loop_are_named() -> None:
     text = "extends: four-gear-loop\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n"
     with pytest.raises(GearTrainError, match="a20~b30, b30~c40, c40~d50, d50~a20 form a loop, a - b - c - d - a"):
@@ -226,14 +137,6 @@ def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
     found = load("pennestri-2002").motion(outputs=["moon"]).transmission_errors(1.0, 11)
     assert found["moon"].peak_to_peak == 0
     assert (found["moon"].speed == found["moon"].mean).all()
-
-
-def test_a_pin_alone_moves_its_slot_by_its_transmission() -> None:
-    train = load("freeth-2008")
-    (joint,) = train.mechanics.pins
-    assert isinstance(joint.transmission, PinToSlotTransmission)
-    source = train.motion(outputs=["moon"])._forward.sources
-    assert [each.id for each in source] == [joint.coupling.name]
 
 
 def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
@@ -643,8 +546,8 @@ def test_a_tally_of_stretches_is_that_of_the_whole() -> None:
     assert (tally.minimum, tally.most, tally.slow) == (error.min(), error.max(), rate.min())
 
 
-def test_speeds_of_pairs_that_hang_on_each_other_are_the_slopes_of_their_angles() -> None:
-    motion = load(SHUNT).motion()
+def test_speeds_of_coupled_pairs_are_the_slopes_of_their_angles() -> None:
+    motion = load("pennestri-2002-teeth").motion()
     turns = np.linspace(0.1, 0.1 + 1e-4, 5)
     passage = motion.at(turns)
     slope = np.gradient(passage.error, 2 * pi * turns, axis=1)[:, 1:-1]

@@ -26,6 +26,7 @@ _ULPS = 32  # units in the last place of the turns: minimum distance, so that ro
 _BEYOND = 0.1  # of the range in a piece: allowance for a maximum above the parabola through its ends and middle
 _SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
 _ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
+_BATCH = 512  # pieces in which maxima are located at once
 _PARTS = 8  # subdivisions of a piece per round
 _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
@@ -38,9 +39,13 @@ class _Candidates(NamedTuple):
     low: Floats
     high: Floats
 
-    def chosen(self, which: Bools | slice) -> _Candidates:
+    def chosen(self, which: Bools | Indices | slice) -> _Candidates:
         """Return some of the candidates."""
         return _Candidates(*(each[which] for each in self))
+
+    def exceeding(self, maxima: Floats) -> _Candidates:
+        """Return the candidates that may exceed the maxima; equal maxima in other pieces are not searched."""
+        return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
 def count_extremes(
@@ -64,8 +69,7 @@ def count_extremes(
         return frozenset()
     maxima, reversing = np.full(4 * len(tallies), -np.inf), frozenset[str]()
     kept: list[_Candidates] = []
-    size = max(1, sampler.chunk // (_PARTS + 1))
-    for start, end in _pieces(searches, low, high, size):
+    for start, end in _pieces(searches, low, high, max(1, sampler.chunk // 3)):
         found = evaluate(sampler, np.concatenate([start, (start + end) / 2, end]))
         reversing |= found.reversing_drivers
         values = _signed(found)
@@ -73,14 +77,14 @@ def count_extremes(
         maxima = np.fmax(maxima, np.fmax.reduce(values, axis=1))
         values = values.reshape(len(values), 3, -1)
         promise = _promise(*np.moveaxis(values, 1, 0))
-        sought, piece = np.nonzero(promise > _exceeded(maxima)[:, None])
+        sought, piece = np.nonzero(promise > (maxima + _tolerance(maxima))[:, None])
         kept.append(_Candidates(sought, promise[sought, piece], start[piece], end[piece]))
     joined = _Candidates(*map(np.concatenate, zip(*kept, strict=True)))
-    # each batch raises the maxima, which excludes most candidates of later batches
+    # the most promising pieces come first, because they raise the maxima, which excludes most of the others
+    joined = joined.chosen(np.argsort((maxima[joined.sought] - joined.promise) / _tolerance(maxima)[joined.sought]))
     while len(joined.sought):
-        _locate(sampler, maxima, joined.chosen(slice(size)))
-        joined = joined.chosen(slice(size, None))
-        joined = joined.chosen(joined.promise > _exceeded(maxima)[joined.sought])
+        _locate(sampler, maxima, joined.chosen(slice(_BATCH)))
+        joined = joined.chosen(slice(_BATCH, None)).exceeding(maxima)
     for tally, (most, minimum, fast, slow) in zip(tallies, maxima.reshape(-1, 4).tolist(), strict=True):
         tally.most, tally.minimum = max(tally.most, most), min(tally.minimum, -minimum)
         tally.fast, tally.slow = max(tally.fast, fast), min(tally.slow, -slow)
@@ -120,21 +124,21 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
     return found
 
 
-def _exceeded(maxima: Floats) -> Floats:
-    """Return the values above which a candidate is examined; equal maxima in other pieces are not."""
+def _tolerance(maxima: Floats) -> Floats:
+    """Return the tolerance of each maximum, from the range of the output's errors or rates."""
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
-    return np.asarray(maxima + np.maximum(_SURE * ranges, _ROUNDING))
+    return np.maximum(_SURE * ranges, _ROUNDING)
 
 
 def _locate(sampler: ErrorSampler, maxima: Floats, given: _Candidates) -> None:
     """Include the maxima of the candidates' quantities inside their pieces, by repeated subdivision, in place."""
     for _ in range(_ROUNDS):
-        given = given.chosen(given.promise > _exceeded(maxima)[given.sought])
+        given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))
         if not len(rows):
             break
         grid = given.low[:, None] + (given.high - given.low)[:, None] * (np.arange(_PARTS + 1) / _PARTS)
-        found, (output, kind) = sampler.at(grid.ravel()), np.divmod(given.sought, 4)
+        found, (output, kind) = evaluate(sampler, grid.ravel()), np.divmod(given.sought, 4)
         errors, rates = (each.reshape(-1, *grid.shape)[output, rows] for each in (found.error, found.rate))
         values = np.where(kind % 2, -1, 1)[:, None] * np.where(kind[:, None] < 2, errors, rates)
         # the highest point inside the piece and its neighbours enclose a smooth maximum

@@ -231,15 +231,7 @@ class Motion(Shown):
     def _path(self, pair: str) -> ErrorPath:
         """Return the links of a pair or coupling, through which its errors propagate.
 
-        Parameters
-        ----------
-        pair : str
-            Name of the pair.
-
-        Raises
-        ------
-        QuestionError
-            If the pair is redundant, so that its errors have no unique effect.
+        Raise `QuestionError` if the pair is redundant, so that its errors have no unique effect.
         """
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
@@ -256,14 +248,9 @@ class Motion(Shown):
         return self._compositions.composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition while the input turns in the declared sense, with additional pairs as sources.
+        """Return the composition in the declared sense of the input, with the given pairs as additional sources.
 
         Pairs with constant ratio can thus be given other transmission functions.
-
-        Parameters
-        ----------
-        pairs : collection of str
-            Names of pairs to include; pairs with variable errors are included anyway.
         """
         return self._compositions.composed(1, pairs)
 
@@ -355,21 +342,10 @@ class Motion(Shown):
         return [seen.difference(angles) for seen in self._seen]
 
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
-        """Yield the errors of a run in chunks that fit into memory.
+        """Yield the errors at equally spaced positions from 0 to `turns`, both included, in chunks that fit in memory.
 
-        Parameters
-        ----------
-        turns : float
-            Revolutions of the input from 0; negative against the declared sense, with the coast flanks driving.
-        samples : int
-            Number of positions including both ends, 2 or more.
-        first : int
-            Index of the first position.
-
-        Yields
-        ------
-        ErrorSamples
-            Errors at consecutive positions.
+        turns   revolutions of the input; negative against the declared sense, with the coast flanks driving
+        first   index of the first position
         """
         composition = self._sampler(turns, samples)
         chunk = composition.chunk
@@ -379,20 +355,7 @@ class Motion(Shown):
             yield composition.at(turns * (at / (samples - 1)))
 
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """Return the composition for a run, or its compiled kernel.
-
-        Parameters
-        ----------
-        turns : float
-            Revolutions of the input; only the sign is used.
-        samples : int
-            Number of positions of the run.
-
-        Returns
-        -------
-        ErrorSampler
-            Composition, or its compiled kernel.
-        """
+        """Return the composition for a run of `samples` positions, or its compiled kernel."""
         composition = self._forward if turns >= 0 else self._backward
         pairs = len(composition.used)
         if not pairs or not is_fast(self.fast, samples * pairs / _PACE):

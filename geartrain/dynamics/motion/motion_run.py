@@ -356,20 +356,9 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for some positions: revolutions of the input, then angle [rad], error [rad] and
-        speed [1] of each output.
+        """Return the table columns for some positions: revolutions, then angle [rad], error [rad], speed [1] by output.
 
         An angle is the sum of starting angle, mean motion and error.
-
-        Parameters
-        ----------
-        passage : ErrorSamples
-            Errors at consecutive positions of the run.
-
-        Returns
-        -------
-        list of array of float, (n,)
-            Columns in the order of `_position_columns`.
         """
         found = [passage.turns]
         angle = 2 * pi * passage.turns
@@ -379,19 +368,9 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if the last row of a partial table does not belong to this run.
+        """Raise an error if the last row of a partial table, cells separated by commas, does not belong to this run.
 
-        Parameters
-        ----------
-        row : str
-            Last row, with cells separated by commas.
-        rows : int
-            Number of rows.
-
-        Raises
-        ------
-        GearTrainError
-            If this run has another position in this row, or fewer positions.
+        rows   number of rows of the partial table
         """
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))

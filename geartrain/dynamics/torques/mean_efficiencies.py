@@ -143,28 +143,12 @@ def _side(mesh: LoadedPair, link: str) -> int:
 
 
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
-    """Compute the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
+    """Return the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
+
+    driving, driven   helix angles of the wheels [rad], right hand positive; their sum is the shaft angle
+    pressure_angle    normal pressure angle [rad]
 
     Only sliding along the teeth at the pitch point is considered; sliding along the profile is small compared with it.
-
-    Parameters
-    ----------
-    driving, driven : float
-        Helix angles of the driving and of the driven wheel [rad], right hand positive. Their sum is the shaft angle.
-    friction : float
-        Coefficient of friction, 0 or more.
-    pressure_angle : float
-        Normal pressure angle [rad].
-
-    Examples
-    --------
-    A worm with a lead angle of 5 degrees and a coefficient of friction of 0.1 has the efficiency
-    tan(lead angle) / tan(lead angle + friction angle). The wheel cannot drive the worm:
-
-    >>> round(screw_efficiency(radians(85), radians(5), 0.1 * cos(NORMAL_ANGLE)), 6)
-    0.462552
-    >>> screw_efficiency(radians(5), radians(85), 0.1 * cos(NORMAL_ANGLE)) < 0
-    True
     """
     slide = tan(driving) + tan(driven)
     # the normal force on an inclined flank is larger by 1 / cos(pressure angle)

@@ -96,8 +96,8 @@ def describe_pair(
 ) -> Document:
     """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
-    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or clearance
-    factor that is out of range.
+    The arguments are those of `collect_pair`. The permitted range is given of a friction coefficient or clearance factor
+    that is out of range.
     """
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."

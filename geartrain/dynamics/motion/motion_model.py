@@ -45,53 +45,6 @@ _PACE = 2e6  # positions of pairs per second evaluated by numpy in typical train
 
 
 @dataclass(frozen=True)
-class PointerCompositions:
-    """Compositions of the outputs of a train for both directions of the input, with pointers set at position 0."""
-
-    errors: PairErrors
-    outputs: tuple[SeenLink, ...]
-
-    def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the composition for one direction of the input, 1 or -1. `besides` has the same meaning as in
-        `PairErrors.sources`.
-        """
-        backlash, (teeth, pins) = self.errors.backlash(way), self._start
-        found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
-        sources = tuple(
-            replace(
-                each,
-                # backlash displaces the driver; `set_back` is its advance at position 0 due to other pairs
-                phase=each.phase + found.driver_shift(each, backlash),
-                set_back=found.driver_shift(each, teeth + pins),
-            )
-            for each in found.sources
-        )
-        return replace(
-            found, sources=sources, offsets=tuple(each.difference(backlash - teeth) for each in self.outputs)
-        )
-
-    @cached_property
-    def _start(self) -> tuple[Floats, Floats]:
-        """Angles added to each link at position 0 of the input by teeth, and by pins [rad].
-
-        They are linear in the errors of the pairs, because all driver angles are known.
-        """
-        deltas = np.zeros((len(self.errors.spread.pairs), 2))
-        pins = {joint.coupling.name for joint in self.errors.train.pins}
-        for each in self.errors.sources(1):
-            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
-        teeth, slots = self.errors.spread.errors(deltas).T
-        return teeth, slots
-
-    @property
-    def setting(self) -> Floats:
-        """Angle by which each link is turned relative to its wheels so that its teeth cause no error at position 0
-        [rad].
-        """
-        return -self._start[0]
-
-
-@dataclass(frozen=True)
 class TransmissionErrorCurve(Tabular, Result):
     """Transmission error of one output as a function of the input angle.
 
@@ -245,14 +198,14 @@ class Motion(Shown):
     @cached_property
     def _forward(self) -> ErrorComposition:
         """Composition while the input turns in the declared sense."""
-        return self._compositions.composed(1)
+        return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
         """Return the composition in the declared sense of the input, with the given pairs as additional sources.
 
         Pairs with constant ratio can thus be given other transmission functions.
         """
-        return self._compositions.composed(1, pairs)
+        return self._composed(1, pairs)
 
     @cached_property
     def _unset(self) -> ErrorComposition:
@@ -262,7 +215,7 @@ class Motion(Shown):
     @cached_property
     def _backward(self) -> ErrorComposition:
         """Composition while the input turns against the declared sense, with the coast flanks driving."""
-        return self._compositions.composed(-1)
+        return self._composed(-1)
 
     @cached_property
     def _seen(self) -> tuple[SeenLink, ...]:
@@ -271,17 +224,43 @@ class Motion(Shown):
             SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
         )
 
+    def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
+        """Return the composition for one direction of the input, 1 or -1, with the pairs `besides` as further sources.
+
+        Every pointer is set at position 0 of the declared sense.
+        """
+        backlash, (teeth, pins) = self._errors.backlash(way), self._start
+        found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
+        sources = tuple(
+            replace(
+                each,
+                # backlash displaces the driver; `set_back` is its advance at position 0 due to other pairs
+                phase=each.phase + found.driver_shift(each, backlash),
+                set_back=found.driver_shift(each, teeth + pins),
+            )
+            for each in found.sources
+        )
+        return replace(found, sources=sources, offsets=tuple(each.difference(backlash - teeth) for each in self._seen))
+
     @cached_property
-    def _compositions(self) -> PointerCompositions:
-        return PointerCompositions(self._errors, self._seen)
+    def _start(self) -> tuple[Floats, Floats]:
+        """Angles added to each link at position 0 of the input by teeth, and by pins [rad].
+
+        They are linear in the errors of the pairs, because all driver angles are known.
+        """
+        deltas = np.zeros((len(self._errors.spread.pairs), 2))
+        pins = {joint.coupling.name for joint in self._problem.pins}
+        for each in self._errors.sources(1):
+            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
+        teeth, slots = self._errors.spread.errors(deltas).T
+        return teeth, slots
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
         """Output -> constant angle between its pointer and its wheels, such that the output's error at position 0 is 0
         [rad].
         """
-        found = self._compositions.setting
-        return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
+        return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
     def _refuse_loops(self) -> None:
         for loop, real in self._problem.contradictions():

@@ -19,7 +19,6 @@ import numpy as np
 
 from geartrain.dynamics.pair_speeds import pitch_line_speed, radians_per_second
 from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
-from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.teeth.friction_law import PairFriction
 
 if TYPE_CHECKING:
@@ -364,6 +363,6 @@ def _radians_per_second(setting: LoadCase) -> float | None:
     """Return the magnitude of the input speed [rad/s]; None if speeds or torques are numbers without a unit."""
     unit = radians_per_second(setting.train, setting.case)
     driving_speed = next((speed for speed in setting.case.inputs.values() if speed), None)
-    if unit is None or driving_speed is None or not has_torque_units(setting.train, setting.case.state):
+    if unit is None or driving_speed is None or not setting.train.has_torque_units(setting.case.state):
         return None
     return unit * abs(float(driving_speed))

@@ -15,7 +15,6 @@ import numpy as np
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
-from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
@@ -240,7 +239,7 @@ class _RunResults:
             train.setting.case.state,
             self._verdict(locked, ambiguous, neglected),
             link,
-            has_torque_units(train.setting.train, train.setting.case.state),
+            train.setting.train.has_torque_units(train.setting.case.state),
             self.run.span,
             None if period is None else float(period),
             self.run.cells.turns,

@@ -26,9 +26,7 @@ WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""Content security policy for pages with a viewer: its frame inherits the policy, and hashes of its scripts are
-unknown.
-"""
+"""Content security policy of pages with a viewer, whose frame inherits it; hashes of its scripts are unknown."""
 
 
 @dataclass(frozen=True, slots=True)

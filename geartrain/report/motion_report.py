@@ -355,9 +355,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" without such
-    pairs.
-    """
+    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" without such pairs."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:

@@ -96,8 +96,8 @@ def describe_pair(
 ) -> Document:
     """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
-    The arguments are those of `collect_pair`. The permitted range is given of a friction coefficient or clearance factor
-    that is out of range.
+    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
+    clearance factor that is out of range.
     """
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
@@ -189,9 +189,7 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair with triangular teeth. For teeth that never touch, yield only sizes and
-    clearance.
-    """
+    """Yield the sections on a pair with triangular teeth; only sizes and clearance if the teeth never touch."""
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
@@ -281,9 +279,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of every contact
-    interval.
-    """
+    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of contact intervals."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))

@@ -1,6 +1,4 @@
-"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns of the
-input.
-"""
+"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns."""
 
 from __future__ import annotations
 

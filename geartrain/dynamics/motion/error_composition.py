@@ -88,8 +88,7 @@ class CompositionStep(NamedTuple):
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of earlier sources on which the drivers depend, with coefficients `from_known`, shape (sources, known).
-    """
+    """Indices of earlier sources on which the drivers depend; `from_known` has coefficients, shape (sources, known)."""
     from_known: Floats
     own: Floats
     """Change of each driver's angle per unit of the error of each source of the step, shape (sources, sources)."""
@@ -108,9 +107,7 @@ class SeenLink(NamedTuple):
     sense: int = 1
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference, from values of all links about their own
-        axes.
-        """
+        """Return the value of the link minus the value of its reference, from values of links about their own axes."""
         return float(values[self.of] - self.sense * values[self.base])
 
 

@@ -1,5 +1,4 @@
-"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between
-them.
+"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between them.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
 equation (3) of docs/motion.md, which includes the errors of earlier pairs. The equation S_m(x) = kink + an integer

@@ -348,9 +348,7 @@ class Motion(Shown):
 
     @cached_property
     def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are
-        requested.
-        """
+        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are needed."""
         return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
@@ -479,8 +477,7 @@ class Motion(Shown):
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
         """Compute the motion over a number of revolutions of the input, with peak values and moments of each output's
-        error and
-        speed.
+        error and speed.
 
         Parameters
         ----------

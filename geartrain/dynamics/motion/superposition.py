@@ -126,8 +126,7 @@ class ErrorEstimates(Result):
     nominal: SuperpositionEstimate
     """First-order superposition of the pairs' errors, with each driver at its mean angle."""
     lagged: SuperpositionEstimate
-    """First-order superposition of the pairs' errors, with each driver displaced by the mean errors of all pairs (lag).
-    """
+    """First-order superposition of the pairs' errors, with each driver displaced by the mean errors of all pairs."""
 
     @property
     def bound_error(self) -> float:
@@ -143,9 +142,7 @@ class ErrorEstimates(Result):
 def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
-    """Return the first-order estimates of every output's error, compared with the composition at `samples`
-    positions.
-    """
+    """Return first-order estimates of every output's error, compared with the composition at `samples` positions."""
     superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
     for passage in motion._stretches(turns, samples):

@@ -78,9 +78,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a pin and slot, slot driving first; 1 for a follower, which transmits no mean
-    power.
-    """
+    """Return the efficiencies of a pin and slot, slot driving first; 1 for a follower, whose mean power is 0."""
     joint = setting.joints.get(circuit.id)
     if joint is None or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()

@@ -125,9 +125,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty
-    without a cycle.
-    """
+    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty without a cycle."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []

@@ -137,9 +137,7 @@ def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, with the cause: shares, bearing friction, or tooth
-    friction.
-    """
+    """Return the verdict that no torques balance the load, with the cause: shares, friction of bearings or of teeth."""
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -198,9 +196,7 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the other
-    patterns.
-    """
+    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -291,8 +287,7 @@ class UnknownLinks:
     """
     undecided: TorqueVerdict | None = None
     """Verdict that requests a further unknown torque, returned if the loads are not in equilibrium without it; None if
-    no
-    choice is open.
+    no choice is open.
     """
 
 

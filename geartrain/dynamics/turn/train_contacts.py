@@ -86,9 +86,7 @@ class ContactLosses:
         return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose signs change where the torques have kinks but the speed ratio has none; None by
-        default.
-        """
+        """Return values whose signs change where torques, but not the speed ratio, have kinks; None by default."""
         del at
         return None
 

@@ -311,9 +311,7 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if no value is
-        finite.
-        """
+        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if none is finite."""
 
         def torque(found: PositionTorques) -> Floats:
             return own.highest(found) if way > 0 else own.torque(found)

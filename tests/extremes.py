@@ -442,7 +442,9 @@ def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
 
 
 def twelve(teeth: tuple[int, int], turns: float) -> Measured:
-    """Return the error of the last wheel of twelve pairs of 10 to 1 or 1 to 10, relative to the wheel's maximum error."""
+    """Return the error of the last wheel of twelve pairs of 10 to 1 or 1 to 10, relative to the wheel's maximum
+    error.
+    """
     found = run(chain([teeth], 12, triangular()), turns, 97, 7)
     return Measured(found.off["s12"] / float(np.abs(found.found["s12"].error).max()), found.seconds)
 
@@ -527,7 +529,9 @@ def locking(teeth: tuple[int, int]) -> Measured:
 
 
 def pin_near_offset(more: float, turns: float) -> Measured:
-    """Return the error of the slot of a pin at r = (1 + more) e, each turn slightly further past the fastest position."""
+    """Return the error of the slot of a pin at r = (1 + more) e, each turn slightly further past the fastest
+    position.
+    """
     train = Train(
         {"pin": (FRAME, "B"), "slot": (FRAME, "C")}, (Pair("pin", "slot", FRAME, Slot(1 + more, 1.0)),), {"pin": 1}
     )

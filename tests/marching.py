@@ -181,7 +181,9 @@ class Train:
 
     @cached_property
     def _rows(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Rows of the pairs and of the given speeds: constant part, part proportional to the ratio, and given speeds."""
+        """Rows of the pairs and of the given speeds: constant part, part proportional to the ratio, and given
+        speeds.
+        """
         size, given = len(self.at), self.inputs | {"frame": 0.0}
         still, turned = np.zeros((size, size)), np.zeros((size, size))
         for row, pair in enumerate(self.pairs):

@@ -94,7 +94,9 @@ class Pair:
 
     @cached_property
     def tips(self) -> Any:
-        """alpha_1max + alpha_2max: additional inclination of a flank at the ends of the reach, beyond its half angle."""
+        """alpha_1max + alpha_2max: additional inclination of a flank at the ends of the reach, beyond its half
+        angle.
+        """
         return self.amax + self.acos((self.D**2 + self.R2**2 - self.R1**2) / (2 * self.D * self.R2))
 
     @cached_property
@@ -162,7 +164,9 @@ class Pair:
         return arm / (self.D * m.cos(self.b2 - y) - arm)
 
     def lean(self, x: Any, phase: str | None = None) -> Any:
-        """Return the angle between the flank in contact and the other tooth's axis: beta + a1 + a2, or beta - a1 - a2."""
+        """Return the angle between the flank in contact and the other tooth's axis: beta + a1 + a2, or beta -
+        a1 - a2.
+        """
         phase = phase or self.phase(x)
         y = self.angle(x, phase)
         return self.b1 + x + y if phase == APPROACH else self.b2 - x - y
@@ -496,7 +500,9 @@ def entry_margin(pair: Pair) -> float:
 
 
 def exit_margin(pair: Pair) -> float:
-    """Return the distance of another tooth pair below the driven wheel where a pair leaves; below 0, contact is lost."""
+    """Return the distance of another tooth pair below the driven wheel where a pair leaves; below 0, contact is
+    lost.
+    """
     return float(angles(pair, np.array([pair.exit]))[0]) - others(pair, pair.exit)
 
 

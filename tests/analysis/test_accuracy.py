@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from fractions import Fraction
 from math import degrees
@@ -129,17 +127,6 @@ def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(tr
         "one",
         "other",
     ]
-
-
-def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
-    code = (
-        "import sys, geartrain; from geartrain.analysis import find_accuracy; "
-        "find_accuracy(geartrain.load('pennestri-2002')); "
-        "heavy = ('geartrain.teeth.triangular.triangular_transmission', 'geartrain.dynamics.motion'); "
-        "print([name for name in sys.modules if name.startswith(heavy)])"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
 
 
 def test_torque_over_a_turn_is_measured_by_its_samples() -> None:

@@ -54,9 +54,9 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     if tooth.wheels.friction_law is not None:
         speed = pitch_line_speed(setting, circuit, tooth)
         # undetermined relative motion: `find_neglected_effects` reports these losses
-        if speed.value is None and speed.problem is None:
+        if speed is None:
             return MeanEfficiencies()
-        tooth = at_speed(tooth, speed.known())
+        tooth = at_speed(tooth, speed)
     return _of_both(*(tooth.efficiency(wheel) for wheel in gear.pair))
 
 

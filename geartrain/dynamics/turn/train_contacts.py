@@ -323,7 +323,7 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
     if transmission is None:
         return ToothFriction(coefficient, static)
     # proportional to the driver's speed, which varies with the position
-    pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
+    pitch_line = (pitch_line_speed(setting, circuit, mesh) or 0.0) / (source.mean or 1.0)
     return ToothFriction(lambda sliding, turning: PairFriction(transmission, pitch_line * turning)(sliding), static)
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase
+from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, evaluate
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
@@ -93,14 +93,8 @@ class PairKinks:
         """
         if not len(turns):
             return np.zeros(0), np.zeros(0)
-        size = self.drivers.chunk
-        parts = [self.drivers.at(turns[start : start + size]) for start in range(0, len(turns), size)]
-        error, rate = (
-            np.concatenate([part.error[0] for part in parts]),
-            np.concatenate([part.rate[0] for part in parts]),
-        )
-        way = self.source.forward * self.source.driver_sense
-        return way * error, self.source.mean + way * rate
+        found, way = evaluate(self.drivers, turns), self.source.forward * self.source.driver_sense
+        return way * found.error[0], self.source.mean + way * found.rate[0]
 
     def between(self, steps: InputSteps) -> Floats:
         """Return the positions of kinks within some steps [revolutions] and the indices of the kinks, shape (2, n), in
@@ -128,11 +122,12 @@ class PairKinks:
             middle = (low + high) / 2
             before = (self.shift(middle)[1] >= 0) == first
             low, high = np.where(before, middle, low), np.where(before, high, middle)
+        stops = ends[:, 1:].copy()
+        stops[turning] = low
         return InputSteps(
             np.concatenate([steps.low[~slow], ends[:, :-1].ravel(), high]),
-            np.concatenate([steps.high[~slow], np.where(turning, _filled(turning, low, ends), ends[:, 1:]).ravel(),
-                            ends[:, 1:][turning]]),
-        )  # fmt: skip
+            np.concatenate([steps.high[~slow], stops.ravel(), ends[:, 1:][turning]]),
+        )
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
         """Return positions and indices of the kinks in steps without reversals, from `low` and `high`, the driver's
@@ -167,13 +162,6 @@ class PairKinks:
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
         again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
         return np.sort(turns[~again])
-
-
-def _filled(chosen: Floats, values: Floats, ends: Floats) -> Floats:
-    """Return `values` at the indices `chosen`, and the ends of the steps elsewhere."""
-    found = ends[:, 1:].copy()
-    found[chosen] = values
-    return found
 
 
 class KinkSearch:

@@ -77,16 +77,17 @@ def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[
     gains = _gains(setting, nonuniform)
 
     def bounds(link: str, carrier: str, added: Floats) -> Floats:
-        """Return the bounds of a relative speed, from the bounds of what each pair adds, shape (2, pairs)."""
+        """Return the bounds of a relative speed; `added` has those of (tau - m) w of each pair, shape (2, pairs)."""
         mean = setting.relative(link, carrier)
         if mean is None:
             return np.array([-inf, inf])
         gain = gains[link] - gains[carrier]
+        # a pair without effect may have infinite bounds, and 0 times infinity is NaN
         ends = np.where(gain, gain * added, 0.0)
         return nearest_float(mean) + np.array([ends.min(axis=0).sum(), ends.max(axis=0).sum()])
 
     swings, added = np.array([each.swing for each in nonuniform]).T, np.zeros((2, len(nonuniform)))
-    with np.errstate(invalid="ignore"):  # 0 times infinity is 0 here
+    with np.errstate(invalid="ignore"):
         # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
         for _ in range(len(nonuniform) + 1):
             turning = np.array([bounds(each.driver, each.carrier, added) for each in nonuniform]).T

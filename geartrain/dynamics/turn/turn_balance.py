@@ -284,8 +284,6 @@ class _State(NamedTuple):
     """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
 
     Only the first of several equal planets has torques here.
-
-    Of several equal planets only the first has torques here.
     """
 
     motion: LinkMotion

@@ -32,10 +32,7 @@ class Superposition:
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used
-        spread = composition.spread
-        pairs = [source.pair for source in self.sources]
-        rows = [spread.sensitivity(*seen)[pairs] for seen in composition.outputs]
-        self.response = np.array(rows).reshape(len(composition.outputs), len(pairs))
+        self.response = composition.weights[:, [at for step in composition.steps for at in step.sources]]
 
     @cached_property
     def ranges(self) -> Floats:

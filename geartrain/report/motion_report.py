@@ -393,8 +393,8 @@ def _remarks(run: MotionRun) -> Iterator[str]:
         bounds = Superposition(run.motion._forward if run.turns >= 0 else run.motion._backward).bounds
         limits = (f"{name} {degrees(most):.5g} deg" for name, most in zip(run.motion.outputs, bounds, strict=True))
         yield (
-            "The run is too long to search every pitch: extremes are those of the computed positions. The "
-            f"{run.motion._problem.deviation} p-p is at most {', '.join(limits)}."
+            "The run is too long to search every pitch, so extremes are those of the computed positions; a shorter run "
+            f"is searched completely. The {run.motion._problem.deviation} p-p is at most {', '.join(limits)}."
         )
 
 

@@ -54,10 +54,10 @@ def count_extremes(
     """Include the extremes over a run from position 0 to `turns` [revolutions] in the statistics of its outputs.
 
     compositions   compositions whose kinks divide the run
-    sampler        errors to search: those of one composition, or the difference of two
+    sampler        function of errors to search: one of the compositions, or the difference of two
 
-    Return the pairs whose driver turns against its mean motion at some position. Runs with more than `MOST_KINKS` kinks
-    are not searched.
+    Runs with more than `MOST_KINKS` kinks are not searched. The result is the set of pairs whose driver turns against
+    its mean motion at some position.
     """
     searches = [KinkSearch(each) for each in compositions]
     low, high = sorted((0.0, turns))
@@ -67,6 +67,7 @@ def count_extremes(
         high = low + float(period)
     if sum(each.rate for each in searches) * (high - low) > MOST_KINKS:
         return frozenset()
+    # errors and rates of each output, and their negatives, so that minima are maxima too
     maxima, reversing = np.full(4 * len(tallies), -np.inf), frozenset[str]()
     kept: list[_Candidates] = []
     for start, end in _pieces(searches, low, high, max(1, sampler.chunk // 3)):
@@ -99,7 +100,8 @@ def _pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) 
         kinks = [search.between(steps).turns for search in searches]
         edges = np.unique(np.concatenate([steps.low, steps.high[-1:], *kinks]))
         beside = np.maximum(_BESIDE * (steps.high[0] - steps.low[0]), _ULPS * np.spacing(np.abs(edges[1:])))
-        wide = np.diff(edges) > 4 * beside  # narrower pieces are kinks that rounding has doubled
+        # a narrower piece is between two copies of one kink, which differ by rounding
+        wide = np.diff(edges) > 4 * beside
         first, last = (edges[:-1] + beside)[wide], (edges[1:] - beside)[wide]
         yield from ((first[at : at + size], last[at : at + size]) for at in range(0, len(first), size))
 
@@ -126,6 +128,7 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
 
 def _tolerance(maxima: Floats) -> Floats:
     """Return the tolerance of each maximum, from the range of the output's errors or rates."""
+    # a maximum plus the maximum of the negatives is the range
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
     return np.maximum(_SURE * ranges, _ROUNDING)
 

@@ -90,6 +90,7 @@ class SuperpositionEstimate(Result):
     )
 
     own: RunningStatistics
+    """Statistics of the estimated error [rad]; `off` has those of the estimated minus the composed error [rad]."""
     off: RunningStatistics
 
     @property

@@ -168,9 +168,9 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return question
-    if not question.requested.enough:
+    if not question.enough:
         text = "fewer torques are unknown than the train has degrees of freedom: loads cannot balance everywhere"
-        return question.requested.undecided or TorqueVerdict("undecided", text)
+        return question.undecided or TorqueVerdict("undecided", text)
     return build_turn_balance(setting, problem, question)
 
 
@@ -183,11 +183,11 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
-    bases = {link: setting.reacts_on(link) for link in question.requested.links}
+    bases = {link: setting.reacts_on(link) for link in question.links}
     reactions = {
         link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items() if base != frame
     }
-    balanced = replace(build_balance(setting, known, question.requested.links), reactions=reactions)
+    balanced = replace(build_balance(setting, known, question.links), reactions=reactions)
     whole = generic_balance(balanced)
     balance = without_pairs(whole, idle_pairs(whole))
     busy = replace(

@@ -62,7 +62,7 @@ class KinkPositions(NamedTuple):
 
 
 class InputSteps(NamedTuple):
-    """Steps of the input, by the positions of their starts and ends [revolutions], shape (n,) each."""
+    """Steps of the input from `low` to `high` [revolutions], shape (n,) each."""
 
     low: Floats
     high: Floats
@@ -70,10 +70,7 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of one transmission function, with the angle of its driver as a function of the input position.
-
-    kinks    driver angles at the kinks [rad], within one period, each once
-    """
+    """Kinks of the transmission function of `source`; `drivers` is the composition with only its driver as output."""
 
     source: PairErrorSource
     drivers: ErrorComposition

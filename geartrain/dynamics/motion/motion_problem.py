@@ -43,6 +43,7 @@ class MotionProblem:
     angles: Mapping[str, float] = field(default_factory=dict)
     """Starting angles of links [rad]; 0 for links without an entry."""
     phases: Mapping[str, float] = field(default_factory=dict)
+    """Pair -> declared position of a tooth of its first wheel past the line of centres [pitch]."""
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
     """(pair, wheel) -> other pairs of this wheel with the same line of centres.
 

@@ -225,7 +225,7 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""Assumed resistances in order of precedence, each with its name for notes on pairs through which it takes no power."""
+"""Assumed resistances in order of precedence, each with words for a note on pairs that carry no power to it."""
 
 
 def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:

@@ -127,6 +127,7 @@ class LoadCase:
     tree: Tree
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
+    """Link -> -1 if its axis is opposite to the reference direction of its parallel axes; other links have 1."""
     case: StateCase
     speeds: Mapping[str, Fraction]
     """Link -> speed, for links whose speed is determined [unit of the train]."""

@@ -47,7 +47,7 @@ FAINT = 1e-9
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run of the input, shape (cells,). Torques are smooth within each cell."""
+    """Cells of a run from `low` to `high` [revolutions of the input], shape (cells,). Torques are smooth in each cell."""
 
     low: Floats
     high: Floats
@@ -152,7 +152,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
 @dataclass
 class TurnRun:
-    """Run over some revolutions of the input, at `samples` positions or more."""
+    """Run of `train` over `span` revolutions of the input, at `samples` positions or more."""
 
     train: TurnBalance
     span: float

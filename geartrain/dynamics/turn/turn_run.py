@@ -47,7 +47,7 @@ FAINT = 1e-9
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run from `low` to `high` [revolutions of the input], shape (cells,). Torques are smooth in each cell."""
+    """Cells of a run from `low` to `high` [revolutions of the input], shape (cells,); torques are smooth in a cell."""
 
     low: Floats
     high: Floats

@@ -158,9 +158,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the run times and errors of the methods for speeds: exact elimination, if `solve` uses it by default, and
-    floats.
-    """
+    """Yield rows on speeds: exact elimination, if `solve` uses it by default, and floats."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -171,64 +169,59 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
         list(answer.speeds.values())  # speeds are computed when they are read
         return answer
 
-    exact: Mapping[str, Any] = {}
-    if usual.method == "exact":
-        seconds, answer = _best_of(partial(solve, "exact"))
-        exact = answer.speeds
-        yield MethodAccuracy("speeds", "exact", seconds, None, "relative", _REFERENCE)
     seconds, floats = _best_of(partial(solve, "floats"))
-    off = [abs(Fraction(floats[link]) / Fraction(speed) - 1) for link, speed in exact.items() if speed]
-    if not exact:
-        off = [abs(each.estimate / floats[link]) for link, each in floats.accuracy.items() if floats[link]]
-    reference = "exact speeds" if exact else "its error estimate"
+    off = [abs(each.estimate / floats[link]) for link, each in floats.accuracy.items() if floats[link]]
+    reference = "its error estimate"
+    if usual.method == "exact":
+        exactly, exact = _best_of(partial(solve, "exact"))
+        yield MethodAccuracy("speeds", "exact", exactly, None, "relative", _REFERENCE)
+        off = [abs(Fraction(floats[link]) / Fraction(speed) - 1) for link, speed in exact.speeds.items() if speed]
+        reference = "exact speeds"
     yield MethodAccuracy("speeds", "floats", seconds, float(max(off, default=0.0)), "relative", reference)
 
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the run times and errors of the methods for transmission functions: direct evaluation, and interpolation in
-    tables of two tolerances.
-    """
-    transmissions: dict[str, TransmissionFunction] = {
+    """Yield rows on transmission functions: direct evaluation, and interpolation in tables of two tolerances."""
+    functions: dict[str, TransmissionFunction] = {
         mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid
     }
-    transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
-    if not transmissions:
-        what = "every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM
-        raise QuestionError(Problem(what))
+    functions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
+    if not functions:
+        raise QuestionError(Problem("every pair with a tooth form keeps its exact ratio" if train.meshes else _NO_FORM))
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
     # equal steps could coincide with the nodes of the tables, where their error is 0; seeded, so that results repeat
     random = np.random.default_rng(1)
-    S = {name: random.uniform(0, 10 * transmission.period, positions) for name, transmission in transmissions.items()}
-    pitches = {name: abs(float(each.ratio) or 1.0) * each.period for name, each in transmissions.items()}
+    S = {name: random.uniform(0, 10 * each.period, positions) for name, each in functions.items()}
 
-    def evaluate(functions: dict[str, Any]) -> dict[str, Floats]:
-        return {name: each.error(S[name]) for name, each in functions.items()}
+    def evaluate(each: Mapping[str, Any]) -> dict[str, Floats]:
+        return {name: function.error(S[name]) for name, function in each.items()}
 
-    def tabulate(tolerance: float) -> dict[str, Any]:
-        tables = {name: TabulatedTransmission(transmission, tolerance) for name, transmission in transmissions.items()}
+    def tabulate(tolerance: float) -> dict[str, TabulatedTransmission]:
+        tables = {name: TabulatedTransmission(each, tolerance) for name, each in functions.items()}
         for table in tables.values():
             _ = table.error_table
         return tables
 
     stage: Stage = "transmission functions"
-    seconds, direct = _best_of(partial(evaluate, transmissions))
-    yield MethodAccuracy(stage, f"direct, {len(transmissions)} functions", seconds, None, "pitches", _REFERENCE)
+    seconds, direct = _best_of(partial(evaluate, functions))
+    yield MethodAccuracy(stage, f"direct, {len(functions)} functions", seconds, None, "pitches", _REFERENCE)
     for tolerance in _TOLERANCES:
         prepared, tables = _best_of(partial(tabulate, tolerance))
         seconds, read = _best_of(partial(evaluate, tables))
-        off = {name: float(np.nanmax(np.abs(read[name] - direct[name]))) / pitches[name] for name in transmissions}
-        name = max(off, key=lambda each: off[each])
-        method, reference = f"tabulated, {tolerance:.0e}", f"direct, pair {name}"
-        yield MethodAccuracy(stage, method, seconds, off[name], "pitches", reference, prepared)
+        off = {
+            name: float(np.nanmax(np.abs(read[name] - direct[name]))) / (abs(float(each.ratio) or 1.0) * each.period)
+            for name, each in functions.items()
+        }
+        worst = max(off, key=off.__getitem__)
+        method, reference = f"tabulated, {tolerance:.0e}", f"direct, pair {worst}"
+        yield MethodAccuracy(stage, method, seconds, off[worst], "pitches", reference, prepared)
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the run times and errors of the methods for motion: composition (with numpy, compiled, from tables) and
-    first-order superposition.
-    """
+    """Yield rows on motion: composition (with numpy, compiled, from tables) and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -269,7 +262,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the run times and errors of the methods for torques: balance with losses, and mean torque of a run."""
+    """Yield rows on torques: balance with losses, and mean torque of a run."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

@@ -315,32 +315,11 @@ class DiscTransmission(ExactRatio, ToothTransmission):
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
         return found
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]."""
-        # the load is given on the driven side, so the loss is added to the input power
-        found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
-        return found
-
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return sliding speed and friction terms of all pins combined into one contact, weighted by their loads."""
         speed, lost = self.disc.sliding(self._phase(S))
+        # the load is given on the driven side, so the loss is added to the input power
         return ContactRubbing(speed[None], lost[None], np.zeros_like(lost)[None])
-
-    @cached_property
-    def _sampled(self) -> Floats:
-        return self.efficiency(np.linspace(0, self.period, _PHASES, endpoint=False))
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency over a pitch at constant driver torque."""
-        return float(self._sampled.mean())
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the mean efficiency over a pitch at constant torque of the driven wheel."""
-        return float(1 / (1 / self._sampled).mean())
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency at any driver angle."""
-        return float(self._sampled.min())
 
 
 # ------------------------------------------------------------------------------------------------------ pair of a train

@@ -6,7 +6,7 @@ The driver's angle S is measured from the direction that points from the pin's a
 from __future__ import annotations
 
 from fractions import Fraction
-from math import acos, acosh, atan2, inf, log, nan, pi, sqrt
+from math import atan2, inf, nan, pi, sqrt
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
@@ -23,30 +23,6 @@ if TYPE_CHECKING:
 _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflows nor overflows
 # the mean of a smooth periodic function over equidistant samples is exact to rounding error unless r is close to e
 _SAMPLES = 4096
-
-
-def log_share(r: float, e: float) -> float:
-    """Return ln((r + e)/(r - e))/pi for r > e.
-
-    This is the increase of the mean of 1/eta over a turn of the *slot* per unit of friction, with the efficiency
-    eta = 1/(1 + f |tan d|). The angle between pin radius and slot is d, with sin d = (e/r) sin psi at slot angle psi.
-    """
-    return log((r + e) / (r - e)) / pi
-
-
-def mean_over_the_pin(r: float, e: float, f: float) -> float:
-    """Return the mean of 1/(1 + f |tan d|) over a turn of the pin, r > e; d is the angle between pin radius and slot.
-
-    With -f it is the mean of 1/(1 - f |tan d|), which is finite for c > -1. With c = f e/sqrt(r^2 - e^2) and
-    tan(S/2) = sqrt((r - e)/(r + e)) tan(u/2) the mean is the integral over 0 <= u <= pi of
-    sqrt(r^2 - e^2)/(pi (r + e cos u)(1 + c sin u)). Partial fractions reduce it to a logarithm and an arc cosine.
-    """
-    width = sqrt((r - e) * (r + e))
-    c = f * e / width
-    # sqrt(1 - c^2) as a product: near c = 1, where the quotient is 1, the difference loses half its digits
-    apart = sqrt(abs(1 - c) * (1 + c))
-    inner = 2 * (acos(c) / apart if c < 1 else 1 if c == 1 else acosh(c) / apart)
-    return (1 - f * log_share(r, e) + f * f * r * inner / (pi * width)) / (1 + f * f)
 
 
 class PinTransmission(TransmissionFunction):
@@ -210,19 +186,6 @@ class PinToSlotTransmission(PinTransmission):
         whole = along + across  # 0 only at a dead point without friction, where the efficiency is 1
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
 
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency over a turn of the pin at constant torque on the pin."""
-        if self.r > self.e:
-            return mean_over_the_pin(self.r, self.e, self.friction)
-        return float(np.mean(self.efficiency(self._turn_samples())))
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the efficiency 1/(1 + (f/pi) ln((r + e)/(r - e))) at constant torque on the slot; NaN for a follower.
-
-        The work of a constant torque on a follower is 0 over a complete oscillation.
-        """
-        return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
-
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r.
 
@@ -316,27 +279,11 @@ class SlotToPinTransmission(PinTransmission):
         across, along = self._sides(S)
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
 
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot at constant torque on the
-        slot.
-
-        The mean is NaN if friction locks the pin at any angle.
-        """
-        return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return work output divided by work input at constant torque on the pin; NaN if friction locks the pin."""
-        return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
-
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r; NaN if friction locks the
         pin.
         """
-        return nan if self._locks else 1 - self.friction * self._maximum_tangent
-
-    @property
-    def _locks(self) -> bool:
-        return self.friction >= self.locking_friction
+        return nan if self.locks else 1 - self.friction * self._maximum_tangent
 
     @property
     def locking_friction(self) -> float:

@@ -57,12 +57,12 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
         coefficient = losses.by
 
     def table(way: int) -> TabledFunction:
-        nodes = transmission.rubbing_nodes()
-        if nodes is None:
-            return tabled_function(partial(_at_angles, transmission, coefficient, way, mesh.label), transmission)
-        # functions that are slow to evaluate are interpolated between the nodes at which their sliding is known
-        S = np.mod(nodes[0], transmission.period)
-        more = _friction_term(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
+        at_angles = partial(_at_angles, transmission, coefficient, way, mesh.label)
+        if not transmission.slow:
+            return tabled_function(at_angles, transmission)
+        # functions that are slow to evaluate are interpolated between few nodes
+        nodes, _ = transmission.graded_nodes(transmission.speed)
+        S, more = np.mod(nodes, transmission.period), at_angles(nodes)
         return tabled_function(lambda at: np.interp(at, S, more, period=transmission.period), transmission, _ROUGH)
 
     return table(1), table(-1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, pi, sin
+from math import cos, nan, pi, sin
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -21,6 +21,7 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump
 
 if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
     from geartrain.teeth.pair_results import PairVerdict
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -130,15 +131,21 @@ class TriangularMesh(GearMesh):
         The normal makes the angle psi with the pitch line. The sum of its distances from both centres is n1 + n2 =
         D cos(psi); with a ring gear, the difference: (31) of docs/strength.md.
         """
-        sizes, arms = self.transmission.sizes, self.transmission.contact.path.tooth_pair.normal_arms
-        radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0
-        s1, s2 = sizes.signs
-        for interval, x, weights in self.transmission.nodes:
-            if interval.held is None:
-                n1, n2 = arms(interval.phase, x, np)
-                total += float(weights @ (radius / n2 * np.sqrt(1 - ((s1 * n1 + s2 * n2) / sizes.D) ** 2)))
-                whole += float(weights.sum())
-        return total / whole
+        transmission = self.transmission
+        sizes, arms = transmission.sizes, transmission.contact.path.tooth_pair.normal_arms
+        radius, (s1, s2) = sizes.D * sizes.z2 / sizes.pitch_sum, sizes.signs
+
+        def ratio(interval: DriveInterval, x: Floats) -> Floats | float:
+            if interval.held is not None:
+                return nan
+            n1, n2 = arms(interval.phase, x, np)
+            found: Floats = radius / n2 * np.sqrt(1 - ((s1 * n1 + s2 * n2) / sizes.D) ** 2)
+            return found
+
+        S, weights = transmission.graded_nodes(transmission.speed)
+        each = transmission.mapped(S, ratio)
+        touching = ~np.isnan(each)
+        return float((weights * each)[touching].sum() / weights[touching].sum())
 
     @property
     def has_cut_sizes(self) -> bool:

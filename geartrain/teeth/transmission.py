@@ -485,6 +485,10 @@ class DerivedTransmission(TransmissionFunction):
         """Return the driver angles of the kinks of the underlying function [rad]."""
         return self.transmission.kinks()
 
+    def smooth_intervals(self) -> list[tuple[float, float]]:
+        """Return the smooth intervals of the underlying function [rad]."""
+        return self.transmission.smooth_intervals()
+
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
         """Return the upward steps of the speed ratio of the underlying function."""
         return self.transmission.speed_leaps()

@@ -122,13 +122,7 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
+        """Return the pair at its design centre distance."""
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
 

@@ -135,13 +135,7 @@ class PinToSlotTransmission(PinTransmission):
         self.ratio = Fraction(1 if pin_radius > offset else 0)
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error: slot angle minus mean motion.
-
-        Returns
-        -------
-        ndarray
-            Transmission error [rad of the slot], of the shape of S.
-        """
+        """Return the transmission error [rad of the slot]: slot angle minus mean motion."""
         S = np.asarray(S, dtype=float)
         less, more = min(self.r, self.e), max(self.r, self.e)
         # more - less cos S as a sum, which does not cancel near r = e
@@ -173,12 +167,8 @@ class PinToSlotTransmission(PinTransmission):
         return min(far, near), max(far, near)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency |cos d|/(|cos d| + f |sin d|) at driver angles S [rad].
-
-        Returns
-        -------
-        ndarray
-            Efficiency, of the shape of S; 0 at the dead points of a follower with friction.
+        """Return the efficiency |cos d|/(|cos d| + f |sin d|) at driver angles S [rad]; 0 at the dead points of a
+        follower with friction.
         """
         along, _ = self._reach(S)
         across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
@@ -242,13 +232,7 @@ class SlotToPinTransmission(PinTransmission):
             )
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error: pin angle minus mean motion.
-
-        Returns
-        -------
-        ndarray
-            Transmission error [rad of the pin], of the shape of S.
-        """
+        """Return the transmission error [rad of the pin]: pin angle minus mean motion."""
         across, along = self._sides(S)
         return np.asarray(-np.arctan2(across, along))
 
@@ -269,12 +253,9 @@ class SlotToPinTransmission(PinTransmission):
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency 1 - f |tan d| at driver angles S [rad]; d is the angle between pin radius and slot.
+        """Return the efficiency 1 - f |tan d| at driver angles S [rad]; 0 where friction locks the pin.
 
-        Returns
-        -------
-        ndarray
-            Efficiency, of the shape of S; 0 where friction locks the pin.
+        The angle between pin radius and slot is d.
         """
         across, along = self._sides(S)
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))

@@ -102,15 +102,6 @@ class RubbedTransmission(DerivedTransmission):
         return self.graded_nodes(lambda S: 1 / self.efficiency(S))
 
 
-def rubbed(transmission: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
-    """Return the transmission function with the losses of the declared friction law.
-
-    The function is returned unchanged if no friction law is declared or the pitch-line speed is unknown.
-    """
-    by = pair_friction(wheels)
-    return transmission if by is None else RubbedTransmission(transmission, by)
-
-
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
     """Return the friction law of a pair at its pitch-line speed; None without a friction law or if the speed is
     unknown.

@@ -44,15 +44,25 @@ _WANTED = 1e-15  # driven pitches, or of the mean speed: rounding error of the f
 _GOOD = 1e-12  # in the same units: if no table is as accurate, the function itself is evaluated
 
 
-class HasKinks(Protocol):
-    """Periodic function with known kinks."""
+class PeriodicTransmission(Protocol):
+    """Periodic function with known kinks, such as a transmission function."""
 
     @property
     def period(self) -> float:
         """Period [rad of the driver]."""
 
+    @property
+    def ratio(self) -> Fraction:
+        """Mean speed ratio."""
+
     def kinks(self) -> list[float]:
         """Return the driver angles at which the function or a derivative is discontinuous [rad]."""
+
+    def error(self, S: Floats) -> Floats:
+        """Return the transmission error [rad] at driver angles S [rad]."""
+
+    def speed(self, S: Floats) -> Floats:
+        """Return the speed ratio at driver angles S [rad]."""
 
 
 class CellTable:
@@ -125,7 +135,7 @@ class CellTable:
         return np.asarray(found)
 
 
-def folded_kinks(transmission: HasKinks) -> Floats:
+def folded_kinks(transmission: PeriodicTransmission) -> Floats:
     """Return the distinct kinks of a function modulo its period in ascending order [rad]."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
@@ -245,20 +255,6 @@ class TransmissionTables(NamedTuple):
     """
 
 
-class PeriodicTransmission(HasKinks, Protocol):
-    """Function of which a table can be made, such as a transmission function."""
-
-    @property
-    def ratio(self) -> Fraction:
-        """Mean speed ratio."""
-
-    def error(self, S: Floats) -> Floats:
-        """Return the transmission error [rad] at driver angles S [rad]."""
-
-    def speed(self, S: Floats) -> Floats:
-        """Return the speed ratio at driver angles S [rad]."""
-
-
 class TransmissionTable(NamedTuple):
     """Tables of error and speed of one transmission function over its period [rad]."""
 
@@ -310,12 +306,7 @@ def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> Tran
         1 / period,
         coarse,
         period - coarse,
-        np.array(
-            [
-                max(transmission.error.cells, transmission.speed.cells) / transmission.period
-                for transmission in transmissions
-            ]
-        ),
+        np.array([max(each.error.cells, each.speed.cells) / each.period for each in transmissions]),
         ends[:-1],
         ends[1:] - 1,
         np.concatenate(([0], np.cumsum([len(each) for each in kinks]))).astype(np.int64),

@@ -82,13 +82,7 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
+        """Return the pair at its design centre distance."""
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch = wheels.pitch

@@ -337,12 +337,3 @@ def test_a_train_moves_and_loses_what_its_one_sided_teeth_say(pair: Drawn, tmp_p
     assert rigid["peak_to_peak"] == 0
     lost = 1 - float(train.torques().efficiency)
     assert lost / 1e-4 == pytest.approx(pair.loss(True), rel=2e-4)
-
-
-def test_a_train_of_one_sided_teeth_is_exported(tmp_path: Path) -> None:
-    given = {name: getattr(ISSUE, name) for name in ("z1", "z2", "x1", "x2", "add1", "add2")}
-    file = tmp_path / "ring.yaml"
-    file.write_text("name: ring\n" + TRAIN.format(**given, internal=", internal: true", load=-1), encoding="utf-8")
-    done = call("export", file, "--to", tmp_path / "out", "--as", "svg,dxf", "--thickness", "2mm")
-    assert done.exit_code == 0, done.output
-    assert list((tmp_path / "out").rglob("*.dxf"))

@@ -131,6 +131,15 @@ class InvolutePair:
         """Backlash on the operating pitch circle as an arc X [module]; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
+    def bottom_clearance(self, gear: int) -> float:
+        """Return the distance from the root of one wheel to the tip of its mate [module]; negative if they overlap."""
+        own, mate = (self.first, self.second) if gear == 1 else (self.second, self.first)
+        if not self.second.ring:
+            return self.distance - mate.tip - own.root
+        # for a ring, tips are inside and roots outside
+        free = own.root - mate.tip if gear == 2 else mate.tip - own.root
+        return free - self.distance
+
     @property
     def arcs(self) -> tuple[float, float]:
         """Arcs X of approach and recess that the tip circles give [module].

@@ -77,8 +77,8 @@ class PathLosses(Result):
     at a contact.
     """
     off_pitch: float
-    """Maximum of the quantity in `stress` over contacts that are more than a tenth of a pitch away from the pitch
-    point; 0 without such contacts.
+    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0
+    without such contacts.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
@@ -205,8 +205,9 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
     """Return the losses and loads if the tooth pairs in contact in each interval share the load equally."""
     pitch = path.pitch
-    # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch
-    bound = 0.1 * pitch.p
+    # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch; less
+    # rounding, so that a change of the number of tooth pairs exactly there counts for every form
+    bound = (0.1 - _ROUNDING) * pitch.p
 
     # H (pressure squared) and heat are proportional to the force on a pair, flash to its power 3/4
     def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.tooth_outline import ToothOutline, repeated
+from geartrain.teeth.outlines.tooth_outline import repeated
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
@@ -179,7 +179,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
         kind, root, fillet = "ring" if tooth.flank.outward < 0 else "external", tooth.root, tooth.fillet.radius
         if cut.fillet is not None and wanted is not None and fillet < wanted:
             raise _fillet_too_large(gear, cut.fillet, fillet * scale)
-        contours = _contours(tooth, cut)
+        contours = blank_contours(tooth.whole(), kind, root, cut)
     return WheelOutline(
         gear=gear,
         z=int(demand.z),
@@ -237,16 +237,19 @@ def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError
     )
 
 
-def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
-    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth."""
-    teeth = tooth.whole().scaled(cut.module)
-    if tooth.flank.outward > 0:
+def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> list[Contour]:
+    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth.
+
+    teeth, root   contour of the teeth and radius of the root circle [module]
+    """
+    teeth = teeth.scaled(cut.module)
+    if kind != "ring":
         if cut.rim is not None:
             raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --blank rim", "--blank rim"))
-        return [teeth, *bore(cut, tooth.root * cut.module)]
+        return [teeth, *bore(cut, root * cut.module)]
     if cut.bore is not None:
         raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))
-    return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
+    return [Contour.circle(root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:

@@ -21,8 +21,7 @@ from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth, LanternPins
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PairVerdict, motion_figures
-from geartrain.teeth.tooth_transmission import ToothTransmission
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -48,28 +47,21 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class CycloidalDisc:
-    """Lobed disc of a cycloidal reducer and the ring of pins in which it rolls. Lengths are in modules.
-
-    Attributes
-    ----------
-    lobes : int
-        Number of lobes of the disc. The ring has one pin more.
-    circle : float
-        Radius of the circle through the centres of the pins.
-    pin : float
-        Radius of a pin.
-    clearance : float
-        Distance by which the outline of the disc is set back from every pin.
-    deflection : float or None
-        Deflection of one pin under the whole force on the pitch circle of the disc. None: all pins that push are loaded
-        in proportion to their lever arms, as if there were no clearance.
-    """
+    """Lobed disc of a cycloidal reducer and the ring of pins in which it rolls. Lengths are in modules."""
 
     lobes: int
+    """Number of lobes of the disc. The ring has one pin more."""
     circle: float
+    """Radius of the circle through the centres of the pins [module]."""
     pin: float
+    """Radius of a pin [module]."""
     clearance: float = 0.0
+    """Distance by which the outline of the disc is set back from every pin [module]."""
     deflection: float | None = None
+    """Deflection of one pin under the whole force on the pitch circle of the disc [module].
+
+    None: all pins that push are loaded in proportion to their lever arms, as if there were no clearance.
+    """
 
     @property
     def pins(self) -> int:
@@ -181,10 +173,15 @@ class CycloidalDisc:
         found: Floats = np.take_along_axis(angles, enough.argmax(axis=0)[None], axis=0)[0]
         return found
 
+    @property
+    def _phases(self) -> Floats:
+        """Equally spaced angles of one pin over a pitch [rad]."""
+        return np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)
+
     @cached_property
     def bearing_pins(self) -> tuple[int, int]:
         """Minimum and maximum number of pins that carry load at the same time."""
-        loads = self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))
+        loads = self.loads(self._phases)
         # the lever arm of a pin on the line of centres is 0 except for rounding error
         number = (loads > 1e-9 * loads.max()).sum(axis=0)
         return int(number.min()), int(number.max())
@@ -211,12 +208,12 @@ class CycloidalDisc:
     @cached_property
     def maximum_load(self) -> float:
         """Maximum force on a pin divided by the tangential force at the disc's pitch circle."""
-        return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
+        return float(self.loads(self._phases).max())
 
     @property
     def loss(self) -> float:
         """Mean power loss over a pitch, divided by the output power and by the friction coefficient."""
-        return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
+        return float(self.sliding(self._phases)[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
@@ -276,16 +273,8 @@ class CycloidalDisc:
 class DiscTransmission(ExactRatio, ToothTransmission):
     """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
 
-    Parameters
-    ----------
-    disc : CycloidalDisc
-        The disc and its pins.
-    friction : float
-        Coefficient of friction, 0 or more.
-    driver : {1, 2}
-        1 if the disc drives, 2 if the ring drives.
-    direction : {1, -1}
-        1 for forward motion, -1 for backward motion, in which the coast flanks drive.
+    `driver` is 1 if the disc drives, 2 if the ring drives; `direction` -1 reverses the motion, in which the coast
+    flanks drive.
     """
 
     def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:

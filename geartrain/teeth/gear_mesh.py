@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
     from geartrain.teeth.tooth_form import ToothForm
-    from geartrain.teeth.tooth_transmission import ToothTransmission
-    from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.teeth.transmission import ToothTransmission, TransmissionFunction
 
 
 @dataclass(frozen=True)

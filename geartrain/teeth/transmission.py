@@ -1,4 +1,4 @@
-"""Transmission functions of pairs: the interface of all tooth forms and pins, the constant ratio, derived functions.
+"""Transmission functions of pairs: the interface of all tooth forms and pins, and functions derived from others.
 
 Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
 tooth of the driver is on the line of centres (a pin points at the other axis). The sign of the speed ratio of an
@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from math import degrees, inf, nan
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.pair_results import PairVerdict
 
 
 _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
@@ -459,6 +460,36 @@ class ExactRatio(TransmissionFunction):
         import numpy as np
 
         return np.full(np.shape(S), value)
+
+
+class ToothTransmission(TransmissionFunction):
+    """Transmission function of a pair of toothed wheels with either wheel driving, forwards or backwards.
+
+    If the driver turns backwards, the coast flanks drive. Angles keep their sign convention, so they decrease.
+    """
+
+    driver: int
+    """Number of the driving wheel, 1 or 2."""
+    direction: int
+    """Direction of rotation, 1 or -1."""
+
+    @property
+    @abstractmethod
+    def verdict(self) -> PairVerdict:
+        """Verdict on whether the pair can run."""
+
+    @abstractmethod
+    def _driven(self, driver: int, direction: int) -> Self:
+        """Return the transmission function of the same pair with another driver or direction."""
+
+    @property
+    def reversed(self) -> Self:
+        """Transmission function with the other wheel driving."""
+        return self._driven(3 - self.driver, self.direction)
+
+    def reversed_motion(self) -> Self:
+        """Return the transmission function of the coast flanks, for the reverse direction of rotation."""
+        return self._driven(self.driver, -self.direction)
 
 
 class DerivedTransmission(TransmissionFunction):

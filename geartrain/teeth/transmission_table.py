@@ -68,11 +68,8 @@ class PeriodicTransmission(Protocol):
 class CellTable:
     """Table of a periodic function of the driver angle, on `cells` uniform cells that are divided at the kinks.
 
-    Attributes
-    ----------
-    uncertainty : float
-        Estimated maximum difference from the function, in the unit of the function: twice the maximum difference found
-        at points between the nodes and near the ends of the cells.
+    `uncertainty` is the estimated maximum difference from the function, in its unit: twice the maximum difference found
+    at points between the nodes and near the ends of the cells.
     """
 
     def __init__(
@@ -158,17 +155,9 @@ def fit(
 class TabulatedTransmission(DerivedTransmission):
     """Transmission function evaluated from tables, each made on first use.
 
-    Results over a whole period, such as the mean efficiency, are those of the underlying function.
-
-    Parameters
-    ----------
-    transmission : TransmissionFunction
-        Underlying transmission function.
-    tolerance : float
-        Maximum error of the tables: of the transmission error in driven pitches (or periods), of the speed ratio
-        relative to its mean, and of the efficiency.
-    degree : int
-        Degree of the polynomials.
+    Results over a whole period, such as the mean efficiency, are those of the underlying function. `tolerance` is the
+    maximum error of the transmission error in driven pitches (or periods), of the speed ratio relative to its mean, and
+    of the efficiency; `degree` is the degree of the polynomials.
     """
 
     def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:

@@ -100,8 +100,8 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
     for at, (start, about, end) in enumerate(corners):
         following = corners[(at + 1) % 4][0]
         round_ = at in (1, 3)  # arcs along the hub and the rim; the other two sides are straight edges of spokes
-        bulge = bulge_about(end, following, (0.0, 0.0)) if round_ else 0.0
-        vertices += [(*start, bulge_about(start, end, about)), (*end, bulge)]
+        bulge = bulge_about(complex(*end), complex(*following)) if round_ else 0.0
+        vertices += [(*start, bulge_about(complex(*start), complex(*end), complex(*about))), (*end, bulge)]
     return Contour.of(vertices)
 
 

@@ -286,9 +286,8 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
     """Return the point of the mate that the pin at the angle `beta` touches, relative to the mate's axle, as x + iy."""
-    at = np.array([beta])
-    G = _centre(R, A, at)
-    return complex(_turned(R, mate, G * (1 - B / np.abs(G)) + 1j * mate, at)[0])
+    G = _centre(R, A, np.array(beta))
+    return complex((G * (1 - B / np.abs(G)) + 1j * mate) * np.exp(1j * R / mate * beta))
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
@@ -298,7 +297,8 @@ def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: 
     distance = inf
     for _ in range(_NARROWED):
         t = np.linspace(low, high, _SCAN)
-        found = np.abs(_turned(R, mate, _centre(R, A, t) + 1j * mate, t) - point)
+        # the mate's frame turns by R / mate t while the lantern turns by t
+        found = np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point)
         at = int(np.argmin(found))
         distance = min(distance, float(found[at]))
         low, high = float(t[max(at - 1, 0)]), float(t[min(at + 1, _SCAN - 1)])
@@ -308,10 +308,4 @@ def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: 
 def _centre(R: float, A: float, beta: Floats) -> Points:
     """Return the centre of the pin relative to the pitch point, as x + iy [module]."""
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
-    return found
-
-
-def _turned(R: float, mate: float, point: Points, beta: Floats) -> Points:
-    """Return a point relative to the mate's axle in the mate's frame, after the lantern has turned by `beta`."""
-    found: Points = point * np.exp(1j * R / mate * beta)
     return found

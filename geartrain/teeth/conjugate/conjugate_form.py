@@ -376,8 +376,12 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
     """Raise `GearTrainError` if wheels of these kinds cannot have conjugate teeth of this form."""
-    why, fix = _refusal(wheels.kinds), IDEAL
-    if "helical" in wheels.kinds:
+    why, fix = "", IDEAL
+    if "worm" in wheels.kinds:
+        why = "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
+    elif set(wheels.kinds) >= {"bevel", "contrate"}:
+        why = "a bevel and a contrate wheel have no pair of pitch cones"
+    elif "helical" in wheels.kinds:
         if _are_skew(shaft_angle):
             why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
@@ -385,14 +389,6 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
             fix = "give it `tooth_form: involute`"
     if why:
         raise refused(f"it cannot have {form.words} teeth", why, fix)
-
-
-def _refusal(kinds: tuple[str, str]) -> str:
-    if "worm" in kinds:
-        return "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
-    if set(kinds) >= {"bevel", "contrate"}:
-        return "a bevel and a contrate wheel have no pair of pitch cones"
-    return ""
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:

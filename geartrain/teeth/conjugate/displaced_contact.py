@@ -123,11 +123,7 @@ class CornerLag:
         """Return the lag [rad] at driver angles beyond the end [rad]; 0 before it, infinite where the corner no longer
         touches.
         """
-        at = np.maximum(beyond, 0.0) / self.step
-        low = np.minimum(at.astype(np.int64), len(self.lags) - 2)
-        first = self.lags[low]
-        found = first + (self.lags[low + 1] - first) * (at - low)
-        return np.where(at <= len(self.lags) - 1, found, inf)
+        return np.interp(beyond, self.step * np.arange(len(self.lags)), self.lags, left=0.0, right=inf)
 
     @property
     def most(self) -> float:

@@ -158,7 +158,6 @@ def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
     return float(np.hypot(*(end - start))) * (1 + bulge**2) / (4 * abs(bulge))
 
 
-def bulge_about(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]) -> float:
-    """Return the bulge of the shorter arc about `centre` from `start` to `end`."""
-    a, b = (complex(x - centre[0], y - centre[1]) for x, y in (start, end))
-    return tan(float(np.angle(b / a)) / 4)
+def bulge_about(start: complex, end: complex, centre: complex = 0j) -> float:
+    """Return the bulge of the shorter arc about `centre` from `start` to `end`, points x + iy."""
+    return tan(float(np.angle((end - centre) / (start - centre))) / 4)

@@ -46,7 +46,7 @@ def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     s = tooth.flank.outward
     deep = (tooth.half_at(radius) - aside) * radius
     below = (tooth.root - radius) * s
-    on_fillet = (radius - np.hypot(*tooth.fillet.start)) * s < 0
+    on_fillet = (radius - abs(tooth.fillet.start)) * s < 0
     return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
 
 

@@ -96,20 +96,12 @@ class RealPath:
         """
         if not self.sizes.has_valleys:
             return []
-        first, last = self.sizes.entry, self.sizes.exit
-        matching = min(max(self.sizes.matching, last), first)
-        found: list[MonotonePiece] = []
-        for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
-            if high > low:
-                found += self._cut(phase, low, high)
-        return [*self._slip_pieces(), *found] if self.slips else found
-
-    def _slip_pieces(self) -> Iterator[MonotonePiece]:
-        """Yield the contacts with overhanging flanks beyond the exit."""
         sizes = self.sizes
-        for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
-            if high > low:
-                yield from self._cut(phase, low, high)
+        matching = min(max(sizes.matching, sizes.exit), sizes.entry)
+        ranges = [(RECESS, sizes.exit, matching), (APPROACH, matching, sizes.entry)]
+        if self.slips:
+            ranges = [(RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit), *ranges]
+        return [piece for phase, low, high in ranges if high > low for piece in self._cut(phase, low, high)]
 
     def _cut(self, phase: str, low: float, high: float) -> list[MonotonePiece]:
         def slope(x: float) -> float:

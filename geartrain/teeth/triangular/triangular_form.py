@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
@@ -100,16 +101,14 @@ class Triangular(ToothForm):
 
     def _check_clearance(self) -> None:
         bounds = (
-            (self.clearance_factor, 0, None, "give a clearance factor above 1, or between 0 and 1 with a ring"),
-            (self.excess, 0, None, "give an excess above 0; at 0 a tip touches the bottom of a space"),
-            (self.window, 0, 1, "give a fraction between 0 (jamming) and 1 (loss of contact)"),
+            ("clearance_factor", inf, "give a clearance factor above 1, or between 0 and 1 with a ring"),
+            ("excess", inf, "give an excess above 0; at 0 a tip touches the bottom of a space"),
+            ("window", 1, "give a fraction between 0 (jamming) and 1 (loss of contact)"),
         )
-        for figure, low, high, fix in bounds:
-            if figure is None:
-                continue
-            inside = figure.value > low if high is None else low <= figure.value <= high
-            if not inside:
-                name = next(name for name in CLEARANCES if getattr(self, name) is figure)
+        for name, most, fix in bounds:
+            figure = getattr(self, name)
+            # a position in the window may be 0
+            if figure is not None and not (0 <= figure.value <= most and (figure.value or name == "window")):
                 raise bad("clearance", f"{name} {figure.text} is out of range", fix)
 
     def _check_lengths(self) -> None:

@@ -15,8 +15,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.tooth_transmission import ToothTransmission
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, check_friction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
@@ -204,12 +203,10 @@ class TriangularTransmission(ToothTransmission):
         return [self.direction * angle for angle in angles]
 
     def _lag(self, interval: DriveInterval, x: Any) -> Any:
-        if interval.held is not None:
-            return interval.held - self.sizes.ratio * x
-        return self.contact.path.tooth_pair.angle(interval.phase, x, np) - self.sizes.ratio * x
+        return self.contact.lag(interval, x, np)
 
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
-        return 0.0 if interval.held is not None else self.contact.path.tooth_pair.speed(interval.phase, x, np)
+        return self.contact.speed(interval, x, np)
 
     # ----------------------------------------------------------------------------------------- values over the pitch
 
@@ -268,6 +265,12 @@ class TriangularTransmission(ToothTransmission):
         # two passes: the mean of squares minus the square of the mean would cancel
         return mean, sqrt(float(weights @ (error - mean) ** 2))
 
+    def _samples(self) -> Iterator[tuple[str, Floats]]:
+        """Yield the phase and 101 angles alpha_1 [rad] of each smooth interval in which a tooth pair drives."""
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                yield interval.phase, np.linspace(high, low, 101)
+
     @cached_property
     def locking_friction(self) -> float:
         """Minimum friction coefficient that locks the pair at some point of the real path; infinite if the pair never
@@ -276,13 +279,11 @@ class TriangularTransmission(ToothTransmission):
         Friction locks the pair at a point before the line of centres where f tan = 1.
         """
         steepest = 0.0
-        for interval, high, low in self.stretches:
-            if interval.held is None:
-                x = np.linspace(high, low, 101)
-                side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
-                # the middle sample of 101 gives the side, because stretches end at the line of centres
-                inner = side[50] > 0
-                steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
+        for phase, x in self._samples():
+            side, tan2, tan1 = self.contact.path.tooth_pair.friction(phase, x, np)
+            # the middle sample of 101 gives the side, because stretches end at the line of centres
+            if side[50] > 0:
+                steepest = max(steepest, float(np.maximum(tan2, tan1).max()))
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
@@ -291,12 +292,8 @@ class TriangularTransmission(ToothTransmission):
 
         As alpha_1 decreases with time, tau decreases where this derivative is positive.
         """
-        tooth_pair = self.contact.path.tooth_pair
-        steepest = 0.0
-        for interval, high, low in self.stretches:
-            if interval.held is None:
-                steepest = max(steepest, float(tooth_pair.slope(interval.phase, np.linspace(high, low, 101), np).max()))
-        return steepest
+        slope = self.contact.path.tooth_pair.slope
+        return max(0.0, *(float(slope(phase, x, np).max()) for phase, x in self._samples()))
 
     @cached_property
     def jumps(self) -> list[SpeedJump]:

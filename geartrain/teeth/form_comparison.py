@@ -58,10 +58,7 @@ class MeasuredForm(Result):
     @property
     def pitches(self) -> tuple[float, float] | None:
         """Arcs of approach and recess [pitch], one of which may be negative; None without a path of contact."""
-        if self.path is None:
-            return None
-        approach, recess = self.path.arcs
-        return approach / self.path.pitch.p, recess / self.path.pitch.p
+        return None if self.path is None else self.path.pitches
 
     @property
     def pressure_angle(self) -> float | None:

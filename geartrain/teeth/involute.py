@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import atan, cos, pi, sin, sqrt, tan
+from math import asin, atan, cos, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -213,7 +213,7 @@ class Involute(ConjugateToothForm):
 
     def _bevel(self, wheels: WheelPair) -> ConjugatePair:
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-        from geartrain.teeth.conjugate.involute_geometry import base_cone, cone_height, spherical_arc
+        from geartrain.teeth.conjugate.involute_geometry import cone_height, spherical_arc
 
         if sum(figure.value for figure in self.shift):
             raise refused(
@@ -229,7 +229,8 @@ class Involute(ConjugateToothForm):
         for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
             height = float(self.addendum[at].value + self.shift[at].value)
             tip = R + cone_height(R, z, height)
-            if not base_cone(R, psi) <= tip < pi:
+            # half-angle of the base cone of a spherical involute: its sine is sin R cos psi
+            if not asin(sin(R) * cos(psi)) <= tip < pi:
                 raise refused(
                     f"the tip cone of wheel {at + 1} is out of range",
                     f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below "

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import ToothFault
 
-_CUT_MARGIN = (
-    1 + 1e-8
-)  # safety factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
+_CUT_MARGIN = 1 + 1e-8  # factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
 
 
 class Lantern(ConjugateToothForm):
@@ -60,8 +58,7 @@ class Lantern(ConjugateToothForm):
     arcs: TwoFigures | None = Field(
         None,
         description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default one pitch on "
-        "the "
-        "addendum of the pins' mate, beyond the part that the pins cut off",
+        "the addendum of the pins' mate, beyond the part that the pins cut off",
     )
     addendum: Figure | None = Field(None, description="Addendum of the pins' mate in modules, instead of arcs")
 

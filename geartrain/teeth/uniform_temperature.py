@@ -94,8 +94,7 @@ class UniformTemperature(ConjugateToothForm):
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
         """Return approach and recess side with gamma = (A + B) / heat."""
-        from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
-        from geartrain.teeth.conjugate.path_of_contact import none
+        from geartrain.teeth.conjugate.optimal_sides import bounded_heat, involute, uniform_heat
 
         psi = (self.minimum_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
@@ -103,7 +102,7 @@ class UniformTemperature(ConjugateToothForm):
         # the contact speed is w + A S on gear 1 and w - B S on gear 2, so that reading a has b = -A in recess
         for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):
             if not X:
-                found.append(none(0.0))
+                found.append(involute(0.0, 0.0))
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
             # the contact would stop near the pitch point

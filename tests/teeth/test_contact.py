@@ -447,19 +447,6 @@ def test_sides_of_any_shape_touch_first_where_a_scan_of_dense_points_says(one, t
         assert near - 1e-7 < exact < near + 1e-4
 
 
-@settings(max_examples=10)
-@given(SIDES, SIDES, st.floats(0.3, 0.9))
-def test_speed_is_the_slope_of_the_angle(one, two, deep) -> None:
-    first, second = bulging(*one), bulging(*two)
-    distance = (one[0] + two[0]) / 2 + (one[2] + two[2]) * (1 - deep)
-    phi1, h = np.linspace(0, first.pitch, 23), 1e-5
-    middle, *ends = (contact(first, second, distance, phi1 + step) for step in (0.0, -h, h))
-    same = (ends[0].pair == ends[1].pair) & (ends[0].kind == ends[1].kind) & (middle.kind >= 0)
-    same &= np.abs(ends[1].radius1 - ends[0].radius1) < 1e-3
-    slope = (ends[1].angle - ends[0].angle) / (2 * h)
-    assert np.abs(slope - middle.speed)[same].max(initial=0) < 1e-3
-
-
 @settings(max_examples=6)
 @given(SIDES, SIDES, st.floats(0.3, 0.9), st.sampled_from(["front", "back"]))
 def test_tables_are_as_near_to_the_contact_as_they_say(one, two, deep, side) -> None:
@@ -473,7 +460,7 @@ def test_tables_are_as_near_to_the_contact_as_they_say(one, two, deep, side) -> 
     away = np.abs(phi1[:, None] - table.kinks).min(axis=1, initial=1.0) > 1e-6 * first.pitch
     off = np.abs(table.angle(phi1) - contact(first, second, distance, phi1, side).angle)[away]
     assert np.nanmax(off, initial=0.0) <= max(table.uncertainty, 1e-13)
-    assert table.to_dict()["period"] == pytest.approx(first.pitch)
+    assert table.period == pytest.approx(first.pitch)
 
 
 # ----------------------------------------------------------------------------------------------------------- bad input

@@ -388,7 +388,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
             why = "its wheels are helical, and only involute teeth are supported on helical wheels"
             fix = "give it `tooth_form: involute`"
     if why:
-        raise refused(f"it cannot have {form.words} teeth", why, fix)
+        raise refused(f"these wheels cannot have {form.words} teeth", why, fix)
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
@@ -424,7 +424,7 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
     angle = shaft_angle()
     if angle is None and "bevel" in wheels.kinds:
         raise refused(
-            f"it cannot have {form.words} teeth",
+            f"these wheels cannot have {form.words} teeth",
             "the shaft angle of its bevel wheels is not declared",
             f"declare `axes` with the `direction` of both axes, or {IDEAL}",
         )

@@ -200,13 +200,12 @@ def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
     """
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
-    approach, recess = _driver_arcs(transmission)
     return ConjugateFigures(
         mesh.counts,
         mesh.verdict,
         *motion_figures(transmission, mesh.rigid or runs),
         mesh.efficiency(mesh.driver) if runs else None,
-        arcs=(approach / pitch.p, recess / pitch.p),
+        arcs=path.pitches if transmission.driver == 1 else path.pitches[::-1],
         contact_ratio=path.contact_ratio,
         pressure_angle=float(path.at(0.0).psi),
         shaft_angle=pitch.R1 + pitch.R2 if pitch.bevel else None,
@@ -234,12 +233,6 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
         *mesh.efficiency_texts,
         mesh.verdict.kind,
     )
-
-
-def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
-    """Return the arcs of approach and recess of the driver as arcs X [module]."""
-    approach, recess = transmission.path.arcs
-    return (approach, recess) if transmission.driver == 1 else (recess, approach)
 
 
 # ----------------------------------------------------------------------------------------------------- design of a pair
@@ -341,8 +334,7 @@ class PairDesign(Result):
     @property
     def arcs(self) -> tuple[float, float]:
         """Arcs of approach and recess with gear 1 driving [pitch]; one may be negative."""
-        approach, recess = self.path.arcs
-        return approach / self.path.pitch.p, recess / self.path.pitch.p
+        return self.path.pitches
 
     @property
     def pressure_angles(self) -> tuple[float, float, float]:

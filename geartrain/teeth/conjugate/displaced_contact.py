@@ -118,6 +118,7 @@ class CornerLag:
     step: float
     """Step of the driver's angle beyond the end of the path [rad]."""
     lags: Floats
+    """Lag of the driven wheel at these steps [rad], from 0 at the end of the path."""
 
     def __call__(self, beyond: Floats) -> Floats:
         """Return the lag [rad] at driver angles beyond the end [rad]; 0 before it, infinite where the corner no longer
@@ -136,6 +137,7 @@ class DisplacedWheelSizes:
     """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
 
     z: int
+    """Number of teeth."""
     depth: float
     """Radial extent of the active flank [module; rad for bevel gears]."""
     half_angle: float

@@ -7,7 +7,7 @@ external wheel. A shift of the ring also counts outwards, so that it widens thes
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, asin, atan, atan2, cos, pi, sin, sqrt, tan
+from math import acos, atan, atan2, cos, pi, sin, sqrt, tan
 
 from geartrain.errors import GearTrainError, Problem, RangeError
 from geartrain.numerics.roots import root
@@ -189,14 +189,6 @@ def _no_contact_error(first: InvoluteWheel, second: InvoluteWheel, distance: flo
             "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer",
         )
     )
-
-
-def base_cone(R: float, psi: float) -> float:
-    """Return the half-angle of the base cone of a spherical involute [rad]: sin base = sin R cos psi.
-
-    R is the half-angle of the pitch cone and psi the pressure angle [rad].
-    """
-    return asin(sin(R) * cos(psi))
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:

@@ -45,8 +45,11 @@ _GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad]."""
-    return PathSide((ray(psi, X),))
+    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad].
+
+    With the arc 0, the path begins or ends at the pitch point.
+    """
+    return PathSide((ray(psi, X * cos(psi)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
@@ -194,7 +197,7 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 
     before = first / cos(psi)
     second = _piece_over_arc(_solutions(pitch, f, sin(psi), first), X * cos(psi), X - before, first)
-    return PathSide((ray(psi, before), second))
+    return PathSide((ray(psi, first), second))
 
 
 def least_friction(
@@ -236,7 +239,7 @@ def least_friction(
         first = root(above, minimum, first, above(minimum), above(first))
     elif weight is not None:
         check_pieces(pitch, second_piece(first), weight)
-    return PathSide((ray(psi, first / cos(psi)), second_piece(first)))
+    return PathSide((ray(psi, first), second_piece(first)))
 
 
 def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:

@@ -19,7 +19,7 @@ from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import ArrayLike
 
@@ -45,11 +45,11 @@ class PathPiece:
     """Arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
 
 
-def ray(psi: float, X: float) -> PathPiece:
-    """Return the piece of constant pressure angle `psi` [rad] with the arc X: the path of contact of an involute."""
+def ray(psi: float, end: float) -> PathPiece:
+    """Return the piece of constant pressure angle `psi` [rad] up to the distance `end`: the path of an involute."""
     return PathPiece(
         0.0,
-        X * cos(psi),
+        end,
         lambda d: np.full(np.shape(d), sin(psi)),
         lambda d: np.zeros(np.shape(d)),
         lambda d: np.asarray(d) / cos(psi),
@@ -155,13 +155,6 @@ class PathSide:
         return np.piecewise(d, [which == at for at in range(len(curves))], list(curves))
 
 
-def none(psi: float) -> PathSide:
-    """Return a side without contact, for a path that begins or ends at the pitch point with pressure angle `psi`
-    [rad].
-    """
-    return PathSide((ray(psi, 0.0),))
-
-
 # ------------------------------------------------------------------------------------------------------- the whole path
 
 
@@ -259,6 +252,12 @@ class PathOfContact(Shown):
         """Arcs X of approach and recess in which the teeth touch [module]. One of them may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
+    @property
+    def pitches(self) -> tuple[float, float]:
+        """Arcs of approach and recess in which the teeth touch [pitch]. One of them may be negative."""
+        approach, recess = self.arcs
+        return approach / self.pitch.p, recess / self.pitch.p
+
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
         """Return the range of distances d in which the teeth touch on one side; None if the teeth do not touch on that
         side.
@@ -279,6 +278,26 @@ class PathOfContact(Shown):
         # a complete side ends exactly at its end, without the rounding of an inversion
         end = side.end if far >= side.arc else float(side.distance(np.array(far)))
         return (start, end) if end > start else None
+
+    def legs(self, low: float = -inf, high: float = inf) -> Iterator[tuple[bool, PathPiece, float, float]]:
+        """Yield each piece on which the teeth touch, with its side and the range of distances d.
+
+        Parameters
+        ----------
+        low, high : float
+            Bounds of X.
+
+        Yields
+        ------
+        tuple
+            True for the recess side, piece, and first and last distance d of contact on the piece.
+        """
+        for recess, side in ((False, self.approach), (True, self.recess)):
+            start, end = self.span(recess, low, high) or (0.0, 0.0)
+            for piece in side.pieces:
+                first, last = max(piece.start, start), min(piece.end, end)
+                if last > first:
+                    yield recess, piece, first, last
 
     @property
     def contact_ratio(self) -> float:

@@ -176,7 +176,7 @@ class Triangular(ToothForm):
 
         del shaft_angle
         if why := refusal(wheels.kinds, any(wheels.internal)):
-            raise refused("it cannot have triangular teeth", why, f"{TRIANGULAR_SCOPE}; {IDEAL}")
+            raise refused("these wheels cannot have triangular teeth", f"{why}; {TRIANGULAR_SCOPE}", IDEAL)
         transmission = self.transmission(
             *wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring
         )

@@ -269,10 +269,11 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
         error = fit(transmission.error, transmission.period, cuts, _WANTED * ratio * transmission.period, KERNEL_DEGREE)
         speed = fit(transmission.speed, transmission.period, cuts, _WANTED * ratio, KERNEL_DEGREE)
         # with both tables on the same cells, the kernel looks up an angle once
-        if error.cells < speed.cells:
-            error = CellTable(transmission.error, transmission.period, cuts, speed.cells, KERNEL_DEGREE)
-        elif speed.cells < error.cells:
-            speed = CellTable(transmission.speed, transmission.period, cuts, error.cells, KERNEL_DEGREE)
+        cells = max(error.cells, speed.cells)
+        error, speed = (
+            table if table.cells == cells else CellTable(function, transmission.period, cuts, cells, KERNEL_DEGREE)
+            for table, function in ((error, transmission.error), (speed, transmission.speed))
+        )
         found = TransmissionTable(transmission.period, error, speed)
         good = (
             found.error.uncertainty <= _GOOD * ratio * transmission.period and found.speed.uncertainty <= _GOOD * ratio

@@ -22,6 +22,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_losses import peak
 from geartrain.teeth.conjugate.path_of_contact import PathPiece, PathSide
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     Points = NDArray[np.complex128]
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_SCAN, _NARROWED = 129, 6  # positions in a bracket, and number of refinements, each by a factor of 64
+_SCAN = 129  # positions of a pin in the search for a cusp
 _FARTHEST = 0.6  # fraction of the angle to the far side of the lantern
 
 
@@ -294,15 +295,8 @@ def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: 
     """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and
     `high`.
     """
-    distance = inf
-    for _ in range(_NARROWED):
-        t = np.linspace(low, high, _SCAN)
-        # the mate's frame turns by R / mate t while the lantern turns by t
-        found = np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point)
-        at = int(np.argmin(found))
-        distance = min(distance, float(found[at]))
-        low, high = float(t[max(at - 1, 0)]), float(t[min(at + 1, _SCAN - 1)])
-    return distance
+    # the mate's frame turns by R / mate t while the lantern turns by t
+    return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:

@@ -70,15 +70,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair, with the first wheel driving.
-
-        A ring gear is always gear 2 of the form, in either order of the pair.
-
-        Returns
-        -------
-        GearMesh
-            Mesh for the analysis of a train.
-        """
+        """Return the mesh of a pair with its first wheel driving. A ring gear is gear 2 of the form in either order."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)

@@ -273,11 +273,11 @@ def maximum(
     for recess, piece, first, last in chain.from_iterable(path.legs(*each) for each in bounds):
         # at a joint itself the methods of a side evaluate the next piece
         last = min(last, float(np.nextafter(piece.end, 0.0)))
-        best = max(best, _peak(lambda d, recess=recess: what(path.along(d, recess)), first, last))  # type: ignore[misc]
+        best = max(best, peak(lambda d, recess=recess: what(path.along(d, recess)), first, last))  # type: ignore[misc]
     return best
 
 
-def _peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
+def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
     """Return the maximum of f on [first, last] by repeated grid refinement.
 
     At the pitch point f may be 0/0; it is evaluated at a small distance from it.

@@ -281,15 +281,12 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
-
-    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth.
-    """
+    """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27)."""
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """Phase that begins, or "matching"."""
+    """Phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth."""
     alpha1: float
     """Driver angle alpha_1 at the impact [rad]."""
     before: float

@@ -163,10 +163,8 @@ class TriangularMesh(GearMesh):
     def own_faults(self) -> Iterator[Problem]:
         """Yield all problems of these teeth, each with its fix."""
         yield from (fault.problem for fault in self.verdict.faults)
-        if self.wheels.friction_law is not None:
+        if self.verdict:
             yield from self.friction_faults()
-        elif self.verdict and self.transmission.locks:
-            yield Problem(*explain_friction_lock(self.transmission))
 
 
 # ----------------------------------------------------------------------------------------------------------- properties
@@ -264,14 +262,4 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
         f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
         f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
         f"give a clearance factor between these limits, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
-    )
-
-
-def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, str, str]:
-    """Return problem, cause and remedy for teeth that friction locks."""
-    return (
-        f"a coefficient of friction of {transmission.friction:g} locks these teeth",
-        "before the line of centres sliding opposes the push on the driven apex: the coefficient times the tangent "
-        f"of the flank's inclination reaches 1 at a coefficient of {transmission.locking_friction:.6g}",
-        f"give a coefficient of friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
     )

@@ -161,8 +161,8 @@ class Lantern(ConjugateToothForm):
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
         """Return the distance of the pins from the axis and their radius [module]."""
-        A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
-        B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
+        pins = self.lantern_pins(wheels)
+        A, B = pins.circle, pins.radius
         z = wheels.z1 if self.pins == 1 else wheels.z2
         # such pins do not intersect the pitch circle
         if abs(A - R) >= B:

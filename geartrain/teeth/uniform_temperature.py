@@ -105,9 +105,12 @@ class UniformTemperature(ConjugateToothForm):
                 found.append(involute(0.0, 0.0))
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
-            # the contact would stop near the pitch point
             elif b + gamma <= 0:
-                raise _heat_error(pitch, gamma)
+                raise refused(
+                    f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
+                    "the contact would stop near the pitch point",
+                    "give a smaller heat or a larger depth",
+                )
             else:
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]
@@ -129,11 +132,3 @@ class UniformTemperature(ConjugateToothForm):
         )
         gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)
-
-
-def _heat_error(pitch: PitchSurfaces, gamma: float) -> Exception:
-    return refused(
-        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
-        "the contact would stop near the pitch point",
-        "give a smaller heat or a larger depth",
-    )

@@ -122,7 +122,10 @@ class ConjugateMesh(GearMesh):
         free = self.tooth_form.bottom_clearance(wheels, own)
         if cut.clearance is None and free is not None:
             if free < 0:
-                raise QuestionError(_shallow_root(own, -free))
+                what = f"the root of gear {own} interferes with its mate's tip"
+                fix = "give a larger dedendum or a smaller addendum"
+                why = f"they overlap by {-free:.4g} modules at this centre distance"
+                raise QuestionError(Problem(what, why, fix, "dedendum"))
             cut = replace(cut, clearance=free * cut.module)
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
@@ -151,16 +154,6 @@ class ConjugateMesh(GearMesh):
         """Return a report of arcs, contact ratio, transmission error, backlash and efficiency."""
         figures = _figures(self)
         return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
-
-
-def _shallow_root(gear: int, overlap: float) -> Problem:
-    """Return the problem of a root that overlaps with the mate's tip by `overlap` [module]."""
-    return Problem(
-        f"the root of gear {gear} interferes with its mate's tip",
-        f"they overlap by {overlap:.4g} modules at this centre distance",
-        "give a larger dedendum or a smaller addendum",
-        "dedendum",
-    )
 
 
 # ----------------------------------------------------------------------------------------------------------- properties

@@ -58,18 +58,12 @@ class BlankSizes:
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` if a value is not a valid size."""
-        above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
-        minimum = {"fillet": self.fillet, "clearance": self.clearance}
-        problems = [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--blank {name}")
-            for name, value in above.items()
-            if value is not None and not (isfinite(value) and value > 0)
-        ]
-        problems += [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--blank {name}")
-            for name, value in minimum.items()
-            if value is not None and not (isfinite(value) and value >= 0)
-        ]
+        problems = []
+        for name in ("module", "bore", "rim", "tolerance", "fillet", "clearance"):
+            value, may_be_0 = getattr(self, name), name in ("fillet", "clearance")
+            if value is not None and not (isfinite(value) and (value > 0 or (may_be_0 and value == 0))):
+                fix = f"give a {name} {'of 0 or more' if may_be_0 else 'above 0'}"
+                problems.append(Problem(f"a {name} of {value:g} mm is out of range", "", fix, f"--blank {name}"))
         if problems:
             raise QuestionError(problems)
 

@@ -222,6 +222,7 @@ class CycloidalDisc:
 
         `tolerance` is the maximum distance of a chord from the lobe [module]; 4096 chords are the maximum.
         """
+        # doubled, because the excess of a chord falls with the square of their number
         number = _MIN_CHORDS
         while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
             number *= 2

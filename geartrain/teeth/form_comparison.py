@@ -42,7 +42,9 @@ class MeasuredForm(Result):
     name: str
     """Name of the form as requested, including the variant (reading)."""
     path: PathOfContact | None
+    """Path of contact; None if the form rejects the wheels."""
     measures: PathMeasures | None
+    """Losses and loads; None for teeth that cannot run."""
     ratios: PathRatios | None = None
     """Losses and loads divided by the values of the involute; None for the involute itself and for teeth that cannot
     run.

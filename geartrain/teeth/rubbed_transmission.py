@@ -99,6 +99,7 @@ class RubbedTransmission(DerivedTransmission):
     @cached_property
     def _nodes(self) -> tuple[Floats, Floats]:
         """Quadrature nodes of one period [rad of the driver] and their weights."""
+        # a coefficient that falls steeply with speed makes 1 / efficiency the most uneven integrand
         return self.graded_nodes(lambda S: 1 / self.efficiency(S))
 
 

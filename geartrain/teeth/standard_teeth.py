@@ -50,7 +50,7 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
     runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair that
     does not run gives the reason.
     """
-    # the ring of a pair is named last
+    # the ring of a pair is named last, as the tooth form requires
     edges = [(second, first) if gears[first].internal else (first, second) for first, second in pairs]
     found: dict[str, StandardTeeth] = {}
     for name in gears:

@@ -218,6 +218,7 @@ class TransmissionFunction(Shown, ABC):
         if self.locks:
             return nan
         if self.slow:
+            # the efficiency at the nodes is known already
             return float(self._efficiencies[1].min())
         import numpy as np
 
@@ -272,6 +273,7 @@ class TransmissionFunction(Shown, ABC):
                 middle = (low + high) / 2
                 low, high = np.append(low, middle), np.append(middle, high)
                 halves = integral(low, high)
+                # NaN, as without contact, is not above the tolerance, so that such an interval is not divided
                 off = np.abs(halves.reshape(2, -1).sum(axis=0) - whole)
                 rough = np.tile(off > _ROUNDING * np.maximum(scale, np.abs(whole)), 2)
                 done.append((low[~rough], high[~rough]))

@@ -200,7 +200,7 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
         # the involute of a ring continues outwards from its base circle, so it has no such limit
         if own.ring or over <= _ROUNDING:
             continue
-        # arc R tan(psi) from the pitch point to the base circle, divided by R
+        # the line of action touches the base circle at the arc R tan(psi) from the pitch point
         angle = degrees(tan(pair.psi))
         most = mate.addendum - over
         yield ToothFault(

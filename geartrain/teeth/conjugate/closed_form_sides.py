@@ -268,6 +268,7 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
     cusp.
     """
 
+    # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe
     piece = pin_piece(R, A, B, inf)
 
     def speed(beta: Any) -> Any:

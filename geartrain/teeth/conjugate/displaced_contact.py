@@ -163,7 +163,9 @@ class DisplacedContact:
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
     """Sizes of the driver and of the driven wheel."""
     start: float
+    """Driver angle at which a tooth pair comes into contact [rad]."""
     end: float
+    """Driver angle at which it leaves contact [rad]."""
     across: tuple[Floats, Floats]
     """Lag [rad] per unit displacement of the teeth across the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
@@ -282,6 +284,7 @@ def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
     """Return the increase of the arc of contact X per unit increase of the tip radius of `gear`."""
+    # a one-sided difference, because the path is undefined beyond the tip
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)
     radius, _ = path.pitch.polar(gear, path.flank(gear, np.array([tip, tip + step])))

@@ -155,7 +155,12 @@ class InvolutePair:
             # an arc that is 0 except for rounding must not be negative
             found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
-            raise _no_contact_error(self.first, self.second, self.distance)
+            why = (
+                f"at a centre distance of {self.distance:.6g} modules the tip circles, of radii {self.first.tip:.6g} and "
+                f"{self.second.tip:.6g}, leave no contact on the line of action"
+            )
+            fix = "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer"
+            raise RangeError(Problem("the teeth do not reach each other", why, fix))
         return found[0], found[1]
 
 
@@ -178,17 +183,6 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
             )
         )
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
-
-
-def _no_contact_error(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
-    return RangeError(
-        Problem(
-            "the teeth do not reach each other",
-            f"at a centre distance of {distance:.6g} modules the tip circles, of radii {first.tip:.6g} and "
-            f"{second.tip:.6g}, leave no contact on the line of action",
-            "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer",
-        )
-    )
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:

@@ -280,7 +280,7 @@ def maximum(
 def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
     """Return the maximum of f on [first, last] by repeated grid refinement.
 
-    At the pitch point f may be 0/0; it is evaluated at a small distance from it.
+    At 0, the pitch point of a path, f may be 0/0; it is evaluated at a small distance from it.
     """
     d = np.linspace(first, last, _SCAN)
     if first == 0.0:
@@ -385,18 +385,11 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
             high, at_high, low = low, at_low, low / _STEP
             at_low = off(low)
     if not (at_low <= 0 <= at_high):
-        what = f"no value of `heat` gives these teeth a working depth of {wanted:.6g}"
+        why = "before that depth, the pressure angle would reach 90 deg or the contact speed would be 0"
+        fix = "use another depth, shorter arcs or more teeth, or give `heat`"
         if at_low > 0:
-            raise GearTrainError(
-                Problem(
-                    what, "even the maximum `heat` gives deeper teeth", "use more depth or shorter arcs, or give `heat`"
-                )
-            )
-        raise GearTrainError(
-            Problem(
-                what,
-                "before that depth, the pressure angle would reach 90 deg or the contact speed would be 0",
-                "use another depth, shorter arcs or more teeth, or give `heat`",
-            )
-        )
+            why = "even the maximum `heat` gives deeper teeth"
+            fix = "use more depth or shorter arcs, or give `heat`"
+        what = f"no value of `heat` gives these teeth a working depth of {wanted:.6g}"
+        raise GearTrainError(Problem(what, why, fix))
     return root(off, low, high, at_low, at_high)

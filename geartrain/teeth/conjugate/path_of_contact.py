@@ -151,6 +151,7 @@ class PathSide:
         return d
 
     def _by_piece(self, d: Floats, curves: Sequence[Curve]) -> Floats:
+        # a curve is evaluated on its own piece only, since its formula may be invalid beyond
         d, which = np.asarray(d, dtype=float), self._which(d)
         return np.piecewise(d, [which == at for at in range(len(curves))], list(curves))
 

@@ -37,7 +37,9 @@ class OutlineGears:
     """Outlines of two wheels at a centre distance, lengths in modules."""
 
     first: GearOutline
+    """Outline of gear 1 [module]."""
     second: GearOutline
+    """Outline of gear 2 [module]."""
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float

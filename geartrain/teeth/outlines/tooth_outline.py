@@ -63,7 +63,7 @@ def fillet(
     lean = atan2(across, abs(along)) - relief
     way = complex(cos(lean) if along > 0 else -cos(lean), sin(lean))
     E, T = float(flank.r[0]) * turn, way * turn
-    # the normal points into the space
+    # of the two normals the one that points into the space, away from the centre line of the tooth
     N = 1j * T if way.real > 0 else -1j * T
     s = flank.outward
     # the centre is on a line parallel to the flank, at a distance of one radius from the root circle

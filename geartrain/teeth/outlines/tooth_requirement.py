@@ -64,7 +64,9 @@ class ToothRequirement(WheelRequirement):
     """Required teeth of gear 1 or 2 of a conjugate pair, lengths in modules."""
 
     pair: ConjugatePair
+    """Pair at its design distance."""
     gear: int
+    """Number of the gear, 1 or 2."""
     tolerance: float
     """Maximum deviation of a chord from the flank [module]."""
     clearance: float = CLEARANCE
@@ -242,7 +244,13 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     root = min((each.root for each in demands), key=lambda radius: radius * s)
     own = deepest.flank
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
-        raise _no_root(deepest)
+        what = f"gear {deepest.gear} cannot have a root circle"
+        why = (
+            f"with a clearance of {deepest.clearance:.4g} modules, the flanks of neighbouring teeth meet before they "
+            "reach it"
+        )
+        fix = "reduce the clearance, or increase the backlash, which makes the teeth thinner"
+        raise QuestionError(Problem(what, why, fix, "--blank clearance"))
     passages = [each.passage for each in demands]
     # every relief is tried at the strict tolerance before the loose one
     for most, degree in ((most, degree) for most in _TOLERATED_DEPTHS for degree in _RELIEFS):
@@ -255,18 +263,6 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
             "the tips would cut the flanks below their active part, or touch teeth outside the path of contact",
             "shorten the arcs, or use more teeth, backlash or clearance",
             "--profile",
-        )
-    )
-
-
-def _no_root(demand: ToothRequirement) -> QuestionError:
-    return QuestionError(
-        Problem(
-            f"gear {demand.gear} cannot have a root circle",
-            f"with a clearance of {demand.clearance:.4g} modules, the flanks of neighbouring teeth meet before they "
-            "reach it",
-            "reduce the clearance, or increase the backlash, which makes the teeth thinner",
-            "--blank clearance",
         )
     )
 

@@ -172,7 +172,10 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
         tooth, relief = cut_tooth([demand], wanted)
         kind, root, fillet = "ring" if tooth.flank.outward < 0 else "external", tooth.root, tooth.fillet.radius
         if cut.fillet is not None and wanted is not None and fillet < wanted:
-            raise _fillet_too_large(gear, cut.fillet, fillet * scale)
+            what = f"a fillet of {cut.fillet:g} mm does not fit the root of gear {gear}"
+            why = "a larger fillet would touch the mate's tips or the next tooth"
+            fix = f"give at most {fillet * scale:.4g} mm, or more clearance"
+            raise QuestionError(Problem(what, why, fix, "--blank fillet"))
         contours = blank_contours(tooth.whole(), kind, root, cut)
     return WheelOutline(
         gear=gear,
@@ -218,17 +221,6 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
     # bulges are tangents of a quarter of each arc: of the seat, and of the ring up to the next seat
     seat = (x, -y, tan(atan2(y, x - R) / 2)), (x, y, tan((2 * pi / z - 2 * half) / 4))
     return Contour.of(repeated(seat, z))
-
-
-def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError:
-    return QuestionError(
-        Problem(
-            f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
-            "a larger fillet would touch the mate's tips or the next tooth",
-            f"give at most {fits:.4g} mm, or more clearance",
-            "--blank fillet",
-        )
-    )
 
 
 def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> list[Contour]:

@@ -108,6 +108,7 @@ class RealPath:
             return float(self.tooth_pair.slope(phase, x))
 
         first, last = slope(low) > 0, slope(high) > 0
+        # the curvature changes its sign at most once on such a range
         if first == last:
             return [MonotonePiece(phase, low, high, first)]
         a, b = low, high

@@ -231,6 +231,7 @@ class Triangular(ToothForm):
         sizes = self._sizes_at_deepest(z1, z2, ring)
         # less distance only makes an overlap worse, and the backlash of such teeth is undefined
         sizes = sizes if sizes.surrounds else self._sizes_at_clearance(sizes, pitch_distance)
+        # the clearance reduces the centre distance of an internal pair, which may make the circles overlap
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",

@@ -156,8 +156,8 @@ class InvolutePair:
             found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
             why = (
-                f"at a centre distance of {self.distance:.6g} modules the tip circles, of radii {self.first.tip:.6g} and "
-                f"{self.second.tip:.6g}, leave no contact on the line of action"
+                f"at a centre distance of {self.distance:.6g} modules the tip circles, of radii {self.first.tip:.6g} "
+                f"and {self.second.tip:.6g}, leave no contact on the line of action"
             )
             fix = "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer"
             raise RangeError(Problem("the teeth do not reach each other", why, fix))

@@ -16,6 +16,7 @@ standard_teeth                involutes for pairs that declare no form
 
 meshing_wheels, gear_mesh     two wheels as declared; a pair with real teeth, as a train uses it
 transmission                  transmission function: driven angle, speed ratio and efficiency by the driver's angle
+tooth_transmission            the same for toothed wheels, with their verdict, either driver and both directions
 transmission_table            transmission functions as tables of polynomials; the compiled kernel that reads them
 pair_results                  figures, verdict and rows of tables of one pair
 form_comparison               conjugate forms compared with the 20 degree involute

@@ -21,7 +21,8 @@ from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth, LanternPins
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, PairVerdict, motion_figures
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
-from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, PairSize
+from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_results import PairAccount, PairVerdict, SlidingEfficiency
-    from geartrain.teeth.tooth_form import ToothForm
-    from geartrain.teeth.transmission import ToothTransmission, TransmissionFunction
+    from geartrain.teeth.tooth_transmission import ToothTransmission
+    from geartrain.teeth.transmission import TransmissionFunction
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class GearMesh(Shown, ABC):
 
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
-    tooth_form: ToothForm
+    tooth_form: NamedForm
     """Tooth form of the pair."""
     who: MeshDriver
     """Name of the driving wheel, and how the driver was determined."""

@@ -27,6 +27,22 @@ class DeclaredPair(Protocol):
         """Mounting accuracy of the pair; None if the accuracy declared for the train applies."""
 
 
+class NamedForm(Protocol):
+    """Attributes of a tooth form that its mesh uses."""
+
+    @property
+    def form(self) -> str:
+        """Name of the form."""
+
+    @property
+    def words(self) -> str:
+        """Name of the form as it appears in sentences."""
+
+    @property
+    def has_lengths(self) -> bool:
+        """True if the form declares a length with a unit."""
+
+
 @dataclass(frozen=True)
 class MeshDriver(Result):
     """Driving wheel of a gear pair, or driving link of a coupling, and the reason for this choice."""

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from math import degrees, inf, nan
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.pair_results import PairVerdict
 
 
 _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
@@ -462,36 +461,6 @@ class ExactRatio(TransmissionFunction):
         import numpy as np
 
         return np.full(np.shape(S), value)
-
-
-class ToothTransmission(TransmissionFunction):
-    """Transmission function of a pair of toothed wheels with either wheel driving, forwards or backwards.
-
-    If the driver turns backwards, the coast flanks drive. Angles keep their sign convention, so they decrease.
-    """
-
-    driver: int
-    """Number of the driving wheel, 1 or 2."""
-    direction: int
-    """Direction of rotation, 1 or -1."""
-
-    @property
-    @abstractmethod
-    def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run."""
-
-    @abstractmethod
-    def _driven(self, driver: int, direction: int) -> Self:
-        """Return the transmission function of the same pair with another driver or direction."""
-
-    @property
-    def reversed(self) -> Self:
-        """Transmission function with the other wheel driving."""
-        return self._driven(3 - self.driver, self.direction)
-
-    def reversed_motion(self) -> Self:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation."""
-        return self._driven(self.driver, -self.direction)
 
 
 class DerivedTransmission(TransmissionFunction):

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import degrees, pi, tan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 
@@ -20,17 +20,17 @@ from geartrain.teeth.conjugate.admissibility import tip_thickness
 from geartrain.teeth.conjugate.path_losses import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.meshing_wheels import PairSize
+from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact, OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 _WORDS = (
     "Conjugate teeth have a constant speed ratio at their design centre distance, involutes at any distance; other "
@@ -45,6 +45,24 @@ _HEADER = (
 )
 
 
+class ConjugateDetails(NamedForm, Protocol):
+    """Methods of a conjugate tooth form that its mesh uses."""
+
+    more_contact: ClassVar[str]
+    """Advice on how to increase the contact ratio."""
+
+    def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
+        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is
+        undefined.
+        """
+
+    def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
+        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
+
+    def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
+        """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
+
+
 @dataclass(frozen=True)
 class ConjugateMesh(GearMesh):
     """Gear pair with conjugate teeth; a ring gear is gear 2 of its transmission function in either order of the pair.
@@ -52,7 +70,7 @@ class ConjugateMesh(GearMesh):
     At a centre distance other than the design's, the speed ratio varies for all forms except involutes.
     """
 
-    tooth_form: ConjugateToothForm
+    tooth_form: ConjugateDetails
     transmission: ConjugateTransmission | OffDesignTransmission
 
     @property

@@ -14,7 +14,8 @@ from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.admissibility import faults, ring_tips
 from geartrain.teeth.conjugate.path_losses import locking_friction, powers
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ContactRubbing, ExactRatio, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

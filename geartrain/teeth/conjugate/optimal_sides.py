@@ -289,16 +289,29 @@ def solved(
     for nodes in _NODES:
         if near and nodes < len(near.coefficients):
             continue
-        x, _ = points(nodes)
-        d = start + (end - start) * (x + 1) / 2
-        # constant beyond its end, where a series soon diverges
-        v = _collocated(pitch, f, first, d, series(np.minimum(d, series.end)))
-        series = ChebyshevSeries.through(v, start, end)
+        series = fitted(pitch, f, first, end, start, nodes, series)
         if series.tail < _FALLEN:
             break
     if series.tail > _UNFINISHED:
         raise unreachable_end(end)
     return series
+
+
+def fitted(
+    pitch: PitchSurfaces,
+    f: ValueAndSlope,
+    first: float,
+    end: float,
+    start: float,
+    nodes: int,
+    near: ChebyshevSeries | None = None,
+) -> ChebyshevSeries:
+    """Return the solution of the equation of `solved` with a fixed number of nodes."""
+    x, _ = points(nodes)
+    d = start + (end - start) * (x + 1) / 2
+    # constant beyond its end, where a series soon diverges
+    guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
+    return ChebyshevSeries.through(_collocated(pitch, f, first, d, guess), start, end)
 
 
 def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats, v: Floats) -> Floats:

@@ -18,7 +18,8 @@ import numpy as np
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, nan, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.meshing_wheels import PairSize
+from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SlidingEfficiency, motion_figures
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow
@@ -23,7 +23,6 @@ from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.pair_results import PairVerdict
-    from geartrain.teeth.triangular.triangular_form import Triangular
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 OTHER_SHAPES = (
@@ -46,13 +45,20 @@ _SIZES = (
 )
 
 
+class TriangularDetails(NamedForm, Protocol):
+    """Methods of a triangular tooth form that its mesh uses."""
+
+    def in_metres(self, module: float | None) -> bool:
+        """Return True if lengths are in metres for wheels of the given module [m]."""
+
+
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
     """Gear pair with triangular teeth in a train, with the clearance window that explains why such a pair does not
     turn.
     """
 
-    tooth_form: Triangular
+    tooth_form: TriangularDetails
     transmission: TriangularTransmission
 
     @cached_property

@@ -15,7 +15,8 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, ToothTransmission, check_friction
+from geartrain.teeth.tooth_transmission import ToothTransmission
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump, matches
@@ -157,6 +158,15 @@ class TriangularTransmission(ToothTransmission):
         return self.mapped(S, lambda interval, x: x)
 
     def mapped(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
+        """Return a function of the contact at driver angles S.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+        what : callable
+            Function of a drive interval and of angles alpha_1 in it [rad].
+        """
         return self._map_all(S, lambda interval, x: (what(interval, x),), 1)[0]
 
     def _map_all(

@@ -155,8 +155,7 @@ class CrankLoad(Result):
     `over_turn`.
     """
     efficiency: float | None
-    """Output power divided by input power. None if neither friction nor an efficiency is declared, or if the value is
-    undetermined.
+    """Output power divided by input power; None if undetermined, or if neither friction nor an efficiency is declared.
     """
     note: str
     """Note on the loads that apply, or on missing data."""

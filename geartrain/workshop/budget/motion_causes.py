@@ -59,9 +59,7 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at input positions `turns` [turns of the input], at most `chunk`
-        positions.
-        """
+        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
         one, other = self.one.at(turns), self.other.at(turns)
         return error_difference(one, other)
 

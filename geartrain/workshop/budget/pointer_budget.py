@@ -146,13 +146,9 @@ class PointerBudget(Result):
     causes: tuple[BudgetCause, ...]
     """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift of the pointer relative to each target. The magnitude of the first drift over the span is the size of the
-    cause "ratio".
-    """
+    """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
     pairs: Mapping[str, float] | None = None
-    """Mapping from pair to the peak-to-peak pointer error due to the teeth of that pair only [deg], in descending
-    order; None if unknown.
-    """
+    """Peak-to-peak pointer error due to the teeth of one pair only [deg], by pair, descending; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
@@ -180,9 +176,7 @@ class PointerBudget(Result):
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Time after which the drift is equal to the largest other cause [Julian years]; None without a drift or
-        another known cause.
-        """
+        """Time after which the drift equals the largest other cause [Julian years]; None if either is unknown."""
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
@@ -242,13 +236,11 @@ class TrainBudget(Tabular, Pictured, Result):
     crank: CrankLoad
     """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, for each clearance; empty for the reason given in `jams_note`.
-    """
+    """Probability that wheels with cutting errors jam, for each clearance; `jams_note` explains an empty tuple."""
     jams_note: str = ""
     """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()
-    """Names of pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal.
-    """
+    """Pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal."""
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)

@@ -79,9 +79,7 @@ class BudgetQuestion:
     samples: int = 20_000
     """Number of positions of the input within `turns`, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default the declared errors
-    are used.
-    """
+    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default none."""
     trials: int = 256
     """Number of trials with cutting errors."""
     seed: int = 1

@@ -55,13 +55,9 @@ class CutWheel:
     tip: Floats
     """Height of each tip above R [unit of R]."""
     leading: Floats
-    """Angle by which each leading flank deviates from the half angle, positive if flatter, rotated about the tip
-    [rad].
-    """
+    """Angle by which each leading flank, rotated about the tip, is flatter than the half angle [rad]."""
     trailing: Floats
-    """Angle by which each trailing flank deviates from the half angle, positive if flatter, rotated about the tip
-    [rad].
-    """
+    """Angle by which each trailing flank, rotated about the tip, is flatter than the half angle [rad]."""
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
@@ -124,18 +120,14 @@ class CutWheel:
         return replace(self, tip=self.tip + np.asarray(tip)).checked()
 
     def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Return the wheel with flank angles increased [rad], so that flanks are flatter; one argument applies to both
-        flanks.
-        """
+        """Return the wheel with flatter flanks: flank angles increased [rad]; one argument applies to both flanks."""
         trailing = leading if trailing is None else trailing
         return replace(
             self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
         ).checked()
 
     def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
-        """Return the wheel with its teeth cut about a centre at a distance e from the axis [unit of R], in a direction
-        [rad].
-        """
+        """Return the wheel cut about a centre at a distance e from the axis [unit of R], in a direction [rad]."""
         return self.moved(e, towards).checked()
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
@@ -169,9 +161,7 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirror image of the wheel, which turns the other way; its tooth i is tooth `first` - i of this
-        wheel.
-        """
+        """Return the mirror image, which turns the other way; its tooth i is tooth `first` - i of this wheel."""
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
@@ -309,9 +299,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum angle at which the teeth of wheel 1 can touch, equation (4); 0 if tips do not
-    reach each other.
-    """
+    """Return the sine of half the maximum contact angle of wheel 1, equation (4); 0 if tips do not reach each other."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
@@ -362,9 +350,7 @@ class CutGearPair:
         return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations of the driving and the driven teeth of the tooth pairs k [rad], positive
-        backwards.
-        """
+        """Return the pitch deviations of both teeth of each tooth pair k [rad], positive backwards."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
@@ -379,9 +365,7 @@ class CutGearPair:
 
     @cached_property
     def widest(self) -> float:
-        """Upper bound of the angle |alpha_1| at which any tooth pair can touch [rad of the driver]; -inf if none can
-        touch.
-        """
+        """Upper bound of |alpha_1| at which any tooth pair can touch [rad of the driver]; -inf if none can."""
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii

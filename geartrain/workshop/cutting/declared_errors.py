@@ -29,8 +29,7 @@ MOST = {
     "centre": 2.0,
     "bearing": 2.0,
 }
-"""Exclusive upper limits of errors as fractions of pitch, half angle or depth; an error at the limit leaves no tooth.
-"""
+"""Exclusive upper limits of errors as fractions of pitch, half angle or depth; at the limit no tooth remains."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,9 +187,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """Return the errors of the axes of a pair, as fractions of the tooth depth of `lesser`, the wheel with the smaller
-    depth.
-    """
+    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with smaller depth."""
     fitting = mesh.gear.fitting or train.fitting
     reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}

@@ -90,9 +90,7 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """Return the flattening angles [rad] and the depths of removed material [module] of the trailing or leading
-        flanks.
-        """
+        """Return the flattening angles [rad] and the removed depths [module] of the trailing or leading flanks."""
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
@@ -109,9 +107,7 @@ class DisplacedWheel:
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirror image of the wheel, which turns the other way; its tooth i is tooth `first` - i of this
-        wheel.
-        """
+        """Return the mirror image, which turns the other way; its tooth i is tooth `first` - i of this wheel."""
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],
@@ -178,9 +174,7 @@ class DisplacedPair:
 
     @cached_property
     def widest(self) -> tuple[float, float]:
-        """First and last angle, relative to the nominal position of a tooth, at which it can touch [rad of the
-        driver].
-        """
+        """First and last angle at which a tooth can touch, relative to its nominal position [rad of the driver]."""
         at, (leaving, entering) = self.contact, self._end_margins
         return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
 
@@ -201,9 +195,7 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the terms of all tooth pairs that may have the minimum lag, with the driver at the angle u within a
-        pitch [rad].
-        """
+        """Yield the terms of all tooth pairs that may have the minimum lag at the driver angle u in a pitch [rad]."""
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
@@ -240,9 +232,7 @@ class DisplacedPair:
         return max(float(np.diff(each.lags).max(initial=0.0)) / each.step for each in (at.entering, at.leaving))
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag while tips touch beyond the ends of the path of contact [rad], for tips raised by given
-        amounts.
-        """
+        """Return the lag beyond the ends of the path of contact, where tips touch [rad]; tips may be raised."""
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
@@ -307,9 +297,7 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the terms of a front and of a back tooth pair, for all that touch at the same position of the
-        driver.
-        """
+        """Yield the terms of each front and back tooth pair that can touch at the same driver position."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -328,9 +316,7 @@ class DisplacedPair:
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash, with the flank that protrudes most among the four in contact
-        there.
-        """
+        """Return the position of minimum backlash, and the most protruding of the four flanks in contact there."""
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
@@ -343,9 +329,7 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the flank that protrudes most among the four in contact, in selected
-        trials.
-        """
+        """Return wheel, tooth and side of the most protruding of the four flanks in contact, in selected trials."""
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         left = np.stack(
@@ -368,9 +352,7 @@ class DisplacedPair:
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return the pair with material removed from the flanks [module], by one array (trials, 2 sides, z) for each
-        wheel.
-        """
+        """Return the pair with more material removed from its flanks: (trials, 2 sides, z) for each wheel [module]."""
         first, second = (
             wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
         )
@@ -415,9 +397,7 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k with the driver at angles S [rad]; for back flanks
-        the lead.
-        """
+        """Return the lag of the driven wheel due to tooth pairs k at driver angles S [rad]; for back flanks the lead."""
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -461,9 +441,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 for conjugate flanks at their nominal
-    centre distance.
-    """
+    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 for conjugate flanks."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))

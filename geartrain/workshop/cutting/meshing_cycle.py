@@ -75,9 +75,7 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that cannot turn through their cycle with a dragging driven wheel, because of a jam or a
-        clash.
-        """
+        """Mask of pairs that jam or clash, and so cannot turn through their cycle with a dragging driven wheel."""
         return self.jams | self.clash
 
     @classmethod
@@ -94,9 +92,7 @@ class TightPlace:
     backlash: Floats
     """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
-    trailing.
-    """
+    """Wheel to file: 0 driver, 1 driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1 trailing."""
     tooth: Ints
     side: Ints
     gain: Floats
@@ -231,9 +227,7 @@ class MeshingCycle:
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """Compute the exact backlash of every tooth pair that may have the minimum; the margin of the estimates is
-        adapted.
-        """
+        """Compute the exact backlash of tooth pairs that may have the minimum, with an adapted margin."""
         slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
@@ -286,9 +280,7 @@ class MeshingCycle:
         return float(3 * np.tan(steep) * tips + 3 * length * flanks)
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair: its value at the position of the nominal minimum
-        [rad].
-        """
+        """Return an upper bound of the backlash of every tooth pair: its value where the nominal minimum is [rad]."""
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
@@ -325,9 +317,7 @@ class MeshingCycle:
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask of dwells, shape (trials,): a tooth pair leaves before a later pair touches its driven
-        tooth.
-        """
+        """Return a mask (trials,) of dwells: a tooth pair leaves before a later pair touches its driven tooth."""
         front = self.front
         stands: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
@@ -353,9 +343,7 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash where back tooth pairs enter, at which the driven wheel may dwell [rad], shape
-        (trials,).
-        """
+        """Return the minimum backlash (trials,) where back tooth pairs enter and the driven wheel may dwell [rad]."""
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -364,9 +352,7 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return alpha_2 of each driven tooth determined by the pair n before, with its driving tooth at `reach`; inf
-        without it.
-        """
+        """Return alpha_2 of each driven tooth held by the pair n before with its driver at `reach`; inf without it."""
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
         touches = (x <= before.reach) & (before.reach > -inf) & (x > -inf)
@@ -380,9 +366,7 @@ class MeshingCycle:
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask of losses of contact, shape (trials,): at some position no front or no back tooth pair can
-        touch.
-        """
+        """Return a mask (trials,) of losses of contact: somewhere no front or no back tooth pair can touch."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -413,9 +397,7 @@ def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Return the minimum backlash over the cycle [rad of the driven wheel], shape (trials,), to a millionth of a
-    pitch.
-    """
+    """Return the minimum backlash over the cycle (trials,) [rad of the driven wheel], to 1e-6 of a pitch."""
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
     # two driving teeth may deviate in opposite directions
@@ -435,9 +417,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
 
 
 def by_residue(driver: Any, driven: Any) -> list[Any]:
-    """Return the terms of both wheels grouped by residue class modulo gcd(z1, z2): teeth of one class meet in the
-    cycle.
-    """
+    """Return the terms of both wheels grouped by residue modulo gcd(z1, z2): teeth of equal residue meet."""
     rests = gcd(driver.shape[-1], driven.shape[-1])
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
@@ -490,9 +470,7 @@ class _EntriesAndExits:
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its exit, as the pair n later would determine it, as a term of each
-        wheel.
-        """
+        """Return alpha_2 of a driven tooth at its exit as given by the pair n later, as a term of each wheel."""
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven
 
@@ -509,9 +487,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask of shape (trials,): True if the next tooth pair may be late somewhere, so that all pairs must be
-        compared.
-        """
+        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs are compared."""
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
         clash = extreme_sum(*self._entering(1), np.maximum) > self.tip - near
@@ -520,9 +496,7 @@ class _EntriesAndExits:
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
-        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (otherwise
-        inf).
-        """
+        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (or inf)."""
         stands = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._minimum(self._entering)
         clash = (y > self.tip + self.small).any(axis=1)
@@ -530,9 +504,7 @@ class _EntriesAndExits:
         return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over neighbouring tooth pairs, for every tooth pair of the cycle, shape (trials, tooth
-        pairs).
-        """
+        """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle (trials, tooth pairs)."""
         k = np.arange(self.pair.count)
         coming = terms == self._entering
         spread = float(np.ptp(self.driver))

@@ -33,9 +33,7 @@ _NEAR = 1e-6  # of the common reach: after such a step the error of the value, q
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Front tooth pair and the back tooth pair n before it, each in one phase, at the minimum backlash of perfect
-    wheels.
-    """
+    """Front tooth pair and the back pair n before it, in one phase each, at the minimum backlash of perfect wheels."""
 
     n: int
     phases: tuple[str, str]
@@ -46,9 +44,7 @@ class BacklashCandidate:
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the limits of alpha_1 of the front tooth within which both tooth pairs can touch [rad]; empty if low >
-    high.
-    """
+    """Return the range of alpha_1 of the front tooth in which both pairs can touch [rad]; empty if low > high."""
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
 
@@ -91,9 +87,7 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum of f(x) + f'(delta - x) while both tooth pairs can touch [rad]; inf if they cannot touch at
-    once.
-    """
+    """Return the minimum of f(x) + f'(delta - x) while both tooth pairs can touch [rad]; inf if they never do."""
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
         values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
@@ -108,9 +102,7 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return all candidates of minimum backlash of perfect wheels, up to `most` tooth pairs apart, in ascending
-    order.
-    """
+    """Return the candidates of perfect wheels up to `most` tooth pairs apart, in ascending order of backlash."""
     tooth_pair = even_tooth_pair(sizes)
     found = []
     for n, phases in product(range(-most, most + 1), PHASES):
@@ -126,9 +118,7 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum distance between two tooth pairs that can touch at once, as a number of tooth pairs; -1 if no
-    pair can touch.
-    """
+    """Return the maximum number of pitches between tooth pairs that can touch at once; -1 if no pair can touch."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)

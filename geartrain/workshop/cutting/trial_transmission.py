@@ -106,9 +106,7 @@ class TrialTransmissionFunction(TransmissionFunction):
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth; `pair` has arrays (trials, z), or (z,) for a wheel common to all
-    trials.
-    """
+    """Transmission function of triangular teeth; a wheel of `pair` has arrays (trials, z), or (z,) for all trials."""
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -133,9 +131,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after a pair has
-        left.
-        """
+        """Return the lag due to tooth pairs k [rad of the driven wheel]; inf before contact, constant after it."""
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)

@@ -529,9 +529,7 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, letter: float, corner: Floats) -> Iterator[str]:
-        """Yield the labels of new parts at their centres, without overlap; nothing for more than `_MOST_NAMED`
-        parts.
-        """
+        """Yield the labels of at most `_MOST_NAMED` new parts at their centres, without overlap."""
         low, high = self.extent
         taken: set[tuple[int, int]] = set()
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():

@@ -42,9 +42,7 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield the path (without suffix) and the drawing of each wheel, plate and sheet of stock, compensated for the
-    kerf.
-    """
+    """Yield path (without suffix) and kerf-compensated drawing of each wheel, plate and sheet of stock."""
     kerf, plates = work.process.kerf, plate_sheets(work)
     names = file_names(plate.name for plate in plates)
     flat = [("wheels", each) for each in wheel_sheets(work.blanks.wheels)]
@@ -133,9 +131,7 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Return circles around the holes of a wheel except its bore: centres and radii [mm]; empty for wheels with
-    spokes.
-    """
+    """Return centres and radii [mm] of circles around a wheel's holes except its bore; empty for spoked wheels."""
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
@@ -304,9 +300,7 @@ def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) 
 
 
 def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Sheet:
-    """Return a part turned so that it fits on a sheet, with its longer side along the width of the sheet if
-    possible.
-    """
+    """Return a part turned to fit on a sheet, if possible with its longer side along the width of the sheet."""
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]

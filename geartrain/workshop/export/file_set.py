@@ -73,15 +73,11 @@ class ExportFile(Shown):
     title: str
     """Description of the content of the file."""
     make: Callable[[], bytes]
-    """Function that returns the content of the file as bytes. It raises `GearTrainError` if the content cannot be
-    computed.
-    """
+    """Function that returns the content of the file, or raises `GearTrainError` if it cannot be computed."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Return the kinds whose libraries are installed, and for each other kind a problem with the command that installs
-    it.
-    """
+    """Return the kinds whose libraries are installed, and for each other kind a problem with its install command."""
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))

@@ -128,9 +128,7 @@ class _GlbFile:
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (default as in
-    `Keyframes.of`).
-    """
+    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (see `Keyframes.of`)."""
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
@@ -201,9 +199,7 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the index of the mesh with the given triangles and the material of the part; it is added if it does not
-    exist.
-    """
+    """Return the index of the mesh with the given triangles and the material of the part, after adding a new one."""
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
@@ -308,9 +304,7 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between the key frames of a body; 0 if it does not turn relative to its
-        parent.
-        """
+        """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
         speed = self.speeds[body]
         turned = abs(float((speed or 0) * self.turns))
         if self.ripples and self.work.scene.bodies[body].speed is not None:
@@ -332,9 +326,7 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the transmission errors of teeth and pins in the angle of each body [rad], shape (bodies, count +
-        1).
-        """
+        """Return the errors of body angles due to teeth and pins [rad], shape (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

@@ -88,9 +88,7 @@ class FrictionPlan(Shown):
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the random friction coefficients, by the train, pair or coupling that declares the
-        coefficient.
-        """
+        """Distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     def follow(self, drawn: Train) -> tuple[float | None, ...]:
@@ -256,9 +254,7 @@ class TrialFigure(Result):
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Mapping from percentage to the percentile with its 95 % confidence interval. 95 % of the values are between
-        the outer two percentiles.
-        """
+        """Percentiles with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the values."""
         return percentiles_of(self.values)
 
 

@@ -141,9 +141,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of the cutting errors by wheel, kind and distribution, as fractions of the pitch, the half angle or the
-        tooth depth.
-        """
+        """Sizes of cutting errors by wheel, kind and distribution: fractions of pitch, half angle or tooth depth."""
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property

@@ -40,9 +40,7 @@ class RandomStreams:
     seed: int
     block: int
     other: Streams = ((), ())
-    """Items (wheels or pairs) and kinds of error of the streams from the second, independent sample, which Sobol
-    indices need.
-    """
+    """Items (wheels or pairs) and kinds of error drawn from the second, independent sample of Sobol indices."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
         """Return the generator for one kind of error of one wheel or pair, or for the position of the input."""

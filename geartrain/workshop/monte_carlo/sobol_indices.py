@@ -68,9 +68,7 @@ class SobolIndices(Result):
     trials: int
     """Number of base samples in which the pointer error is finite."""
     indices: tuple[SobolIndex, ...]
-    """Sobol indices of each input variable, in descending order of the total index. The variable "position" is the
-    position of the input.
-    """
+    """Indices of all input variables in descending order of the total; "position" is the position of the input."""
 
 
 def find_sobol_indices(

@@ -30,16 +30,12 @@ if TYPE_CHECKING:
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""Bit masks: STOPS marks a pair that cannot turn through its cycle while its driven wheel drags; LOST excludes a pair
-from averages.
-"""
+"""Bit masks of pairs that stop with a dragging driven wheel, and of pairs that are excluded from averages."""
 
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of wheels that can be
-    cut.
-    """
+    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of cuttable wheels."""
 
     plan: TrialPlan
     streams: RandomStreams
@@ -65,16 +61,12 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Result of filing by index of the pair, for pairs that are filed to fit, at the minimum distance of their
-        bearings.
-        """
+        """Filing of each pair that is filed to fit, at the minimum distance of its bearings, by index of the pair."""
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return the numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 *
-        pairs).
-        """
+        """Return numbers of file strokes and of filed teeth in alternate columns, shape (trials, 2 * pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -136,9 +128,7 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
 
 
 def input_positions(drawn: TrialWheels) -> Floats:
-    """Return a random position of the input in each trial [turn], uniform over the span of the plan, shape
-    (trials,).
-    """
+    """Return a random input position in each trial [turn], uniform over the span of the plan, shape (trials,)."""
     # a whole block is drawn and then sliced, as for all errors
     return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 

@@ -104,9 +104,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, and the minimum
-        backlash.
-        """
+        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, minimum backlash."""
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
@@ -121,9 +119,7 @@ class TrialPair(ABC):
         """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the probability of a jam for normal pitch deviations `sigma` [pitch]; NaN without a
-        bound.
-        """
+        """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
         del sigma
         return nan
 
@@ -216,9 +212,7 @@ class TriangularTrialPair(TrialPair):
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Gear pair of any other tooth form: flanks displaced along the path of contact, accurate to first order in the
-    errors.
-    """
+    """Gear pair of any other tooth form: flanks displaced along the path of contact, to first order in the errors."""
 
     contact: DisplacedContact
 

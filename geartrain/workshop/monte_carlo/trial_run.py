@@ -1,6 +1,4 @@
-"""Execution of trials as tasks in one or several processes, with a journal; all trials as one result or as a table
-file.
-"""
+"""Execution of trials as tasks in one or several processes, with a journal; their results, and a table file."""
 
 from __future__ import annotations
 
@@ -224,9 +222,7 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the trials of one task, decoded from the plain data of a worker or a journal; `first` is its first
-    trial.
-    """
+    """Return the trials of one task, the first being `first`, from the plain data of a worker or a journal."""
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 

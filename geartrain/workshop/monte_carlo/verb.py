@@ -160,9 +160,7 @@ def _trials(
 
 
 def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
-    """Return the destination of the plot; reject an unknown picture or a file that cannot be written before the trials
-    run.
-    """
+    """Return the destination of the plot, after checking the picture and the file before the trials run."""
     if plot is not None:
         from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
 

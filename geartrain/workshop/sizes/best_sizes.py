@@ -71,17 +71,11 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """Comparison of the best design's results with the results that its drawn outlines give."""
     equal_depth: ToothSizes | None
-    """Design with tip radii for equally deep teeth, and with the window and half angles of `start`; None if it does not
-    turn.
-    """
+    """Design for equally deep teeth, with the window and half angles of `start`; None if it does not turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, and with the window and half angles of `start`; None if
-    it does not turn.
-    """
+    """Design with tip radii in the ratio of the tooth numbers, else as `start`; None if it does not turn."""
     front: tuple[ToothSizes, ...]
-    """Pareto front of two objectives, from the best design for the first to the best design for the second; empty for
-    one objective.
-    """
+    """Pareto front from the best design for the first objective to that for the second; empty for one objective."""
     evaluations: int
     """Number of designs that the search evaluated."""
     stops: float | None
@@ -97,9 +91,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for the best design, the rule-based designs that turn, and the Pareto front; angles are in
-        rad.
-        """
+        """Table of the best design, the rule-based designs that turn, and the Pareto front; angles are in rad."""
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -243,8 +235,7 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak transmission error from the transmission function and from the outlines [rad of the driven wheel].
-    """
+    """Peak-to-peak transmission error of the transmission function and of the outlines [rad of the driven wheel]."""
     impact: tuple[float, float]
     """Impact loss from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]
@@ -286,9 +277,7 @@ def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
 
 
 def _mean_efficiency(transmission: OutlineTransmission) -> float:
-    """Return the mean efficiency [1] over the angle of the driver, by Gauss quadrature in cells of each smooth
-    interval.
-    """
+    """Return the mean efficiency over the angle of the driver, by Gauss quadrature in cells of smooth intervals."""
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)

@@ -125,9 +125,7 @@ class SizeSearch:
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """Return the Pareto front of given designs in two objectives, from the best in the first to the best in the
-    second.
-    """
+    """Return the Pareto front of given designs, from the best in the first objective to the best in the second."""
     found: list[ToothSizes] = []
     # in this order a design is dominated unless it improves the second objective
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
@@ -235,9 +233,7 @@ class PairTrials:
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
-    """Random seed of the trials. All pairs have the same seed, and differences between their results are due only to
-    the sizes.
-    """
+    """Random seed of the trials of every pair, so that only the sizes make results of pairs differ."""
 
     def stops(self, sizes: ToothSizes) -> float:
         """Return the fraction of trials in which the pair jams or clashes, 0 to 1.
@@ -425,9 +421,7 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
 
 
 def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """Return a point moved along one variable by a fraction of its range, in the direction in which it remains in the
-    box.
-    """
+    """Return a point moved along one variable by a fraction of its range, in a direction that stays in the box."""
     low, high = sampled.bounds[which]
     by = step * (high - low)
     place = at[which] + by if low <= at[which] + by <= high else at[which] - by

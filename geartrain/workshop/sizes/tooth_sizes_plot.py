@@ -1,6 +1,4 @@
-"""Plots of the best sizes of triangular teeth: all evaluated designs of a pair, and the improvement of each pair of a
-train.
-"""
+"""Plots of the best sizes of triangular teeth: all designs of a pair, and the gain of each pair of a train."""
 
 from __future__ import annotations
 
@@ -135,9 +133,7 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Return a string of the objective of the train before and after: `pennestri-2002-teeth to 19: loss (%) 46.9 as
-    declared, 15.7 optimised`.
-    """
+    """Return the objective of the train before and after as text: `a to b: loss (%) 46.9 as declared, ...`."""
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
     )

@@ -196,9 +196,7 @@ class TrainSizeSearch:
         return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the free parameters of one pair with their bounds; the half angle is not free if another pair shares a
-        wheel.
-        """
+        """Return the bounds of a pair's free parameters; the half angle is not free if another pair shares a wheel."""
         return {
             size: each
             for size, each in self.free.items()
@@ -279,9 +277,7 @@ class TrainSizeSearch:
         )
 
     def _separate_optima(self) -> dict[str, ToothSizes]:
-        """Return the best sizes of every pair separately; pairs with common wheels have their best common half
-        angle.
-        """
+        """Return the best sizes of each pair separately; pairs with common wheels have one common half angle."""
         found = {name: self._separate_optimum(name) for name in self._requested}
         for group in self._common_angle_groups:
             if len(group) > 1:
@@ -322,9 +318,7 @@ class TrainSizeSearch:
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """Optimise one size near its present value by Brent's bounded method, for one pair or for pairs with a common
-        size.
-        """
+        """Optimise one size near its value by Brent's bounded method, for one pair or pairs with a common size."""
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -462,9 +456,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for each pair: sizes as declared (if the pair turns), optimised separately, and optimised for
-        the train.
-        """
+        """Table of the sizes of each pair: as declared (if it turns), optimised separately, and for the train."""
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs

@@ -41,9 +41,7 @@ class LinkFreedom(Result):
     link: str
     """Name of the link."""
     backlash: float | None
-    """Total range of the angle [rad], due to the backlash of all meshes up to the link; None if the teeth do not limit
-    it.
-    """
+    """Range of the angle [rad], due to the backlash of all meshes up to the link; None if teeth do not limit it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,9 +102,7 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes at a pose, and by pair the distance by which a wheel is outside its
-        backlash [mm].
-        """
+        """Return the constraints of all meshes at a pose, and the excess beyond the backlash by pair [mm]."""
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
         for circuit in self.work.sized.circuits:
@@ -122,9 +118,7 @@ class _Motion:
         return rows, off
 
     def _ratio_constraint(self, circuit: Circuit) -> Floats:
-        """Return the constraint of a circuit without turned outlines, such as a pin and slot or a bevel pair, from its
-        ratio.
-        """
+        """Return the constraint from the ratio of a circuit that has no turned outlines, such as a bevel pair."""
         weights = np.zeros(len(self.scene.bodies))
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
@@ -133,9 +127,7 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the directions (1 or -1) of both wheels and their carrier about the first axis; None if not
-        parallel.
-        """
+        """Return the senses (1 or -1) of both wheels and their carrier about the first axis; None if not parallel."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -174,9 +166,7 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle of a wheel's first tooth in the zero pose, from the point of contact about the first axis
-        [rad].
-        """
+        """Return the angle of a wheel's first tooth in the zero pose, from the contact about the first axis [rad]."""
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
         x = between - (between @ n) * n
@@ -220,9 +210,7 @@ class _Motion:
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite if it is not
-        limited.
-        """
+        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite without limit."""
         from scipy.optimize import linprog
 
         cost = np.zeros(len(self.scene.bodies))

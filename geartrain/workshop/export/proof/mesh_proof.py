@@ -1,6 +1,4 @@
-"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each checked against a
-rule.
-"""
+"""Proof of every mesh of a train on its written outlines: rules on overlap, backlash, clearance and tips."""
 
 from __future__ import annotations
 
@@ -35,9 +33,7 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""Maximum difference by which the measured backlash may be below the declared one [mm]: the accuracy of the
-outlines.
-"""
+"""Amount by which the measured backlash may be below the declared one [mm]: the accuracy of the outlines."""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
 _AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
 _BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
@@ -118,9 +114,7 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return every mesh of two cut wheels by pair: its backlash, its blanks (an internal one second), its turned
-    outlines.
-    """
+    """Return by pair of cut wheels its backlash, its blanks (an internal one second) and its turned outlines."""
     found = {}
     for backlash in work.blanks.backlashes:
         bent = any(work.train.declaration.wheels[name][1].flexible for name in backlash.wheels)

@@ -88,18 +88,14 @@ class TurnedPair:
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free range of wheel 2 through a pitch of wheel 1; if teeth differ, for all tooth pairs that
-        meet.
-        """
+        """Return the free range of wheel 2 through a pitch of wheel 1, or for all different tooth pairs that meet."""
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet; one entry for each different
-        combination.
-        """
+        """Tooth of wheel 1 and space of wheel 2 that meet, by index; one entry for each different combination."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -130,9 +126,7 @@ class TurnedPair:
         return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Return the free range of one tooth pair through a pitch, and at further positions where its middle is not
-        free.
-        """
+        """Return the free range of a tooth pair through a pitch, and at further positions that are not free."""
         t = self._positions(_STEPS)
         found = self.free(t, np.zeros(_STEPS), tooth_pair)
         held = np.isfinite(found.low) & np.isfinite(found.high)
@@ -153,9 +147,7 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the nearest lag within half a pitch at which wheel 2 is free, or else the lag with the minimum
-        overlap.
-        """
+        """Return the nearest free lag of wheel 2 within half a pitch, or else the lag of minimum overlap."""
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
         open_ = np.flatnonzero(areas <= NOTHING)
@@ -168,9 +160,7 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lag in one direction by bisection [rad]; infinite if no tooth stops the wheel within a
-        pitch.
-        """
+        """Return the last free lag in one direction by bisection [rad]; infinite without a stop within a pitch."""
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
@@ -217,9 +207,7 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the part of a wheel that can touch the other while a tooth (wheel 2: a space) passes the line of
-        centres.
-        """
+        """Return the part of a wheel that can touch while a tooth (wheel 2: a space) passes the line of centres."""
         kind = which, self._alike[which][tooth]
         if kind not in self._cropped:
             self._cropped[kind] = self._crop(which, tooth)
@@ -231,9 +219,7 @@ class TurnedPair:
         return {}
 
     def _crop(self, which: int, tooth: int) -> Any:
-        """Return a wheel rotated to a tooth (wheel 2: a space) at the contact, and cropped to the region that can
-        touch.
-        """
+        """Return a wheel with a tooth (wheel 2: a space) turned to the contact, cropped to the region of contact."""
         shapely = plane_geometry()
         pitch = self.pitches[which]
         facing = 0.0 if which == 0 or self.ring else pi
@@ -289,9 +275,7 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return for each tooth the index of the first equal tooth: all 0 if a rotation by a pitch does not change the
-    wheel, otherwise the index of the tooth itself.
-    """
+    """Return the kind of each tooth: all 0 if the wheel coincides with itself after a pitch, else its own index."""
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)

@@ -443,8 +443,10 @@ def test_more_turns_than_key_frames_can_show_are_refused() -> None:
 
 
 def test_the_same_train_is_the_same_file() -> None:
-    first, second = (train_file(workpiece("planetary-24-18-60"), "glb") for _ in range(2))
-    assert first == second
+    works = [workpiece("planetary-24-18-60") for _ in range(2)]
+    for make in (lambda work: train_file(work, "glb"), lambda work: wheel_file(work, "s", ".dxf")):
+        first, second = map(make, works)
+        assert first == second
 
 
 # ---------------------------------------------------------------------------------------------------------------- STEP

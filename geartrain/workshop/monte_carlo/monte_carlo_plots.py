@@ -6,7 +6,7 @@ quantities, a tornado chart of variance shares, or the convergence of an estimat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from textwrap import shorten
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -133,12 +133,14 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
         return tornado_figure(indices, f"error of '{found.output}' by {found.by}: {found.trials:,} base samples")
     if picture == "pairs":
         first = trials.pointers[0]
+        why = f"variance shares need two trials that turn, and errors of '{first.name}' that differ"
+        _require(first.shares, why, "give more --trials, smaller errors (--cutting), or another output (--of)")
         shares = {name: (IntervalEstimate(value, value, value),) for name, value in first.shares.items()}
         return tornado_figure(shares, f"error of '{first.name}' by pair")
     return _jam_map(findings.cleared)
 
 
-def _require(what: Sequence[object], why: str, fix: str) -> None:
+def _require(what: Collection[object], why: str, fix: str) -> None:
     if not what:
         raise QuestionError(Problem("there is nothing to draw", why, fix))
 

@@ -19,7 +19,7 @@ from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
 from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import (
-    UNCUT,
+    TrialWheels,
     draw_trial_wheels,
     input_positions,
     judge_trial_pairs,
@@ -149,12 +149,12 @@ def run_trials(
     """
     check_trials(trials)
     means, work, tasks = means or Execution(), partial(work_block, plan, seed), trial_tasks(trials)
+    # before the run, so that a refused run leaves no journal
+    _check_cut(draw_trial_wheels(plan, RandomStreams(seed, 0), tasks[0][1]))
     found: list[TrialRecord] = []
     try:
         for (first, _), packed in zip(tasks, means.run(work, tasks), strict=True):
             rows = unpack(first, packed)
-            if not first:
-                _check_cut(plan, rows)
             if take is not None:
                 take(rows)
             # only the table needs the backlash, so its memory is freed
@@ -165,26 +165,18 @@ def run_trials(
     return gathered(plan, seed, trials, found)
 
 
-def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
-    """Check that the wheels can be cut in at least half of the trials.
-
-    Raises
-    ------
-    RangeError
-      If wheels cannot be cut in more than half of the trials.
-    """
-    uncut = (rows.marks & UNCUT) > 0
-    if uncut.any(axis=1).mean() <= 0.5:
+def _check_cut(drawn: TrialWheels) -> None:
+    """Raise `RangeError` if wheels cannot be cut in more than half of the trials."""
+    plan = drawn.plan
+    uncut = np.stack([~(drawn.good[pair.first] & drawn.good[pair.second]) for pair in plan.pairs], axis=1)
+    share = uncut.any(axis=1).mean()
+    if share <= 0.5:
         return
     pair = plan.pairs[int(uncut.mean(axis=0).argmax())]
     wheel = max((plan.wheels[pair.first], plan.wheels[pair.second]), key=lambda each: each.z)
-    raise RangeError(
-        Problem(
-            f"in {uncut.any(axis=1).mean():.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'",
-            f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg",
-            "give smaller errors: --cutting pitch_deviation='2 %'",
-        )
-    )
+    what = f"in {share:.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'"
+    why = f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg"
+    raise RangeError(Problem(what, why, "give smaller errors: --cutting pitch_deviation='2 %'"))
 
 
 # -------------------------------------------------------------------------------------------------------------- workers

@@ -446,22 +446,6 @@ def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:
     assert list(found.jams) == [False, False, True, True]
 
 
-# ---------------------------------------------------------------------------------------------------------- drawing
-
-
-def test_what_cannot_be_judged_is_refused() -> None:
-    sizes = equally_deep(48, 24, 0.02)
-    driver, driven = even(sizes)
-    for make in (
-        lambda: batch_verdicts(sizes, driver, driven),
-        lambda: batch_verdicts(sizes, driven, driver),
-        lambda: jamming_bound(sizes, -1.0),
-    ):
-        with pytest.raises(RangeError) as caught:
-            make()
-        assert all(problem.what and problem.fix for problem in caught.value.problems)
-
-
 def test_a_bound_has_its_ends() -> None:
     sizes = equally_deep(64, 38, 0.02)
     assert jamming_bound(sizes, 0.0) == 0.0

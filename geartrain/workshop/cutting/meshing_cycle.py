@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, RangeError
 from geartrain.workshop.cutting.cut_wheel import ROUNDING, CutGearPair, CutToothPairs
 from geartrain.workshop.cutting.minimum_backlash import (
+    SLACK,
     BacklashCandidate,
     backlash_candidates,
     common,
@@ -35,15 +35,12 @@ from geartrain.workshop.cutting.minimum_backlash import (
 )
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 
 CHUNK = 1 << 15  # tooth pairs processed at once: their arrays stay in the cache, and memory is bounded
-_SLACK = 0.05  # driven pitches: initial bound of estimated minus exact backlash, enlarged if it proves too small
 _NODES = 2001  # of the table of J_n, with linear interpolation: the error is below 1e-6 of a pitch
 _UNSURE = 1e-4  # driven pitches: a smaller backlash is recomputed without tables, so that their error cannot matter
 
@@ -100,11 +97,7 @@ class TightPlace:
 
 
 def batch_verdicts(
-    sizes: TriangularSizes,
-    first: CutWheel,
-    second: CutWheel,
-    shift: Any = 0.0,
-    chunk: int = CHUNK,
+    sizes: TriangularSizes, first: CutWheel, second: CutWheel, shift: Any = 0.0, chunk: int = CHUNK
 ) -> MeshingVerdicts:
     """Return the events of each trial, for wheels with arrays (trials, z), or (z,) for a wheel common to all trials.
 
@@ -112,42 +105,11 @@ def batch_verdicts(
     chunk   number of tooth pairs processed at once
     """
     whole = CutGearPair(sizes, first, second, shift)
-    if (first.z, second.z) != (sizes.z1, sizes.z2):
-        raise RangeError(
-            Problem(
-                f"wheels of {first.z} and {second.z} teeth do not match a pair of {sizes.z1} and {sizes.z2} teeth",
-                "the wheels must have the tooth counts of the pair, and the driver comes first",
-                f"give wheels of {sizes.z1} and {sizes.z2} teeth, in this order",
-            )
-        )
-    if len(whole.trials) != 1 or whole.trials[0] < 1:
-        raise RangeError(
-            Problem(
-                f"wheels with trials of shape {whole.trials} are not a batch",
-                "a batch has one axis of trials, with at least one trial",
-                "give arrays of shape (trials, z) for at least one of the wheels",
-            )
-        )
     # with a common contact function the cost does not depend on the length of the cycle
     if first.only_pitch_deviations and second.only_pitch_deviations and np.ndim(shift) == 0:
-        return verdicts_of_pitch_errors(whole, chunk)
+        parts = chunks(whole, chunk // (sizes.z1 + sizes.z2))
+        return MeshingVerdicts.joined([verdicts_of_pitch_errors(part, chunk) for part in parts])
     return MeshingVerdicts.joined([cycle_verdicts(part) for part in chunks(whole, chunk // whole.count)])
-
-
-def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    teeth = _EntriesAndExits(pair)
-    if teeth.reach < 0:  # the tip circles do not intersect
-        nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
-        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere)
-    backlash = backlash_of_pitch_errors(pair)
-    for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, chunk // pair.count):
-        backlash[rows] = MeshingCycle(pair.taken(rows)).backlash()
-    clash, stands = np.zeros(len(backlash), bool), np.zeros(len(backlash), bool)
-    for rows in _parts(teeth.doubtful, chunk // pair.count):
-        some = _EntriesAndExits(pair.taken(rows))
-        clash[rows], stands[rows], entering = some.events()
-        backlash[rows] = np.minimum(backlash[rows], entering)
-    return MeshingVerdicts(backlash, clash, stands, teeth.disengaged)
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
@@ -157,20 +119,13 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
         yield pair.taken(slice(start, min(start + step, count)))
 
 
-def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
-    """Yield the indices of the true entries, at most `size` at a time."""
-    rows = np.flatnonzero(chosen)
-    for start in range(0, len(rows), max(1, size)):
-        yield rows[start : start + max(1, size)]
-
-
 # --------------------------------------------------------------------------------------------- tooth pair by tooth pair
 
 
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
     """Return the events of each trial of a batch, computed tooth pair by tooth pair."""
     cycle = MeshingCycle(pair)
-    backlash, dwell, clash = cycle.backlash(), cycle.dwells(), cycle.clashes()
+    backlash, dwell, clash = cycle.tightest()[0], cycle.dwells(), cycle.clashes()
     if dwell.any():
         backlash = np.minimum(backlash, np.where(dwell, cycle.backlash_at_entries(), inf))
     return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged())
@@ -202,10 +157,6 @@ class MeshingCycle:
 
     # ------------------------------------------------------------------------------------------------------------ jams
 
-    def backlash(self) -> Floats:
-        """Return the minimum backlash of each trial [rad of the driven wheel], shape (trials,)."""
-        return self.tightest()[0]
-
     def tightest(self) -> tuple[Floats, Ints, Ints]:
         """Return for each trial the minimum backlash, its front tooth pair, and the distance to its back tooth pair.
 
@@ -216,19 +167,17 @@ class MeshingCycle:
         rough: dict[int, Any] = {}
         backlash = np.full(self.trials, inf)
         where = np.zeros((2, self.trials), np.int64)
-        for bound, each in self._candidates():
-            if bound > backlash.max():  # in ascending order, so no later candidate can be smaller
-                break
+        for each in backlash_candidates(self.sizes, farthest(self.pair)):
             value = self._all(self._rough(each))
             rough[each.n] = np.minimum(rough[each.n], value) if each.n in rough else value
             backlash = np.minimum(backlash, value.min(axis=1))
         for n, value in rough.items():
-            self._refine(backlash, where, n, np.array(value))
+            self._refine(backlash, where, n, value)
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
         """Compute the exact backlash of tooth pairs that may have the minimum, with an adapted margin."""
-        slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
+        slack, open_ = SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
         while True:
@@ -245,39 +194,6 @@ class MeshingCycle:
             open_[rows, columns] = False
             # the largest observed excess of an estimate over the exact backlash, with a margin of 2
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
-
-    def _candidates(self) -> list[tuple[float, BacklashCandidate]]:
-        """Return the candidates of minimum backlash with a lower bound for errors of this size, in ascending order."""
-        found = backlash_candidates(self.sizes, farthest(self.pair))
-        nearest = {
-            each.n: each.backlash for each in reversed(found)
-        }  # reversed, so that the smallest of each n remains
-        radial = self._other_error_bound()
-        bounds = {
-            n: backlash - self._pitch_deviation_bound(n) - radial - _SLACK * self.sizes.p2
-            for n, backlash in nearest.items()
-        }
-        near = [each for each in found if each.backlash <= nearest[each.n] + _SLACK * self.sizes.p2]
-        return sorted(((bounds[each.n], each) for each in near), key=lambda pair: pair[0])
-
-    def _pitch_deviation_bound(self, n: int) -> float:
-        """Return an upper bound of the reduction of backlash by pitch deviations, for front and back pairs n apart
-        [rad].
-        """
-        driver = float(np.abs(self.ahead(n) - n * self.sizes.p1).max())
-        driven = float(np.abs(self._driven_term(n) - (1 - n) * self.sizes.p2).max())
-        # factors 1.2 here and 3 below are margins: a bound too wide only costs time, one too narrow would miss a jam
-        return 1.2 * max(steepest(even_tooth_pair(self.sizes)), self.sizes.ratio) * driver + driven
-
-    def _other_error_bound(self) -> float:
-        """Return an upper bound of the change of backlash by errors of height, half angle and centre distance [rad]."""
-        one, two, sizes = self.pair.first, self.pair.second, self.sizes
-        tips = float(np.abs(one.tip).max() + np.abs(two.tip).max() + np.abs(self.pair.shift).max()) / sizes.R2
-        flanks = max(float(np.abs(each).max()) for wheel in (one, two) for each in (wheel.leading, wheel.trailing))
-        # limited to 1.4 rad, because the tangent is infinite at a right angle
-        steep = min(max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2, 1.4)
-        length = (sizes.delta / sizes.R2 + tips) / np.cos(steep)
-        return float(3 * np.tan(steep) * tips + 3 * length * flanks)
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
         """Return an upper bound of the backlash of every tooth pair: its value where the nominal minimum is [rad]."""
@@ -389,11 +305,22 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial with pitch deviations only; doubtful trials are computed tooth pair by tooth
-    pair.
-    """
-    parts = [_verdicts(part, chunk) for part in chunks(pair, chunk // (pair.sizes.z1 + pair.sizes.z2))]
-    return MeshingVerdicts.joined(parts)
+    """Return the events of each trial with pitch deviations only; doubtful trials are computed pair by pair."""
+    teeth, never = _EntriesAndExits(pair), np.zeros(pair.trials, bool)
+    found = MeshingVerdicts(backlash_of_pitch_errors(pair), never, never.copy(), teeth.disengaged)
+    backlash, size = found.backlash, max(1, chunk // pair.count)
+    for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, size):
+        backlash[rows] = MeshingCycle(pair.taken(rows)).tightest()[0]
+    for rows in _parts(teeth.doubtful, size):
+        found.clash[rows], found.dwell[rows], entering = _EntriesAndExits(pair.taken(rows)).events()
+        backlash[rows] = np.minimum(backlash[rows], entering)
+    return found
+
+
+def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
+    """Yield the indices of the true entries, at most `size` at a time."""
+    rows = np.flatnonzero(chosen)
+    return (rows[at : at + size] for at in range(0, len(rows), size))
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
@@ -488,6 +415,8 @@ class _EntriesAndExits:
     @property
     def doubtful(self) -> Bools:
         """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs are compared."""
+        if self.reach < 0:  # the tip circles do not intersect
+            return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
         clash = extreme_sum(*self._entering(1), np.maximum) > self.tip - near

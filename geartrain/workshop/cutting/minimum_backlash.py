@@ -12,13 +12,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import product
 from math import erfc, floor, gcd, inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, RangeError
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutToothPairs
 
@@ -28,6 +26,7 @@ if TYPE_CHECKING:
 
 PHASES = ((RECESS, RECESS), (RECESS, APPROACH), (APPROACH, RECESS), (APPROACH, APPROACH))
 _MOST_STEPS = 30  # pure bisection would reach 1e-9 of the common reach
+SLACK = 0.05  # driven pitches: initial bound of estimated minus exact backlash, enlarged if it proves too small
 _NEAR = 1e-6  # of the common reach: after such a step the error of the value, quadratic in the step, is rounding
 
 
@@ -102,19 +101,25 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return the candidates of perfect wheels up to `most` tooth pairs apart, in ascending order of backlash."""
+    """Return the minima of backlash of perfect wheels for all distances n up to `most` tooth pairs.
+
+    For each n, these are the phases whose minimum is within `SLACK` of the smallest.
+    """
     tooth_pair = even_tooth_pair(sizes)
-    found = []
-    for n, phases in product(range(-most, most + 1), PHASES):
-        delta = n * sizes.p1
+    candidates = []
+    for n in range(-most, most + 1):
+        delta, found = n * sizes.p1, []
         if abs(delta) < 2 * float(tooth_pair.reach):
-            value, x = minimum_backlash_sum(tooth_pair, tooth_pair, np.array(delta), phases)
-            found.append(BacklashCandidate(n, phases, float(x) - delta / 2, float(value) + (1 - n) * sizes.p2))
-        elif phases == PHASES[-1 if n > 0 else 0]:
+            for phases in PHASES:
+                value, x = minimum_backlash_sum(tooth_pair, tooth_pair, np.array(delta), phases)
+                found.append(BacklashCandidate(n, phases, float(x) - delta / 2, float(value) + (1 - n) * sizes.p2))
+        else:
             # in reach together only with errors: then tips meet tips
             tips = -2 * float(np.sign(n) * tooth_pair.exit_angle)
-            found.append(BacklashCandidate(n, phases, 0.0, tips + (1 - n) * sizes.p2))
-    return tuple(sorted(found, key=lambda each: each.backlash))
+            found.append(BacklashCandidate(n, PHASES[-1 if n > 0 else 0], 0.0, tips + (1 - n) * sizes.p2))
+        limit = min(each.backlash for each in found) + SLACK * sizes.p2
+        candidates += sorted((each for each in found if each.backlash <= limit), key=lambda each: each.backlash)
+    return tuple(candidates)
 
 
 def farthest(pair: CutGearPair) -> int:
@@ -125,9 +130,7 @@ def farthest(pair: CutGearPair) -> int:
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, which occurs when tips meet at entry; 0 if they never meet, inf
-    if the ratio is undefined there.
-    """
+    """Return the maximum speed ratio of a tooth pair, where tips meet at entry; 0 if they never do, inf if undefined."""
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
@@ -150,14 +153,6 @@ def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
     about its own deviation, so the backlash has the deviation 2 sigma. Every tooth pair counts twice, for the spaces
     before and behind it.
     """
-    if not 0 <= sigma < inf:
-        raise RangeError(
-            Problem(
-                f"a standard deviation of {sigma:g} pitches is out of range",
-                "a standard deviation is finite and not negative",
-                "give 0 or more, such as 0.02",
-            )
-        )
     backlash = nominal_backlash(sizes)
     if backlash < 0:
         return 1.0

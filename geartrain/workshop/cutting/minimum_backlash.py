@@ -130,7 +130,7 @@ def farthest(pair: CutGearPair) -> int:
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, where tips meet at entry; 0 if they never do, inf if undefined."""
+    """Return the maximum speed ratio of a tooth pair, where tips meet at entry; 0 without contact, inf if undefined."""
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from polygons import Judge, Outline
 from studies.cut_pair_transmission import CutPairLaw, leans
-from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
+from studies.cutting_errors import CuttingErrorModel, ErrorDistribution, with_errors
 
 from geartrain import load
 from geartrain.errors import RangeError
@@ -99,7 +99,7 @@ def drawn(rng: np.random.Generator, ring: Literal[0, 1, 2] = 0) -> tuple[Triangu
             less, more = big * 0.05 * wheel.half_angle * rng.standard_normal((2, z))
             e, towards = big * 0.1 * high * rng.uniform(), rng.uniform(0, 2 * pi)
             try:
-                wheels.append(wheel.placed(place).grown(tip).widened(less, more).eccentric(e, towards))
+                wheels.append(with_errors(wheel, e, towards, place=place, tip=tip, leading=less, trailing=more))
             except RangeError:
                 break
             theta, r = np.arange(z) * wheel.pitch + place, abs(wheel.radius + tip)
@@ -158,7 +158,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
     sizes = sizes.at(find_window(sizes).at(0.85))
     rng = np.random.default_rng(6)
     places = [0.03 * 2 * pi / z * rng.standard_normal(z) for z in (20, 30)]
-    transmission = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+    transmission = CutPairLaw.of(sizes, *(with_errors(w, place=p) for w, p in zip(even(sizes), places, strict=True)))
     judge = Judge(
         *(
             Outline(np.arange(w.z) * w.pitch + p, np.full(w.z, w.radius), *np.full((2, w.z), THIRTY))
@@ -197,7 +197,9 @@ def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> N
             sizes = equally_deep(16, 12, 0.0)
             sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
             places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
-            transmission = CutPairLaw.of(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+            transmission = CutPairLaw.of(
+                sizes, *(with_errors(w, place=p) for w, p in zip(even(sizes), places, strict=True))
+            )
             if (
                 transmission.events
                 and {event.kind for event in transmission.events.all} == {"clash"}
@@ -238,7 +240,7 @@ def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
     driver, driven = even(sizes)
     short = np.zeros(12)
     short[[4, 5]] = -0.9 * sizes.depths[0]
-    events = CutPairLaw.of(sizes, driver.grown(short), driven).events
+    events = CutPairLaw.of(sizes, with_errors(driver, tip=short), driven).events
     gaps = events.of("disengaged")
     assert len(gaps) >= lcm(12, 18) // 12
     assert bool(events.of("disengaged"))
@@ -252,13 +254,14 @@ def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
 def test_impossible_wheels_are_refused() -> None:
     sizes = equally_deep(16, 12, 0.03)
     driver, driven = even(sizes)
+    wide = {"leading": 0.5, "trailing": 0.5}
     for make in (
-        lambda: driver.placed(np.linspace(0, 7, 16)),
-        lambda: driver.widened(-0.6),
-        lambda: driver.widened(1.0),
-        lambda: driver.grown(-2.0),
+        lambda: with_errors(driver, place=np.linspace(0, 7, 16)),
+        lambda: with_errors(driver, leading=-0.6, trailing=-0.6),
+        lambda: with_errors(driver, leading=1.0, trailing=1.0),
+        lambda: with_errors(driver, tip=-2.0),
         lambda: load("longcase-clock-cycloidal").meshes[0].cut_sizes,
-        lambda: CutPairLaw.of(sizes.at(0.001), driver.widened(0.5), driven.widened(0.5)),
+        lambda: CutPairLaw.of(sizes.at(0.001), with_errors(driver, **wide), with_errors(driven, **wide)),
     ):
         with pytest.raises(RangeError) as caught:
             make()
@@ -362,7 +365,7 @@ def test_places_alone_are_reckoned_in_another_way_with_the_same_result() -> None
         sizes = equally_deep(z1, z2, excess)
         driver, driven = cut(sizes, rng, 12, CuttingErrorModel(ErrorDistribution(sigma)))
         placed = batch_verdicts(sizes, driver, driven)
-        general = batch_verdicts(sizes, driver.grown(1e-14 * np.ones(z1)), driven)
+        general = batch_verdicts(sizes, with_errors(driver, tip=1e-14), driven)
         assert np.abs(placed.backlash - general.backlash).max() < 1e-5 * sizes.p2
         for name in ("jams", "clash", "dwell", "disengaged"):
             assert (getattr(placed, name) == getattr(general, name)).all(), name
@@ -418,7 +421,8 @@ def test_the_bound_of_the_table_is_about_one_in_a_hundred(z1: int, z2: int, exce
 
 def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the_other() -> None:
     rng = np.random.default_rng(20)
-    wheel = CutWheel.even(16, 10.0, 0.5).widened(rng.uniform(-0.05, 0.05, 16)).placed(rng.uniform(-0.02, 0.02, 16))
+    lean, place = rng.uniform(-0.05, 0.05, 16), rng.uniform(-0.02, 0.02, 16)
+    wheel = with_errors(CutWheel.even(16, 10.0, 0.5), place=place, leading=lean, trailing=lean)
     leading, trailing = rng.uniform(0, 0.05, (2, 16))
     filed = wheel.filed(leading, trailing)
 
@@ -441,7 +445,7 @@ def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:
     share = np.array([0.6, 0.85, 1.15, 1.4])
     driver, driven = even(sizes)
     found = batch_verdicts(
-        sizes, driver.eccentric(share * room / 2, 0.3), driven.eccentric(share * room / 2, np.linspace(0, 1, 4))
+        sizes, driver.moved(share * room / 2, 0.3), driven.moved(share * room / 2, np.linspace(0, 1, 4))
     )
     assert list(found.jams) == [False, False, True, True]
 

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, RangeError
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, ToothPair
 
 if TYPE_CHECKING:
@@ -106,32 +105,8 @@ class CutWheel:
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
-    # ------------------------------------------------------------------------------------------------------ with errors
-
-    def placed(self, place: ArrayLike) -> CutWheel:
-        """Return the wheel with pitch deviations added: each tooth is rotated backwards by `place` [rad].
-
-        Raises `RangeError` if a tooth cannot be cut.
-        """
-        return replace(self, place=self.place + np.asarray(place)).checked()
-
-    def grown(self, tip: ArrayLike) -> CutWheel:
-        """Return the wheel with tip heights increased by `tip` [unit of R]; flank angles do not change."""
-        return replace(self, tip=self.tip + np.asarray(tip)).checked()
-
-    def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Return the wheel with flatter flanks: flank angles increased [rad]; one argument applies to both flanks."""
-        trailing = leading if trailing is None else trailing
-        return replace(
-            self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
-        ).checked()
-
-    def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
-        """Return the wheel cut about a centre at a distance e from the axis [unit of R], in a direction [rad]."""
-        return self.moved(e, towards).checked()
-
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel as `eccentric` does, without checking that it can be cut."""
+        """Return the wheel cut about a centre at a distance e from the axis [unit of R], in a direction [rad]."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -172,22 +147,6 @@ class CutWheel:
             self.trailing[..., order],
             self.leading[..., order],
         )
-
-    # ---------------------------------------------------------------------------------------------------------- checks
-
-    def checked(self) -> CutWheel:
-        """Return the wheel itself; raise `RangeError` if an error leaves no tooth or no tooth space."""
-        if not self.cuttable.all():
-            bad = int(np.size(self.cuttable) - np.count_nonzero(self.cuttable))
-            where = np.unravel_index(int(np.argmin(self.cuttable)), np.shape(self.cuttable))
-            raise RangeError(
-                Problem(
-                    f"{bad} of {np.size(self.cuttable)} teeth cannot be cut; the first is tooth {where[-1]}",
-                    "facing flanks of two teeth must form a space, and both flanks of a tooth must meet at its tip",
-                    "give smaller errors, such as pitch deviations below one pitch and flank angles above 0",
-                )
-            )
-        return self
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:

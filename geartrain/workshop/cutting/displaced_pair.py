@@ -195,51 +195,22 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the terms of all tooth pairs that may have the minimum lag at the driver angle u in a pitch [rad]."""
+        """Yield the terms of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
         ends = (low - sign * u) / pitch, (high - sign * u) / pitch
-        found = []
         for steps in range(int(np.ceil(ends[0])), int(np.floor(ends[1])) + 1):
             x = sign * u + steps * pitch
-            nominal = float(self._even(np.array(x)))
-            found.append((nominal, x, int(sign) * steps))
-        minimum = min((nominal for nominal, _, _ in found), default=np.inf)
-        for nominal, x, j in found:
-            # far beyond the end of its path, the lag of a tip exceeds any effect of errors
-            if nominal <= minimum + self._spread:
-                yield self._side(u, x, j, back)
-
-    @cached_property
-    def _spread(self) -> float:
-        """Upper bound of the difference of the lags of two tooth pairs due to errors [rad of the driven wheel]."""
-        at, found = self.contact, 0.0
-        for gear, wheel in enumerate((self.first, self.second)):
-            flanks = np.maximum(np.abs(wheel.leading).max(initial=0.0), np.abs(wheel.trailing).max(initial=0.0))
-            lowered = np.maximum(wheel.leading_low.max(initial=0.0), wheel.trailing_low.max(initial=0.0))
-            moved = np.abs(wheel.place).max(initial=0.0) * (1.0 if gear else float(at.ratio))
-            tips = at.longer[gear] * np.abs(wheel.tips).max(initial=0.0) * float(at.ratio)
-            # twice, because errors can delay one pair and advance the other; filing only delays
-            found += float(2 * (moved + flanks * np.abs(at.tilt[gear]).max() + tips) + lowered * at.normal.max())
-        # steepest lag beyond the ends: teeth with pitch deviations meet the ends at other positions
-        late = np.abs(self.first.place).max(initial=0.0)
-        return found + float(self._steep * late)
-
-    @property
-    def _steep(self) -> float:
-        at = self.contact
-        return max(float(np.diff(each.lags).max(initial=0.0)) / each.step for each in (at.entering, at.leaving))
+            # infinite beyond the reach of nominal tips, which errors of tips hardly extend
+            if np.isfinite(self._kinks(np.array(x))):
+                yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
         """Return the lag beyond the ends of the path of contact, where tips touch [rad]; tips may be raised."""
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
-
-    def _even(self, x: Floats) -> Floats:
-        """Return the lag of perfect wheels [rad], also beyond the ends of the path of contact."""
-        return np.asarray(self._along(self.contact.even, x) + self._kinks(x))
 
     def _along(self, column: Floats, x: Any) -> Any:
         """Return one column of the contact interpolated linearly at x [rad]; it is constant beyond the ends."""
@@ -382,9 +353,6 @@ class DisplacedPair:
         # just inside the limit, so that rounding does not put the pair out of reach
         x += 1e-9 * at.pitches[0] * (1 if entering else -1)
         other = x + j * at.pitches[0]
-        nominal = float(self._even(np.array(other))), float(self._even(np.array(x)))
-        if not nominal[0] + self._spread > nominal[1]:
-            return np.zeros(self.trials, bool)
         # the lag of tips is steep beyond their path, so each pair is evaluated where its own tips meet
         late = self.first.place
         own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)

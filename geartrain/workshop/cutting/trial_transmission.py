@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from copy import copy
 from fractions import Fraction
-from math import ceil, floor, inf, lcm, pi
+from math import ceil, floor, inf, lcm, nan, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,8 +45,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the transmission errors [rad of the driven wheel] and the speed ratios dq/dS at angles S of shape (n,)
-        [rad].
+        """Return transmission errors [rad of the driven wheel] and speed ratios at angles S of shape (n,) [rad].
 
         The error is -inf if no teeth touch.
         """
@@ -59,25 +58,19 @@ class TrialTransmissionFunction(TransmissionFunction):
         return error, speed
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of the selected columns; errors are still recorded in the shared array
-        `last`.
-        """
+        """Return the functions of the selected columns; their errors are also recorded in the shared array `last`."""
         found = copy(self)
         found.rows, found._columns = self.rows[columns], columns
         return found
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission errors at angles S [rad of the driven wheel]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio dq/dS at angles S [rad]."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean transmission error of perfect wheels [rad] and an rms deviation of 0, as superposition
-        requires.
-        """
+        """Return the mean error of perfect wheels [rad] and an rms deviation of 0, as superposition requires."""
         return self.even, 0.0
 
     def error_range(self) -> tuple[float, float]:
@@ -89,20 +82,13 @@ class TrialTransmissionFunction(TransmissionFunction):
         return 0.0, inf
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return NaN at each angle, because efficiency is not computed in trials."""
-        return np.full(np.shape(S), np.nan)
+        return np.full(np.shape(S), nan)
 
     def efficiency_mean(self) -> float:
         """Return NaN, because efficiency is not computed in trials."""
-        return float("nan")
+        return nan
 
-    def efficiency_at_constant_load(self) -> float:
-        """Return NaN, because efficiency is not computed in trials."""
-        return float("nan")
-
-    def efficiency_minimum(self) -> float:
-        """Return NaN, because efficiency is not computed in trials."""
-        return float("nan")
+    efficiency_at_constant_load = efficiency_minimum = efficiency_mean
 
 
 class CutTrialTransmission(TrialTransmissionFunction):

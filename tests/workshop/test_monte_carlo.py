@@ -484,6 +484,17 @@ def test_triangular_pairs_are_filed_until_they_turn() -> None:
     assert transmission.events.backlash >= 0
 
 
+@pytest.mark.parametrize("form", ["form: involute, backlash: 0.2", "form: triangular, half_angle: 30 deg, window: 0.5"])
+def test_a_measured_wheel_is_the_same_in_all_trials(form: str) -> None:
+    """Its errors are no random ones; trials of nothing else failed."""
+    deviations = ", ".join(["0.1 deg"] * 23 + ["0 deg"])
+    text = PAIR.replace("form: FORM, backlash: 0.2", form).replace("cutting: {pitch_deviation: {normal: 1 %}}\n", "")
+    text = text.replace("p: 24", f"p: {{teeth: 24, cutting: {{measured: {{pitch_deviation: [{deviations}]}}}}}}")
+    found = run_trials(find_trial_plan(load(text)), 20)
+    assert found.filings[0].strokes.value == 0
+    assert np.isfinite(found.errors).all()
+
+
 def test_settings_and_wheels_of_other_forms() -> None:
     settings = read_error_overrides(
         ["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"]

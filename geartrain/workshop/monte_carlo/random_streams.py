@@ -62,9 +62,9 @@ def draw_wheel(
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
     """Return one wheel drawn in some trials of a block, and a mask of the trials in which it can be cut.
 
-    Drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1, internal ones -1.
-    In trials in which a wheel cannot be cut, its teeth are returned without errors (displaced flanks: without pitch
-    deviations), so that later code never meets teeth without tips.
+    Pitch deviations and drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1,
+    internal ones -1. In trials in which a wheel cannot be cut, its teeth are returned without errors (displaced flanks:
+    without pitch deviations), so that later code never meets teeth without tips.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
@@ -75,30 +75,23 @@ def draw_wheel(
         return found + streams.errors(item, kind, wheel.errors[kind], shape)[rows] if kind in wheel.errors else found
 
     # signs: declared errors are positive ahead and wider, the arrays of a wheel positive behind and flatter
-    place, tip = -wheel.pitch * drawn("pitch_deviation"), wheel.depth * drawn("tip")
+    place = np.broadcast_to(-wheel.pitch * drawn("pitch_deviation"), (trials, wheel.z))
+    tip = wheel.depth * drawn("tip")
     flank = wheel.half_angle * drawn("aperture_deviation")
     eccentric = _draw_eccentricity(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
-        return _displaced_wheel(place, tip, flank, eccentric, trials)
+        made = DisplacedWheel(place, tip, flank, flank, zero, zero, *(eccentric or (0.0, 0.0)))
+        good = made.cuttable.all(axis=-1)
+        return replace(made, place=np.where(good[:, None], place, 0.0)), good
     cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
     if eccentric is not None:
         cut = cut.moved(*eccentric)
-    good = np.broadcast_to(cut.cuttable.all(axis=-1), (trials,))
+    good = cut.cuttable.all(axis=-1)
     if good.all():
         return cut, good
     # perfect teeth replace those that cannot be cut; these trials are flagged and not counted
     kept = [np.where(good[:, None], each, 0.0) for each in (cut.place, cut.tip, cut.leading, cut.trailing)]
     return CutWheel(cut.radius, wheel.half_angle, *kept), good
-
-
-def _displaced_wheel(
-    place: Floats, tip: Floats, flank: Floats, eccentric: tuple[Floats, Floats] | None, trials: int
-) -> tuple[DisplacedWheel, Bools]:
-    zero = np.zeros(place.shape[-1])
-    e, towards = (0.0, 0.0) if eccentric is None else eccentric
-    found = DisplacedWheel(place, tip, flank, flank, zero, zero, e, towards)
-    good = np.broadcast_to(found.cuttable.all(axis=-1), (trials,))
-    return (found if good.all() else replace(found, place=np.where(good[:, None], place, 0.0))), good
 
 
 def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -94,16 +92,10 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 # ------------------------------------------------------------------------------------------------------------- verdicts
 
 
-def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
-    """Return event flags and minimum backlash [pitch of the driven wheel] of the pairs in every trial, shape (trials,
-    pairs); no flag and infinite backlash for pairs that are not in `pairs`.
-    """
-    wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
-    marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
-    backlash = np.full(marks.shape, inf)
-    for at in wanted:
-        marks[:, at], backlash[:, at] = _judged(drawn, at)
-    return marks, backlash
+def judge_trial_pairs(drawn: TrialWheels) -> tuple[Marks, Floats]:
+    """Return event flags and minimum backlash [pitch of the driven wheel] of each pair, shape (trials, pairs)."""
+    judged = [_judged(drawn, at) for at in range(len(drawn.plan.pairs))]
+    return np.stack([marks for marks, _ in judged], axis=1), np.stack([backlash for _, backlash in judged], axis=1)
 
 
 def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
@@ -121,7 +113,7 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     )
     uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
     marks = np.where(uncut, UNCUT, marks)
-    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.backlash / pair.pitches[1]
+    return marks.astype(np.uint8), near.backlash / pair.pitches[1]
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers

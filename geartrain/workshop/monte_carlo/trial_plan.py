@@ -13,15 +13,12 @@ from fractions import Fraction
 from math import gcd, inf, lcm, nan, pi
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.results import Shown
 from geartrain.workshop.cutting.cut_wheel import CutGearPair
 from geartrain.workshop.cutting.declared_errors import (
-    OF_PAIRS,
     ErrorOverride,
     ErrorSpecification,
     WheelErrors,
@@ -86,7 +83,7 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of length of the wheels]."""
+        """Smaller tooth depth of the two wheels [unit of the radii; module; rad for bevel gears]."""
 
     @property
     @abstractmethod
@@ -100,7 +97,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair of drawn wheels with the centre distance increased by `shift`."""
+        """Return the pair of drawn wheels, scaled to its sizes, with the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
@@ -112,7 +109,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing to fit, with the numbers of strokes and of filed teeth."""
+        """Return a cut pair filed by strokes of the declared depth, until it passes or a flank is at its limit."""
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
@@ -120,7 +117,6 @@ class TrialPair(ABC):
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
-        del sigma
         return nan
 
     @property
@@ -142,27 +138,22 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
         return self.sizes.z1, self.sizes.z2
 
     @property
     def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of the radii]."""
         return min(self.sizes.depths)
 
     @property
     def backlash(self) -> float:
-        """Nominal backlash [pitch of the driven wheel]."""
         return nominal_backlash(self.sizes)
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Radii, half angles and excess of the centre distance, as part of the key of a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of the pair."""
         sizes = self.sizes
         R1, R2 = sizes.signed_radii
         first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
@@ -170,36 +161,21 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial; of one trial if both wheels are the same in all trials."""
-        first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
-        return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
+        return batch_verdicts(pair.sizes, pair.first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, computed tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
-        limit.
-        """
-        whole = _with_trial_axis(pair, pair.trials[0] if pair.trials else 1)
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
-        return file_to_fit(whole, tight_place, self.stroke * self.depth, limit)
+        return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the probability of a jam.
-
-        j is the nominal backlash and sigma the standard deviation [pitch].
-        """
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
-        return replace(self, sizes=self._cleared(clearance))
-
-    def _cleared(self, clearance: float) -> TriangularSizes:
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
-            return self.sizes.at(clearance - 1)
+            return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
 
         window = find_window(self.sizes)
@@ -207,7 +183,7 @@ class TriangularTrialPair(TrialPair):
             what = f"pair '{self.name}' has no clearance window"
             why = "its perfect teeth jam or lose contact at every clearance"
             raise RangeError(Problem(what, why, "give clearance factors above 1: --vary clearance_factor=1.005:1.04:8"))
-        return self.sizes.at(window.at(clearance))
+        return replace(self, sizes=self.sizes.at(window.at(clearance)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,68 +194,45 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
         first, second = self.contact.wheels
         return first.z, second.z
 
     @property
     def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [module; rad for bevel gears]."""
         return min(each.depth for each in self.contact.wheels)
 
     @property
     def backlash(self) -> float:
-        """Nominal backlash [pitch of the driven wheel]."""
         return even_backlash(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Numbers that identify the contact, as part of the key of a journal."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair of drawn wheels, mirrored if they turn against the numbering of their teeth."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
-        # filing and verdicts need an axis of trials, even if all trials are the same
-        if not np.broadcast_shapes(first.trials, second.trials, np.shape(shift)):
-            first = replace(first, place=first.place[None])
         return DisplacedPair(self.contact, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial."""
         found: MeshingVerdicts = pair.verdicts()
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, from the foremost tooth pair at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
-        limit.
-        """
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
-        """Return the pair at a clearance factor of the centre distance, 1 or more."""
         if clearance < 1 or not self.contact.distance < inf:
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
-            raise RangeError(
-                Problem(what, why, "omit --vary, or give clearance factors above 1 if all axes are parallel")
-            )
+            fix = "omit --vary, or give clearance factors above 1 if all axes are parallel"
+            raise RangeError(Problem(what, why, fix))
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
-
-
-def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
-    """Return the pair with both wheels expanded to arrays with an axis of trials."""
-    wheels = [
-        replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
-    ]
-    return CutGearPair(pair.sizes, wheels[0], wheels[1], pair.shift)
 
 
 # ---------------------------------------------------------------------------------------------------------------- train
@@ -441,7 +394,12 @@ def find_trial_plan(
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
-    meshes = _cut_meshes(train, motion)
+    meshes = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
+    if not meshes:
+        what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
+        why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
+        fix = "declare `tooth_form: {form: involute}` or another such form for the train or for its pairs"
+        raise QuestionError(Problem(what, why, fix))
     # a wheel in several pairs is drawn once, with the teeth of its first pair
     even: dict[str, WheelErrors] = {}
     for mesh in meshes:
@@ -471,23 +429,6 @@ def find_trial_plan(
         _span(composition, pairs),
         motion._problem.driving_link,
     )
-
-
-def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
-    """Return the pairs whose teeth can have cutting errors.
-
-    Raises
-    ------
-    QuestionError
-      If no pair has a tooth form for which cutting errors can be computed.
-    """
-    found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
-    if not found:
-        what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
-        why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
-        fix = "declare `tooth_form: {form: involute}` or another such form for the train or for its pairs"
-        raise QuestionError(Problem(what, why, fix))
-    return found
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
@@ -546,9 +487,10 @@ def _pair(
     train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _RotationSenses, settings: Sequence[ErrorOverride]
 ) -> TrialPair:
     wheels, contact = _even_wheels(train, mesh), mesh.displaced_contact
-    lesser = min(wheels, key=lambda wheel: wheel.depth) if contact is not None else _less_deep(mesh, wheels)
+    depths = mesh.cut_sizes.depths if contact is None else [wheel.depth for wheel in wheels]
+    # the wheel with the smaller tooth depth; the driver if both depths are equal
+    lesser = wheels[0] if depths[0] <= depths[1] else wheels[1]
     fitting = pair_errors(train.declaration, mesh, lesser, settings)
-    fitting = {kind: off for kind, off in fitting.items() if kind in OF_PAIRS}
     mirrored = senses.mirrored(mesh.name, mesh.driver), senses.mirrored(mesh.name, mesh.driven)
     numbers = names.index(mesh.driver), names.index(mesh.driven)
     stroke = filing_stroke(train.declaration, mesh, lesser)
@@ -559,9 +501,3 @@ def _pair(
     # not counted as a cutting error
     even = -mean_lag(contact)
     return DisplacedTrialPair(mesh.name, *numbers, mirrored, even, contact, fitting=fitting, stroke=stroke)
-
-
-def _less_deep(mesh: GearMesh, wheels: tuple[WheelErrors, WheelErrors]) -> WheelErrors:
-    """Return the wheel with the smaller tooth depth of a triangular pair; the driver if both depths are equal."""
-    depths = mesh.cut_sizes.depths
-    return wheels[0] if depths[0] <= depths[1] else wheels[1]

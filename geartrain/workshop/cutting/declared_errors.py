@@ -21,14 +21,7 @@ ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "eccentricity", "tip", "aperture_deviation")
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
-MOST = {
-    "pitch_deviation": 1.0,
-    "aperture_deviation": 1.0,
-    "tip": 2.0,
-    "eccentricity": 2.0,
-    "centre": 2.0,
-    "bearing": 2.0,
-}
+MOST = {kind: 1.0 if kind in ("pitch_deviation", "aperture_deviation") else 2.0 for kind in ERROR_KINDS}
 """Exclusive upper limits of errors as fractions of pitch, half angle or depth; at the limit no tooth remains."""
 
 
@@ -38,10 +31,6 @@ class ErrorSpecification:
 
     size: float = 0.0
     way: ErrorDistributionKind = "value"
-
-    def times(self, factor: float) -> ErrorSpecification:
-        """Return the error with its size multiplied by a factor."""
-        return replace(self, size=self.size * factor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,9 +246,8 @@ class _Reader:
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
             if abs(off.size) >= MOST[kind]:  # also for random errors: one standard deviation must leave a tooth
-                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}.get(
-                    kind, "the depth of its teeth"
-                )
+                units = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}
+                of = units.get(kind, "the depth of its teeth")
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} times {of}"
                 pitch = self.scales["pitch_deviation"] or 0
                 why = (

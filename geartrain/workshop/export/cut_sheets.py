@@ -304,16 +304,13 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]
-    ways = [turned for turned in (tall > wide, tall <= wide) if _fits((tall, wide) if turned else (wide, tall), room)]
+    sides = {False: (wide, tall), True: (tall, wide)}
+    ways = [way for way in (tall > wide, tall <= wide) if sides[way][0] <= room[0] and sides[way][1] <= room[1]]
     if not ways:
         what = f"'{part.file}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
         why = f"it measures {wide:.4g} x {tall:.4g} mm, plus a gap of {gap:g} mm on all sides"
         raise QuestionError(Problem(what, why, "give a larger --sheet, or a smaller --module", "--sheet"))
     return replace(part, drawing=_turned(part.drawing)) if ways[0] else part
-
-
-def _fits(sides: tuple[float, float], room: list[float]) -> bool:
-    return sides[0] <= room[0] and sides[1] <= room[1]
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:

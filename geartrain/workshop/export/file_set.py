@@ -23,6 +23,7 @@ from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prov
 from geartrain.workshop.export.rexs import to_rexs
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Answer
     from geartrain.scene.solids.solid_assembly import SolidModel
 
 
@@ -30,15 +31,8 @@ KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
 """Kinds of files that `export_files` writes."""
 
 SUFFIXES = {
-    ".glb": "glb",
-    ".stl": "stl",
-    ".step": "step",
-    ".stp": "step",
-    ".graphml": "graphml",
-    ".dot": "dot",
-    ".gv": "dot",
-    ".rexsj": "rexs",
-    ".json": "rexs",
+    **{".glb": "glb", ".stl": "stl", ".step": "step", ".stp": "step"},
+    **{".graphml": "graphml", ".dot": "dot", ".gv": "dot", ".rexsj": "rexs", ".json": "rexs"},
 }
 """Kind of a file with a whole train, by suffix."""
 
@@ -180,13 +174,8 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     """
     known = work.train.declaration.wheels
     if wheel not in known:
-        raise QuestionError(
-            Problem(
-                f"the train has no wheel '{wheel}'",
-                "only declared wheels can be exported",
-                suggest(wheel, known),
-            )
-        )
+        what = f"the train has no wheel '{wheel}'"
+        raise QuestionError(Problem(what, "only declared wheels can be exported", suggest(wheel, known)))
     blank = work.blanks.wheels.get(wheel)
     if blank is None:
         raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
@@ -235,14 +224,9 @@ def export_files(
     """
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
-        raise QuestionError(
-            Problem(
-                f"'{unknown[0]}' is not a kind of export",
-                "each kind is the name of a format",
-                f"use one or more of {', '.join(KINDS)}",
-                "--as",
-            )
-        )
+        what = f"'{unknown[0]}' is not a kind of export"
+        why = "each kind is the name of a format"
+        raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in step_pictures(work)] if "svg" in kinds else []
     if "csv" in kinds:
@@ -339,14 +323,8 @@ def kind_of(name: str) -> str:
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
     fix = f"use {', '.join(SUFFIXES)} or .fmu; for wheels, plates and tables, give --to FOLDER"
-    raise GearTrainError(
-        Problem(
-            f"a train cannot be written as '{suffix or name}'",
-            "the format follows from the suffix of the file",
-            fix,
-            "-o",
-        )
-    )
+    what = f"a train cannot be written as '{suffix or name}'"
+    raise GearTrainError(Problem(what, "the format follows from the suffix of the file", fix, "-o"))
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
@@ -354,22 +332,20 @@ def kind_of(name: str) -> str:
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
     """Return the tables of a train in CSV format by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
-    made = {
-        "wheels": _wheels,
-        "links": _links,
-        "pairs": _pairs,
-        "circuits": _circuits,
-        "couplings": _couplings,
-        "axes": _axes,
-        "outputs": _outputs,
-    }
-    tables = {name: make(work) for name, make in made.items()}
+    made = (_wheels, _links, _pairs, _circuits, _couplings, _axes, _outputs)
+    tables = {make.__name__[1:]: make(work) for make in made}
     return {name: csv_text(head.split(), rows) for name, (head, rows) in tables.items()}
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
     """Return a number as an exact and as a decimal string; two empty strings for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
+
+
+def _answers(work: SolidModel) -> Iterator[Answer]:
+    """Yield the exact solution of the train in its state, or in every state if none is selected."""
+    states = work.train.states if work.state is None else (work.state,)
+    return (work.train.solve(state, method="exact") for state in states or (None,))
 
 
 def _wheels(work: SolidModel) -> tuple[str, Rows]:
@@ -389,10 +365,8 @@ def _wheels(work: SolidModel) -> tuple[str, Rows]:
 
 
 def _links(work: SolidModel) -> tuple[str, Rows]:
-    train = work.train
-    states = train.states if work.state is None else (work.state,)
-    rows = []
-    for answer in (train.solve(state, method="exact") for state in states or (None,)):
+    train, rows = work.train, []
+    for answer in _answers(work):
         for link in train.declaration.links:
             found = answer.speeds.get(link)
             joint = train.kinematics.tree.parent.get(link)
@@ -442,21 +416,10 @@ def _axes(work: SolidModel) -> tuple[str, Rows]:
 
 
 def _outputs(work: SolidModel) -> tuple[str, Rows]:
-    train = work.train
-    states = train.states if work.state is None else (work.state,)
     rows = []
-    for answer in (train.solve(state, method="exact") for state in states or (None,)):
+    for answer in _answers(work):
         for name, result in answer.outputs.items():
             speed = _both(None if result.speed is None else Fraction(result.speed))
-            rows.append(
-                (
-                    answer.state,
-                    name,
-                    result.of,
-                    result.relative_to,
-                    *speed,
-                    answer.unit,
-                    "yes" if result.holds else "no",
-                )
-            )
+            holds = "yes" if result.holds else "no"
+            rows.append((answer.state, name, result.of, result.relative_to, *speed, answer.unit, holds))
     return "state output of relative_to speed speed_decimal unit holds", rows

@@ -186,14 +186,8 @@ def _sheet(text: str) -> tuple[float, float]:
     sides = text.lower().replace("×", "x").split("x")
     unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
-        raise GearTrainError(
-            Problem(
-                f"'{text}' is not the size of a sheet",
-                "a size is WIDTHxHEIGHT with a unit",
-                "write it as 300x200mm",
-                "--sheet",
-            )
-        )
+        what = f"'{text}' is not the size of a sheet"
+        raise GearTrainError(Problem(what, "a size is WIDTHxHEIGHT with a unit", "write it as 300x200mm", "--sheet"))
     # a unit after the last side only applies to both sides
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
     return 1000 * _length("sheet", width), 1000 * _length("sheet", height)
@@ -229,14 +223,8 @@ def _write_folder(
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
 
     if wheel is not None:
-        raise GearTrainError(
-            Problem(
-                "--wheel applies only to one file",
-                "a folder contains all wheels",
-                "give -o FILE instead of --to",
-                "--wheel",
-            )
-        )
+        what = "--wheel applies only to one file"
+        raise GearTrainError(Problem(what, "a folder contains all wheels", "give -o FILE instead of --to", "--wheel"))
     wanted = [kind.strip().lower() for kind in kinds.split(",")] if kinds is not None else list(KINDS)
     missing: list[Problem] = []
     if kinds is None:

@@ -102,13 +102,8 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     'probability of a jam'
     """
     if picture not in PICTURES:
-        raise QuestionError(
-            Problem(
-                f"'{picture}' is not a kind of picture",
-                "each kind shows one study",
-                f"use one of {', '.join(PICTURES)}",
-            )
-        )
+        what = f"'{picture}' is not a kind of picture"
+        raise QuestionError(Problem(what, "each kind shows one study", f"use one of {', '.join(PICTURES)}"))
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -326,13 +321,9 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
     finite = table[np.isfinite(table)]
     rising = all(each.ndim == 1 and each.size > 1 and (np.diff(each) > 0).all() for each in (x, y))
     if not (rising and table.shape == (x.size, y.size) and finite.size and finite.min() >= 0 and finite.max() <= 1):
-        raise QuestionError(
-            Problem(
-                f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}",
-                "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)",
-                "give arrays of shapes (n,), (m,) and (n, m)",
-            )
-        )
+        what = f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}"
+        why = "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)"
+        raise QuestionError(Problem(what, why, "give arrays of shapes (n,), (m,) and (n, m)"))
 
 
 # -------------------------------------------------------------------------------------------------------- tornado chart

@@ -292,7 +292,7 @@ class TrialPlan(Shown):
         """
 
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
-            return {each: off.times(factor) for each, off in errors.items()}
+            return {kind: replace(off, size=off.size * factor) for kind, off in errors.items()}
 
         # measured tables describe one real wheel and keep their values
         wheels = tuple(replace(each, errors=times(each.errors)) for each in self.wheels)

@@ -65,13 +65,7 @@ def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[st
 
 
 def check_trials(trials: int) -> None:
-    """Check that the number of trials is from 1 to 10^9.
-
-    Raises
-    ------
-    QuestionError
-      If the number of trials is out of range.
-    """
+    """Raise `QuestionError` if the number of trials is not from 1 to 10^9."""
     if not 1 <= trials <= _MOST:
         what = f"{trials if trials < 1 else f'{trials:.3g}'} is not a valid number of trials"
         raise QuestionError(Problem(what, f"a run has from 1 to {_MOST:,} trials", "for example, give --trials 1000"))

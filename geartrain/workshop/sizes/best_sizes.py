@@ -189,31 +189,14 @@ def find_tooth_sizes(
 
 
 def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters, after a check of the objectives.
-
-    Raises
-    ------
-    QuestionError
-      If objectives or bounds are invalid.
-    """
+    """Return the bounds of the free parameters; raise `QuestionError` if objectives or bounds are invalid."""
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
         what = f"'{', '.join(aims)}' does not name one objective or two different objectives"
-        raise QuestionError(
-            Problem(
-                what,
-                "one objective gives a best design, two give a Pareto front",
-                f"give one or two of {', '.join(AIMS)}",
-            )
-        )
+        why = "one objective gives a best design, two give a Pareto front"
+        raise QuestionError(Problem(what, why, f"give one or two of {', '.join(AIMS)}"))
     if "loss" in aims and not start.friction:
-        what = "the loss cannot be minimised without friction"
-        raise QuestionError(
-            Problem(
-                what,
-                "without friction the loss is 0 for all teeth",
-                "give a coefficient of friction above 0, or another objective",
-            )
-        )
+        what, why = "the loss cannot be minimised without friction", "without friction the loss is 0 for all teeth"
+        raise QuestionError(Problem(what, why, "give a coefficient of friction above 0, or another objective"))
     return checked_ranges(free)
 
 

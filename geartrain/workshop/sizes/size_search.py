@@ -92,13 +92,7 @@ class SizeSearch:
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """Return the best design for one objective.
-
-        Raises
-        ------
-        QuestionError
-          If no design turns and satisfies the limits.
-        """
+        """Return the best design for one objective; raise `QuestionError` if no design turns within the limits."""
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
@@ -152,42 +146,27 @@ def _limit(aim: str, merit: float) -> SizeLimit:
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     """Return the bounds of the free parameters; `USUAL_RANGES` replaces None.
 
-    Raises
-    ------
-    QuestionError
-      If a parameter or its bounds are invalid, or if no parameter is free.
+    Raises `QuestionError` if a parameter or its bounds are invalid, or if no parameter is free.
     """
     found = {}
     for name, given in free.items():
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
-            why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
-            fix = f"use one or more of {', '.join(PARAMETERS)}"
-            raise QuestionError(
-                Problem(
-                    what, why if name in _CLEARANCES else "other sizes follow from these parameters or are fixed", fix
-                )
-            )
+            why = "other sizes follow from these parameters or are fixed"
+            if name in _CLEARANCES:
+                why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
+            raise QuestionError(Problem(what, why, f"use one or more of {', '.join(PARAMETERS)}"))
         low, high = USUAL_RANGES[name] if given is None else given
         minimum, most = _WIDEST[name]
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
-            raise QuestionError(
-                Problem(
-                    what,
-                    "the lower bound must be below the upper bound, and both must be in the permitted range",
-                    f"give bounds from {minimum:g} to {most:g} (angles in rad)",
-                )
-            )
+            why = "the lower bound must be below the upper bound, and both must be in the permitted range"
+            raise QuestionError(Problem(what, why, f"give bounds from {minimum:g} to {most:g} (angles in rad)"))
         found[name] = (float(low), float(high))
     if not found:
-        raise QuestionError(
-            Problem(
-                "no parameter is free",
-                "a search needs at least one free parameter",
-                f"free one or more of {', '.join(PARAMETERS)}",
-            )
-        )
+        what = "no parameter is free"
+        why = "a search needs at least one free parameter"
+        raise QuestionError(Problem(what, why, f"free one or more of {', '.join(PARAMETERS)}"))
     return found
 
 

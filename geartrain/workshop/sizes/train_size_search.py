@@ -96,13 +96,9 @@ def find_train_sizes(
     (True, [0.5, 0.5, 0.5, 0.5])
     """
     if aim not in AIMS:
-        raise QuestionError(
-            Problem(
-                f"'{aim}' is not an objective",
-                "sizes are optimised for one property of the train",
-                f"use one of {', '.join(AIMS)}",
-            )
-        )
+        what = f"'{aim}' is not an objective"
+        why = "sizes are optimised for one property of the train"
+        raise QuestionError(Problem(what, why, f"use one of {', '.join(AIMS)}"))
     return TrainSizeSearch(train, output, aim, free, limits, state, on_step).found()
 
 

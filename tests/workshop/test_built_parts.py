@@ -38,15 +38,20 @@ def body(solid: Any) -> Any:
     return found
 
 
-def overlaps(work: SolidModel) -> Iterator[tuple[str, str, float]]:
-    """Solids that share more than a millionth of the smaller one."""
-    bodies = [(part.name, body(part.placed)) for part in work.parts]
+def overlaps(work: SolidModel, *kinds: str) -> Iterator[tuple[str, str, float]]:
+    """Solids that share more than a millionth of the smaller one; one of them of some kinds if any are given."""
+    bodies = [(part, body(part.placed)) for part in work.parts]
     for (one, first), (other, second) in combinations(bodies, 2):
         a, b = first.bounding_box(), second.bounding_box()
-        if all(a[k] < b[k + 3] and b[k] < a[k + 3] for k in range(3)):
+        near = all(a[k] < b[k + 3] and b[k] < a[k + 3] for k in range(3))
+        if near and (not kinds or {one.kind, other.kind} & {*kinds}):
             shared = (first ^ second).volume()
             if shared > 1e-6 * min(first.volume(), second.volume()):
-                yield one, other, shared
+                yield one.name, other.name, shared
+
+
+def heights(work: SolidModel) -> dict[str, tuple[float, float]]:
+    return {part.name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for part in work.parts}
 
 
 def test_a_process_that_is_not_known_is_refused() -> None:
@@ -117,11 +122,10 @@ def test_coaxial_arbors_are_pipes_with_a_running_clearance() -> None:
 
 def test_a_clock_stands_as_clockmakers_build_it() -> None:
     """The hour pipe runs on the centre arbor, outside it, before the front plate; the going train has no studs."""
-    work = workpiece("longcase-clock-cycloidal")
-    heights = {part.name: part.placed.vertices[:, 2] for part in work.parts}
-    dial = heights["hour pipe"].min()  # its hands stand below
-    assert heights["centre arbor"].min() <= dial < heights["h72"].min() < heights["plates front plate"].min()
-    assert not [name for name in heights if name.endswith("stud")]
+    low = {name: ends[0] for name, ends in heights(workpiece("longcase-clock-cycloidal")).items()}
+    dial = low["hour pipe"]  # its hands stand below
+    assert low["centre arbor"] <= dial < low["h72"] < low["plates front plate"]
+    assert not [name for name in low if name.endswith("stud")]
 
 
 @pytest.mark.parametrize("name", ["pennestri-2002", "voulgaris-2024-a", "longcase-clock-loaded"])
@@ -241,25 +245,21 @@ def test_two_axes_a_millimetre_apart_stand_on_one_stud_with_a_step() -> None:
     assert apart == pytest.approx(1.1, abs=1e-9)
     thick, thin = (max(band.radius for band in each.turned.bands[-1:]) for each in (foot, end) if each.turned)
     assert thin + apart <= thick
-    heights = {
-        name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for name, part in parts.items()
-    }
-    assert heights["K2 stud"][1] == pytest.approx(heights["e3"][1]), "held in the wheel"
-    assert heights["K1 stud"][1] == pytest.approx(heights["K2 stud"][0]), "one goes on where the other ends"
+    faces = heights(model)
+    assert faces["K2 stud"][1] == pytest.approx(faces["e3"][1]), "held in the wheel"
+    assert faces["K1 stud"][1] == pytest.approx(faces["K2 stud"][0]), "one goes on where the other ends"
     assert seat.body == foot.body == end.body
     # from above e3, k2, k1, as found in the fragments, and nothing between that the pin could meet
-    assert heights["k1"][1] < heights["k2"][0] < heights["k2"][1] < heights["e3"][0]
-    between = {name for name, (low, high) in heights.items() if heights["k1"][1] <= low and high <= heights["k2"][0]}
+    assert faces["k1"][1] < faces["k2"][0] < faces["k2"][1] < faces["e3"][0]
+    between = {name for name, (low, high) in faces.items() if faces["k1"][1] <= low and high <= faces["k2"][0]}
     assert between == set()
 
 
 def test_the_carrier_of_a_wolfrom_set_stands_between_its_planets_and_the_disc_of_a_ring() -> None:
-    model = workpiece("wolfrom-175")
-    heights = {part.name: float(part.placed.vertices[:, 2].mean()) for part in model.parts}
-    discs = sorted((heights["r70 disc"], heights["r72 disc"]))
-    assert discs[0] < min(heights["p28"], heights["p30"])
-    assert max(heights["p28"], heights["p30"]) < discs[1]
-    assert discs[0] < heights["arm carrier plate"] < discs[1]
+    middles = {name: sum(ends) / 2 for name, ends in heights(workpiece("wolfrom-175")).items()}
+    discs = sorted((middles["r70 disc"], middles["r72 disc"]))
+    assert discs[0] < min(middles["p28"], middles["p30"]) < max(middles["p28"], middles["p30"]) < discs[1]
+    assert discs[0] < middles["arm carrier plate"] < discs[1]
 
 
 @pytest.mark.slow
@@ -268,11 +268,9 @@ def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
     work = workpiece("freeth-2006")
     parts = {part.name: part for part in work.parts}
     arbor, bridge = parts["o arbor"], parts["frame bridge"]
-    heights = {
-        name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for name, part in parts.items()
-    }
-    assert heights["p1"][1] < heights["o arbor"][0], "it ends before the wheel that was in its way"
-    assert heights["o arbor"][0] < heights["frame bridge"][0] < heights["frame bridge"][1] < heights["o arbor"][1]
+    faces = heights(work)
+    assert faces["p1"][1] < faces["o arbor"][0], "it ends before the wheel that was in its way"
+    assert faces["o arbor"][0] < faces["frame bridge"][0] < faces["frame bridge"][1] < faces["o arbor"][1]
     assert arbor.turned is not None
     holes = {
         (round(float(c.points[:, 0].mean()), 6), round(float(c.points[:, 1].mean()), 6)): c for c in bridge.contours[1:]
@@ -283,11 +281,11 @@ def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
     (hole,) = [each for at, each in holes.items() if hypot(*(own - np.array(at))) < 1e-5]
     assert np.ptp(hole.points[:, 0]) - arbor.turned.bands[0].radius * 2 == pytest.approx(0.08, abs=1e-6)
     collars = [parts[f"o {side} collar"] for side in ("lower", "upper")]
-    assert heights[collars[0].name][1] < heights["frame bridge"][0], "one below"
-    assert heights["frame bridge"][1] < heights[collars[1].name][0], "one above"
+    assert faces[collars[0].name][1] < faces["frame bridge"][0], "one below"
+    assert faces["frame bridge"][1] < faces[collars[1].name][0], "one above"
     pillars = [part for name, part in parts.items() if name.startswith("bridge pillar")]
     assert len(pillars) >= 3
-    assert all(heights[part.name][1] == pytest.approx(heights["frame bridge"][1]) for part in pillars)
+    assert all(faces[part.name][1] == pytest.approx(faces["frame bridge"][1]) for part in pillars)
     assert "frame bridge" not in {part.name for part in workpiece("freeth-2008").parts}
 
 
@@ -333,10 +331,6 @@ def test_pillars_of_a_train_about_one_axis_stand_evenly_to_its_left_and_right(na
 # -------------------------------------------------------------------------------------------------- spacers and collets
 
 
-def heights(work: SolidModel) -> dict[str, tuple[float, float]]:
-    return {part.name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for part in work.parts}
-
-
 @pytest.fixture(scope="module", params=["longcase-clock-cycloidal", "freeth-2006", "price-1974"])
 def work(request: pytest.FixtureRequest) -> SolidModel:
     train = load(request.param)
@@ -375,17 +369,7 @@ def test_their_holes_are_those_of_the_wheels_beside_them(work: SolidModel) -> No
 
 def test_they_stand_in_nothing(work: SolidModel) -> None:
     """Solids against solids by manifold3d, their own arbors and wheels too."""
-    bodies = [(part, body(part.placed)) for part in work.parts]
-    for part, solid in bodies:
-        if part.kind not in ("spacer", "collet"):
-            continue
-        for other, foreign in bodies:
-            if other is part:
-                continue
-            a, b = solid.bounding_box(), foreign.bounding_box()
-            if all(a[k] < b[k + 3] and b[k] < a[k + 3] for k in range(3)):
-                shared = (solid ^ foreign).volume()
-                assert shared <= 1e-6 * solid.volume(), f"{part.name} stands in {other.name}"
+    assert list(overlaps(work, "spacer", "collet")) == []
 
 
 def test_steps_of_the_assembly_bring_them_in_with_their_wheels(work: SolidModel) -> None:

@@ -17,8 +17,7 @@ from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
-from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import jamming_bound, nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts, jamming_bound, nominal_backlash
 
 THIRTY = radians(30)
 

@@ -29,8 +29,13 @@ from geartrain.workshop import (
     run_course,
     run_trials,
 )
-from geartrain.workshop.monte_carlo.random_streams import RandomStreams
-from geartrain.workshop.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers
+from geartrain.workshop.monte_carlo.trial_block import (
+    JAM,
+    RandomStreams,
+    draw_trial_wheels,
+    judge_trial_pairs,
+    trial_pointers,
+)
 
 
 def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> GearTrain:

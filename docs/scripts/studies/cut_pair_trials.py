@@ -15,8 +15,7 @@ from geartrain.numerics import open_executor, run
 from geartrain.numerics.confidence_intervals import wilson
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
-from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, batch_verdicts, nominal_backlash
 from studies.cut_pair_transmission import CutPairLaw
 from studies.cutting_errors import CuttingErrorModel, ErrorDistribution, with_errors
 from studies.uncertainty_records import ErrorRecord

@@ -277,7 +277,7 @@ class _Steps:
             feet = [foot.name for dial in self.work.dials for foot in dial.feet]
             yield self._step(
                 f"Press the feet into {', '.join(names)} and into the plate behind each dial, and put the hands on the "
-                "arbors",
+                "arbors, of several on one axis that of the outermost pipe first",
                 [*names, *feet],
             )
         if "pendulum cock" in self.known:

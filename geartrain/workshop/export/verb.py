@@ -138,7 +138,7 @@ def run(
         _refuse({"--sheet": sheet}, "applies only to a folder", "give --to FOLDER instead of -o")
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     work = SolidModel(train, _sizes(lengths, process, spokes, sheet), train.declaration.state_or_first(state))
-    shown = _turns(turns)
+    shown = None if turns is None else read_turns("--turns", turns)
     if out is not None:
         _write_one(work, out, wheel, shown, force)
     else:
@@ -177,7 +177,9 @@ def _sizes(given: Mapping[str, Size], process: str | None, spokes: int | None, s
     from geartrain.scene import ManufacturingSizes
 
     # lengths are read in m, but sizes of parts are in mm
-    sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
+    sizes = {
+        name: None if text is None else 1000 * quantity(f"--{name}", text, "length") for name, text in given.items()
+    }
     return ManufacturingSizes(**sizes, process=process, arms=spokes, sheet=None if sheet is None else _sheet(sheet))
 
 
@@ -190,15 +192,7 @@ def _sheet(text: str) -> tuple[float, float]:
         raise GearTrainError(Problem(what, "a size is WIDTHxHEIGHT with a unit", "write it as 300x200mm", "--sheet"))
     # a unit after the last side only applies to both sides
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
-    return 1000 * _length("sheet", width), 1000 * _length("sheet", height)
-
-
-def _length(name: str, text: str) -> float:
-    return quantity(f"--{name}", text, "length")
-
-
-def _turns(text: str | None) -> Fraction | None:
-    return None if text is None else read_turns("--turns", text)
+    return 1000 * quantity("--sheet", width, "length"), 1000 * quantity("--sheet", height, "length")
 
 
 def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:

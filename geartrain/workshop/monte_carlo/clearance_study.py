@@ -13,8 +13,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.confidence_intervals import ProbabilityEstimate
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
-from geartrain.workshop.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
+from geartrain.workshop.monte_carlo.trial_block import BLOCK, UNCUT, RandomStreams, draw_trial_wheels, judge_trial_pairs
 from geartrain.workshop.monte_carlo.trial_results import EVENTS, EventRates
 from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
 

@@ -28,7 +28,7 @@ from geartrain.numerics.work import Execution
 from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import BLOCK, FRICTION, RandomStreams
 from geartrain.workshop.monte_carlo.trial_run import check_trials
 
 if TYPE_CHECKING:

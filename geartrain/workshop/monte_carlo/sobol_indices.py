@@ -22,8 +22,17 @@ from geartrain.numerics.confidence_intervals import IntervalEstimate, deviations
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.workshop.cutting.declared_errors import ERROR_KINDS
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, EVERY, NUMBER, TOWARDS, RandomStreams, Streams
-from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
+from geartrain.workshop.monte_carlo.trial_block import (
+    BLOCK,
+    EVERY,
+    NUMBER,
+    TOWARDS,
+    RandomStreams,
+    Streams,
+    draw_trial_wheels,
+    input_positions,
+    trial_pointers,
+)
 from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.results import Shown
-from geartrain.workshop.cutting.cut_wheel import CutGearPair
+from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
 from geartrain.workshop.cutting.declared_errors import (
     ErrorOverride,
     ErrorSpecification,
@@ -29,14 +29,12 @@ from geartrain.workshop.cutting.declared_errors import (
 )
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair, even_backlash, mean_lag
 from geartrain.workshop.cutting.file_strokes import FilingWork, file_to_fit, tight_place
-from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import jamming_bound, nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts, jamming_bound, nominal_backlash
 from geartrain.workshop.cutting.trial_transmission import (
     CutTrialTransmission,
     DisplacedTrialTransmission,
     TrialTransmissionFunction,
 )
-from geartrain.workshop.monte_carlo.random_streams import fitted
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -184,6 +182,15 @@ class TriangularTrialPair(TrialPair):
             why = "its perfect teeth jam or lose contact at every clearance"
             raise RangeError(Problem(what, why, "give clearance factors above 1: --vary clearance_factor=1.005:1.04:8"))
         return replace(self, sizes=self.sizes.at(window.at(clearance)))
+
+
+def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
+    """Return a wheel of tip radius 1 (internal: -1) scaled to the sizes of its pair.
+
+    It is mirrored if it turns against the numbering of its teeth.
+    """
+    found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
+    return found.mirrored() if mirrored else found
 
 
 @dataclass(frozen=True, slots=True)

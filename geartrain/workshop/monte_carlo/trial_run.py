@@ -17,8 +17,9 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import (
+    BLOCK,
+    RandomStreams,
     TrialWheels,
     draw_trial_wheels,
     input_positions,

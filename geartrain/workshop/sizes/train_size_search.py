@@ -9,7 +9,7 @@ optima.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
@@ -154,7 +154,9 @@ class TrainSizeSearch:
 
     @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:
-        return sizeable_meshes(self._all_meshes)
+        """Pairs with triangular teeth that are not declared by lengths, by name."""
+        found = (mesh for mesh in self._all_meshes if isinstance(mesh, TriangularMesh))
+        return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
     @cached_property
     def _starts(self) -> Mapping[str, ToothSizes]:
@@ -204,10 +206,8 @@ class TrainSizeSearch:
     def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
         """Return the train with new sizes of some pairs."""
         declared = self.train.declaration
-        gears = tuple(
-            gear.model_copy(update={"tooth_form": as_form(sizes[gear.name])}) if gear.name in sizes else gear
-            for gear in declared.gears
-        )
+        forms = {name: {"tooth_form": Triangular.declared(form_data(each))} for name, each in sizes.items()}
+        gears = tuple(gear.model_copy(update=forms.get(gear.name, {})) for gear in declared.gears)
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
@@ -461,17 +461,6 @@ class BestTrainSizes(Tabular, Pictured, Result):
         ]
         names = {"pair": [pair for pair, _, _ in rows], "design": [name for _, name, _ in rows]}
         return {**names, **size_columns([sizes for _, _, sizes in rows])}
-
-
-def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
-    """Return the pairs with triangular teeth that are not declared by lengths, by name."""
-    found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
-    return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
-
-
-def as_form(sizes: ToothSizes) -> Triangular:
-    """Convert a design to the triangular tooth form of a declaration."""
-    return Triangular.declared(form_data(sizes))
 
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:

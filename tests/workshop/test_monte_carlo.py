@@ -271,7 +271,7 @@ def test_errors_are_read_in_the_units_of_their_wheel() -> None:
     assert first.errors["eccentricity"].size * first.depth * outer == pytest.approx(0.1)
     drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3).pair(0)
     # ahead is early: a tooth's arrays count how late it is
-    assert drawn.second.place == pytest.approx(-np.radians(np.arange(20) / 100))
+    assert drawn.second.place[0] == pytest.approx(-np.radians(np.arange(20) / 100))
     # seen as the wheel turns forward, ahead is counted up: the middle lies 0.1 mm a quarter of a turn from the first
     tips = drawn.first.r * np.exp(-1j * drawn.first.theta)
     middle = np.mean(tips, axis=1) * outer / drawn.sizes.R1

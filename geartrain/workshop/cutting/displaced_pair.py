@@ -303,22 +303,10 @@ class DisplacedPair:
         """Return wheel, tooth and side of the most protruding of the four flanks in contact, in selected trials."""
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
-        left = np.stack(
-            [
-                terms_at(front.driver, rows, n1),
-                terms_at(back.driver, rows, n1),
-                terms_at(back.driven, rows, n2),
-                terms_at(front.driven, rows, n2),
-            ]
-        )
-        teeth = np.stack(
-            [
-                (n1 - front.pitches) % z1,
-                (n1 - back.pitches) % z1,
-                (n2 - back.pitches + 1) % z2,
-                (n2 - front.pitches) % z2,
-            ]
-        )
+        terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
+        left = np.stack([terms_at(each, rows, n) for each, n in terms])
+        f, b = front.pitches, back.pitches
+        teeth = np.stack([(n1 - f) % z1, (n1 - b) % z1, (n2 - b + 1) % z2, (n2 - f) % z2])
         flank = left.argmin(axis=0)
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 

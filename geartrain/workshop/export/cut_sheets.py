@@ -21,8 +21,6 @@ from geartrain.scene.solids.wheel_blanks import RIM, Blank
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
-    from shapely import Polygon
-
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.frame_plates import FlatPlate
     from geartrain.scene.solids.solid_assembly import SolidModel
@@ -204,23 +202,10 @@ _AROUND = 16  # chords per quarter circle around a corner
 
 
 def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
-    """Return a drawing compensated for the kerf: outer edges are offset outwards by half a kerf, holes inwards.
+    """Return a drawing compensated for a kerf [mm]: outer edges are offset outwards by half a kerf, holes inwards.
 
     Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
-
-    Parameters
-    ----------
-    drawing : FlatDrawing
-        Drawing of the finished size.
-    kerf : float
-        Width of the cut [mm], 0 or more.
-
-    Raises
-    ------
-    GearTrainError
-        If a hole or slot is narrower than the cut.
-    MissingExtraError
-        If shapely is not installed.
+    Raises `GearTrainError` if a hole or slot is narrower than the cut, `MissingExtraError` without shapely.
     """
     if not kerf:
         return drawing
@@ -241,18 +226,10 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
     except ImportError:
         raise MissingExtraError("shapely", "proof", "an outline compensated for its kerf") from None
     found = Polygon(contour.flattened(drawing.tolerance)).buffer(by, quad_segs=_AROUND)
-    rings = list(_rings(found))
-    if len(rings) != 1:  # the offset hole has vanished or has been split
+    if found.is_empty or found.geom_type != "Polygon":  # the offset hole has vanished or has been split
         raise _too_narrow(drawing, 2 * abs(by))
-    return Contour.of([(x, y, 0.0) for x, y in rings[0]])
-
-
-def _rings(shape: Polygon) -> Iterator[np.ndarray]:
-    """Yield the outer edges of a shape counter-clockwise, without the closing point."""
-    for part in getattr(shape, "geoms", [shape]):
-        if not part.is_empty:
-            ring = np.array(part.exterior.coords)[:-1]
-            yield ring if part.exterior.is_ccw else ring[::-1]
+    ring = np.array(found.exterior.coords)[:-1]  # without the closing point
+    return Contour.of([(x, y, 0.0) for x, y in (ring if found.exterior.is_ccw else ring[::-1])])
 
 
 def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
@@ -268,25 +245,15 @@ _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
 def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) -> tuple[Sheet, ...]:
-    """Return all parts laid out on sheets of one size, with parts of one thickness together.
+    """Return all parts laid out on sheets of one size [mm], with parts of one thickness together.
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
     the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
     next sheet. The longer side of a part is along the width of the sheet if it fits that way, else along its height.
 
-    Parameters
-    ----------
-    parts : iterable of Sheet
-        Parts, each with the names of all its pieces.
-    size : tuple of float
-        Width and height of a sheet [mm].
-    gap : float
-        Minimum distance between parts, and from the edge [mm], 0 or more.
+    gap   minimum distance between parts, and from the edge [mm]
 
-    Raises
-    ------
-    QuestionError
-        If a part is larger than the sheet.
+    Raises `QuestionError` if a part is larger than the sheet.
     """
     alike: dict[float, list[Sheet]] = {}
     for part in parts:

@@ -238,14 +238,9 @@ def export_files(
         if kind in kinds:
             files.append(ExportFile(name, _TITLES[kind], partial(train_file, work, kind, turns)))
     if parts_requested(kinds):
-        files.append(
-            ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
-        )
+        title = "list of parts: count, material, sizes, mass, fits"
+        files.append(ExportFile("parts.csv", title, lambda: to_csv(parts_list(work)).encode("utf-8")))
     return [*files, ExportFile("README.md", "description of the files", lambda: _readme(work, files, kinds, proof))]
-
-
-def _listed(work: SolidModel) -> bytes:
-    return to_csv(parts_list(work)).encode("utf-8")
 
 
 def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str], proof: TrainProof | None) -> bytes:

@@ -151,15 +151,9 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
 
 
 def _materials() -> list[dict[str, Any]]:
+    look = {"metallicFactor": 0.4, "roughnessFactor": 0.5}
     return [
-        {
-            "name": name or "wheel",
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [*colour, 1.0],
-                "metallicFactor": 0.4,
-                "roughnessFactor": 0.5,
-            },
-        }
+        {"name": name or "wheel", "pbrMetallicRoughness": {"baseColorFactor": [*colour, 1.0], **look}}
         for name, colour in _COLOURS.items()
     ]
 

@@ -170,14 +170,7 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
         turns = given[name].turns
         for at, (alpha, share) in enumerate(zip(_SHADES, _SHARES, strict=True)):
             axes.fill_between(turns, levels[at], levels[-1 - at], color=BLUE, alpha=alpha, linewidth=0, gid=share)
-        one: dict[str, Any] = {
-            "color": RED,
-            "linewidth": 0.9,
-            "linestyle": _DASHES,
-            "label": "one of them",
-            "gid": "one",
-        }
-        axes.plot(turns, errors[name][0], **one)
+        axes.plot(turns, errors[name][0], color=RED, linewidth=0.9, linestyle=_DASHES, label="one of them", gid="one")
         axes.plot(turns, levels[3], color=BLACK, linewidth=1.6, label="median", gid="median")
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
         name_axes(axes, y=f"{name}\nerror (deg)", parse_math=False)

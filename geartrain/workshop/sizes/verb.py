@@ -242,11 +242,10 @@ def read_limits(given: Sequence[str]) -> list[SizeLimit]:
         if not equals or name not in SizeLimit.FIGURES:
             fix = f"write it as NAME=LIMIT, with one of {', '.join(SizeLimit.FIGURES)}"
             raise option_error("--within", f"'{text}' is not a limit", fix)
-        found.append(SizeLimit(name, _limit(_DIMENSIONS.get(name), rest.strip())))
+        dimension, text = _DIMENSIONS.get(name), rest.strip()
+        if dimension is None:
+            bound = decimal("--within", text, "limit", "0.02")
+        else:
+            bound = quantity("--within", text, dimension, plain=dimension == "fraction", minimum="0")
+        found.append(SizeLimit(name, bound))
     return found
-
-
-def _limit(dimension: str | None, text: str) -> float:
-    if dimension is not None:
-        return quantity("--within", text, dimension, plain=dimension == "fraction", minimum="0")
-    return decimal("--within", text, "limit", "0.02")

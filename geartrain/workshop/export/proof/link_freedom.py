@@ -44,25 +44,20 @@ class LinkFreedom(Result):
     """Range of the angle [rad], due to the backlash of all meshes up to the link; None if teeth do not limit it."""
 
 
-@dataclass(frozen=True, slots=True)
-class FreedomProof:
-    """Freedom of all links except the frame and the inputs, and findings where it contradicts the result of `solve`."""
-
-    links: tuple[LinkFreedom, ...]
-    findings: tuple[BuildFinding, ...] = ()
+FreedomProof = tuple[tuple[LinkFreedom, ...], tuple[BuildFinding, ...]]
 
 
 def prove_freedom(
     work: SolidModel, pairs: Mapping[str, TurnedPair], names: Mapping[str, tuple[str, str]]
 ) -> FreedomProof:
-    """Return the freedom of all links, computed from the teeth.
+    """Return the freedom of links other than frame and inputs, and findings where it contradicts the result of `solve`.
 
     pairs   meshes that were proved to turn individually; `names`, wheels 1 and 2 of each
     """
     try:
         return _Motion(work, pairs, names).prove()
     except GearTrainError as error:  # pairs that depend on each other and do not converge
-        return FreedomProof((), tuple(BuildFinding("F1", "note", problem) for problem in error.problems))
+        return (), tuple(BuildFinding("F1", "note", problem) for problem in error.problems)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +92,7 @@ class _Motion:
             if not at:
                 links = tuple(self._links(rows))
                 findings |= {found.problem.what: found for found in self._contradictions(links, rows, turns)}
-        return FreedomProof(links, tuple(findings.values()))
+        return links, tuple(findings.values())
 
     # ------------------------------------------------------------------------------------------------------------ rows
 
@@ -192,19 +187,13 @@ class _Motion:
             rows.append(row)
         return np.array(rows)
 
-    def _input_equations(self) -> Floats:
-        """Return the rows of coefficients of equations that fix each input."""
-        count = len(self.scene.bodies)
-        return np.array([np.eye(count)[self.bodies[link]] for link in self.case.inputs]).reshape(-1, count)
-
     def _links(self, rows: Sequence[_Constraint]) -> Iterator[LinkFreedom]:
         """Yield the freedom of each link while the inputs are fixed."""
-        fixed = np.concatenate([self._fixed_equations, self._input_equations()])
-        still = {self.work.sized.declaration.frame}
+        held = np.eye(len(self.scene.bodies))[[self.bodies[link] for link in self.case.inputs]]
+        fixed = np.concatenate([self._fixed_equations, held])
+        still = {self.work.sized.declaration.frame, *self.case.inputs}
         for body in self.scene.bodies:
             if body.id in still or body.bookkeeping:
-                continue
-            if body.id in self.case.inputs:
                 continue
             ends = [self._maximum_angle(rows, fixed, self.bodies[body.id], way) for way in (-1, 1)]
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)

@@ -117,7 +117,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
         watch()
     stuck = {mesh.pair for mesh in meshes if build_errors(mesh.findings)}
     names = {pair: (wheels[0].wheel, wheels[1].wheel) for pair, (_, wheels, _) in paired.items()}
-    freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
+    links, freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
     watch()
     uncut = [*_uncut(work)]
     named = {
@@ -126,9 +126,9 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     findings = [found for found in work.sized.build_findings if found.problem.what not in named]
     findings += [*uncut, *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
-    findings += [*prove_waves(work, cut), *freedom.findings, *prove_solids(work, watch)]
+    findings += [*prove_waves(work, cut), *freedom, *prove_solids(work, watch)]
     ranked = sorted(findings, key=lambda found: not found.is_error)  # stable, with errors first
-    return TrainProof(tuple(meshes), freedom.links, tuple(ranked))
+    return TrainProof(tuple(meshes), links, tuple(ranked))
 
 
 def proof_is_installed() -> bool:

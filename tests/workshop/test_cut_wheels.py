@@ -126,6 +126,12 @@ def test_wheels_as_cut_turn_with_the_backlash_that_the_readme_states(name: str) 
             assert mesh.overlap > 0 or mesh.minimum < 1e-3, mesh.pair
 
 
+def test_a_pair_that_names_its_driven_wheel_first_has_the_backlash_that_is_stated() -> None:
+    """Triangular teeth have less where the driven wheel is held: their ratio is not that of the means."""
+    mesh = proofs(workpiece("pennestri-2002-teeth"))["G14"]
+    assert mesh.minimum == pytest.approx(mesh.declared, abs=1e-3)
+
+
 @pytest.mark.parametrize("backlash", [0.02, 0.08])
 @pytest.mark.parametrize(
     "name", ["planetary-24-18-60", "planetary-24-18-60-involute", "longcase-clock-cycloidal", "longcase-clock"]

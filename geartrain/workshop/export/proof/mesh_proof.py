@@ -114,13 +114,15 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return by pair of cut wheels its backlash, its blanks (an internal one second) and its turned outlines."""
-    found = {}
+    """Return by pair of cut wheels its backlash, its blanks (an internal, or the driven, one second), its outlines."""
+    # the backlash of teeth that are not conjugate is stated for a driver that is held
+    found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:
         bent = any(work.train.declaration.wheels[name][1].flexible for name in backlash.wheels)
         if set(backlash.wheels) <= set(cut.materials) and not bent:
             one, other = (work.blanks.wheels[name] for name in backlash.wheels)
-            wheels = (other, one) if one.kind == "ring" else (one, other)
+            driven_first = other.wheel == drivers.get(backlash.pair) and other.kind != "ring"
+            wheels = (other, one) if one.kind == "ring" or driven_first else (one, other)
             names = tuple(each.wheel for each in wheels)
             first, second = (cut.materials[name] for name in names)
             counts = wheels[0].teeth, wheels[1].teeth

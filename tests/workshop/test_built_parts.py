@@ -16,7 +16,8 @@ from sampling import first_few
 from shipped import built
 from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError
+import geartrain
+from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import assembly_steps, export_files, notices
 
@@ -198,9 +199,7 @@ def test_the_list_of_parts_has_all_of_them_and_masses_of_their_volumes() -> None
 
 
 def test_a_readme_follows_no_script_from_a_title() -> None:
-    train = GearTrain.declare(
-        {**_read(LOCKED), "title": "[worn](JavaScript:alert(1)) <b>&#106;</b> [source](trains/a.yaml)"}
-    )
+    train = geartrain.load(LOCKED + "title: '[worn](JavaScript:alert(1)) <b>&#106;</b> [source](trains/a.yaml)'\n")
     files = {each.path: each for each in export_files(SolidModel(train, ManufacturingSizes()), ["svg"])}
     guide = files["README.md"].make().decode()
     assert r"[worn]\(JavaScript:alert(1)) &lt;b>&amp;#106;&lt;/b> [source](trains/a.yaml)" in guide
@@ -214,15 +213,9 @@ def test_what_cannot_be_built_is_named_with_what_is_in_the_way() -> None:
 
 
 def test_without_a_bore_there_are_wheels_alone() -> None:
-    work = SolidModel(GearTrain.declare(_read(LOCKED)), ManufacturingSizes(bore=0))
+    work = SolidModel(geartrain.load(LOCKED), ManufacturingSizes(bore=0))
     assert {part.kind for part in work.parts} == {"wheel"}
     assert all(blank.bore == 0 for blank in work.blanks.wheels.values())
-
-
-def _read(text: str) -> Any:
-    import yaml
-
-    return yaml.safe_load(text)
 
 
 def test_plates_of_a_thicker_material_keep_wheels_apart() -> None:

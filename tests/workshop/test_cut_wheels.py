@@ -10,7 +10,6 @@ from math import cos, degrees, hypot, sin
 import numpy as np
 import pytest
 import shipped
-import yaml
 
 import geartrain
 from geartrain import GearTrain, GearTrainError
@@ -155,16 +154,14 @@ def test_declared_backlash_is_cut_in_its_own_unit_where_a_module_is_requested_fo
     assert 0.1 - 5e-4 <= proofs(work)["G1"].minimum <= 0.1 + 2 * CHORDS + 4e-4
 
 
-def declared(form: str, ids: str = "") -> GearTrain:
-    return GearTrain.declare(
-        yaml.safe_load(f"""
-links: {{frame: {{}}, a: {{wheels: {{p: 24}}}}, b: {{wheels: {{w: 36}}}}{ids}}}
+def declared(form: str) -> GearTrain:
+    return geartrain.load(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 24}}}}, b: {{wheels: {{w: 36}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
 gears: [{{id: G1, pair: [p, w]}}]
 tooth_form: {form}
 inputs: {{a: 1}}
 """)
-    )
 
 
 def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
@@ -184,15 +181,13 @@ def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
 def test_every_pair_is_cut_with_backlash_which_it_declares_or_the_maker_gives_or_a_twentieth_of_the_module(
     said: str, made: dict[str, float], backlashes: tuple[float, float]
 ) -> None:
-    train = GearTrain.declare(
-        yaml.safe_load(f"""
+    train = geartrain.load(f"""
 links: {{frame: {{}}, a: {{wheels: {{p: 24}}}}, b: {{wheels: {{w: 36, q: 20}}}}, c: {{wheels: {{v: 30}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
 gears: [{{id: G1, pair: [p, w], tooth_form: {said or "{form: cycloidal}"}}}, {{id: G2, pair: [q, v]}}]
 tooth_form: {{form: involute}}
 inputs: {{a: 1}}
 """)
-    )
     work = SolidModel(train, ManufacturingSizes(module=2.0, bore=0.0, **made))
     assert {each.pair: each.length for each in work.blanks.backlashes} == pytest.approx(
         dict(zip(("G1", "G2"), backlashes, strict=True)), abs=1e-9
@@ -233,7 +228,7 @@ PLAIN = "{form: involute}"
      "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"],
 )  # fmt: skip
 def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
-    work = SolidModel(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), ManufacturingSizes())
+    work = SolidModel(geartrain.load(IDLER.format(first=PLAIN, second=second)), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "x"}
     told = "wheel 'w' is not cut: its pairs 'one' and 'two' require different teeth"
     assert [each.what for each in notices(work, ["svg"])] == [told]
@@ -246,7 +241,7 @@ def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) 
 
 @pytest.mark.parametrize("second", [PLAIN, "{form: involute, addendum: [1, 0.8]}", "{form: involute, dedendum: 1.4}"])
 def test_pairs_that_can_share_a_wheel_share_it(second: str) -> None:
-    train = GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second)))
+    train = geartrain.load(IDLER.format(first=PLAIN, second=second))
     work = SolidModel(train, ManufacturingSizes(bore=0.0, backlash=0.01))
     assert set(work.blanks.wheels) == {"p", "w", "x"}
     assert all(mesh.overlap == 0.0 for mesh in proofs(work).values())
@@ -254,7 +249,7 @@ def test_pairs_that_can_share_a_wheel_share_it(second: str) -> None:
 
 def test_a_wheel_beside_declared_teeth_without_a_form_of_its_own_is_named() -> None:
     text = IDLER.format(first=PLAIN, second="{form: ideal}")
-    work = SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes())
+    work = SolidModel(geartrain.load(text), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "w"}
     assert any("the teeth that mesh with 'w' are not declared" in each.what for each in work.blanks.notices)
 
@@ -279,13 +274,13 @@ def test_axes_stand_as_far_apart_as_the_law_of_triangular_teeth_asks(name: str) 
 @pytest.mark.parametrize("form", ["{form: ideal}", "{form: involute}", "{form: lantern}", "{form: cycloidal}"])
 @pytest.mark.parametrize("teeth", [1, 2, 10_001, 10**12])
 def test_wheels_that_nobody_cuts_are_named_and_drawn_all_the_same(teeth: int, form: str) -> None:
-    data = yaml.safe_load(f"""
+    train = geartrain.load(f"""
 links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: {teeth}}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
 gears: [{{pair: [p, w], tooth_form: {form}}}]
 inputs: {{a: 1}}
 """)
-    work = SolidModel(GearTrain.declare(data), ManufacturingSizes())
+    work = SolidModel(train, ManufacturingSizes())
     assert "w" not in work.blanks.wheels
     assert any("wheel 'w'" in each.what for each in work.blanks.notices)
     drawn = make_scene(work.train).wheels[1]

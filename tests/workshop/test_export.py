@@ -18,7 +18,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError
+import geartrain
+from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files, notices, train_file, wheel_file
 from geartrain.workshop.export.cut_sheets import file_names
@@ -39,14 +40,8 @@ INVOLUTE = "{form: involute, backlash: 0.05}"
 TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
 
 
-def declared(text: str) -> GearTrain:
-    import yaml
-
-    return GearTrain.declare(yaml.safe_load(text))
-
-
 def workpiece(z1: int = 24, z2: int = 36, form: str = INVOLUTE, **making: float) -> SolidModel:
-    return SolidModel(declared(PAIR.format(z1=z1, z2=z2, form=form)), ManufacturingSizes(**making))
+    return SolidModel(geartrain.load(PAIR.format(z1=z1, z2=z2, form=form)), ManufacturingSizes(**making))
 
 
 # ---------------------------------------------------------------------------------------------------- reading back
@@ -360,21 +355,16 @@ def test_rexs_carries_teeth_distances_and_speeds_of_a_turbine_gearbox() -> None:
 
 def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
     """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels stand on them."""
-    data = {
-        "links": {
-            "frame": {},
-            "a": {"wheels": {"p": {"teeth": 20, "module": "2 mm"}}},
-            "b": {"wheels": {"q": {"teeth": 30}}},
-        },
-        "axes": {
-            "A": {"direction": ["1", "0", "0"], "position": ["0 mm", "0 mm", "0 mm"]},
-            "B": {"direction": ["1", "0", "0"], "position": ["7 mm", "30 mm", "40 mm"]},
-        },
-        "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-        "gears": [{"id": "G", "pair": ["p", "q"]}],
-        "inputs": {"a": 1},
-    }
-    work = SolidModel(GearTrain.declare(data), ManufacturingSizes())
+    train = geartrain.load("""
+links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 2 mm}}}, b: {wheels: {q: 30}}}
+axes:
+  A: {direction: [1, 0, 0], position: [0 mm, 0 mm, 0 mm]}
+  B: {direction: [1, 0, 0], position: [7 mm, 30 mm, 40 mm]}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [p ~ q]
+inputs: {a: 1}
+""")
+    work = SolidModel(train, ManufacturingSizes())
     (stage,) = (
         part
         for part in json.loads(train_file(work, "rexs"))["model"]["components"]
@@ -388,7 +378,7 @@ def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
 @pytest.mark.parametrize("sizes", ["module: 1 m", "module: 0.01 mm", "module: 1 mm, thickness: 2 m"])
 def test_wheels_declared_beyond_what_is_made_are_refused_by_their_place(sizes: str) -> None:
     text = PAIR.format(z1=24, z2=36, form=INVOLUTE).replace("p: 24", f"p: {{teeth: 24, {sizes}}}")
-    work = SolidModel(declared(text), ManufacturingSizes())
+    work = SolidModel(geartrain.load(text), ManufacturingSizes())
     with pytest.raises(GearTrainError, match="cannot be made") as found:
         export_files(work, ["svg"])
     assert all(each.place and each.why and each.fix for each in found.value.problems)

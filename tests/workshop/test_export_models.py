@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from places import TRAINS
 from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError
+import geartrain
+from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.triangle_solids import Solid, approximation_solid, fill
 from geartrain.workshop import train_file, wheel_file
@@ -35,9 +36,7 @@ def volume(solid: Solid) -> float:
 
 
 def inline(text: str, **making: float) -> SolidModel:
-    import yaml
-
-    return SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes(**making))
+    return SolidModel(geartrain.load(text), ManufacturingSizes(**making))
 
 
 # ----------------------------------------------------------------------------------------------------------- triangles

@@ -141,7 +141,7 @@ def proof_is_installed() -> bool:
 
 def proof_steps(work: SolidModel) -> int:
     """Return the number of times that `prove_train` calls `watch`."""
-    return len(work.blanks.backlashes) + 1 + pose_count(work)
+    return len(work.blanks.backlashes) + 1 + len(_poses(work))
 
 
 def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
@@ -175,7 +175,7 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
     """
     solids = _Solids(work)
     found: dict[tuple[int, int], float] = {}
-    for turns in _POSES if work.scene.driving_link is not None else _POSES[:1]:
+    for turns in _poses(work):
         pose = scene_pose(work.scene, turns)
         for one, other in solids.near(pose):
             if (one, other) not in found and (common := solids.common(one, other, pose)):
@@ -185,9 +185,8 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
     return tuple(_finding(work.parts[one], work.parts[other], volume) for (one, other), volume in ranked)
 
 
-def pose_count(work: SolidModel) -> int:
-    """Return the number of calls of `watch` by `prove_solids`."""
-    return len(_POSES) if work.scene.driving_link is not None else 1
+def _poses(work: SolidModel) -> tuple[Fraction, ...]:
+    return _POSES if work.scene.driving_link is not None else _POSES[:1]
 
 
 class _Solids:
@@ -219,7 +218,9 @@ class _Solids:
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
         """Return the common volume of two parts in a pose [mm3]; 0 for a sliver."""
-        solids = [self._made(at).transform(_matrix(pose, self.parts[at].body)) for at in (one, other)]
+        bodies = [(at, self.parts[at].body) for at in (one, other)]
+        moves = (np.column_stack([pose.turned[body], pose.moved[body]]) for _, body in bodies)
+        solids = [self._made(at).transform(move) for (at, _), move in zip(bodies, moves, strict=True)]
         volume = float((solids[0] ^ solids[1]).volume())
         minimum = max(SLIVER, _SHARE * min(each.volume() for each in solids))
         return volume if volume > minimum else 0.0
@@ -231,10 +232,6 @@ class _Solids:
             mesh = self.library.Mesh64(np.ascontiguousarray(self.placed[at], dtype=float), faces)
             self.made[at] = self.library.Manifold(mesh)
         return self.made[at]
-
-
-def _matrix(pose: ScenePose, body: int) -> Floats:
-    return np.column_stack([pose.turned[body], pose.moved[body]])
 
 
 def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:

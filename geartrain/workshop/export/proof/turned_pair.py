@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import acos, atan2, ceil, cos, hypot, lcm, pi, sin, sqrt
 from typing import TYPE_CHECKING, Any
@@ -50,8 +50,6 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 class FreeTurn:
     """Range of angles in which wheel 2 is free while wheel 1 turns; arrays with one item for each position."""
 
-    turned: Floats
-    """Angles of wheel 1 from the position with a tooth on the line of centres [rad]."""
     low: Floats
     """Minimum lag at which wheel 2 is free [rad]; NaN at positions without a free lag."""
     high: Floats
@@ -74,6 +72,8 @@ class TurnedPair:
     ring: bool = False
     same: float = SAME
     """Maximum difference between teeth that are treated as equal [mm]."""
+    _cropped: dict[tuple[int, int], Any] = field(default_factory=dict, repr=False, compare=False)
+    """Regions of contact that were already cropped, by wheel and kind of tooth."""
 
     @cached_property
     def pitches(self) -> tuple[float, float]:
@@ -123,7 +123,7 @@ class TurnedPair:
         ends = [self._last_free_lag(first, t, lag, way, tooth_pair) for way in (-1, 1)]
         blocked = areas > NOTHING
         low, high = (np.where(blocked, np.nan, end) for end in ends)
-        return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
+        return FreeTurn(low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
         """Return the free range of a tooth pair through a pitch, and at further positions that are not free."""
@@ -209,24 +209,18 @@ class TurnedPair:
     def _contact_region(self, which: int, tooth: int) -> Any:
         """Return the part of a wheel that can touch while a tooth (wheel 2: a space) passes the line of centres."""
         kind = which, self._alike[which][tooth]
-        if kind not in self._cropped:
-            self._cropped[kind] = self._crop(which, tooth)
-        return self._cropped[kind]
-
-    @cached_property
-    def _cropped(self) -> dict[tuple[int, int], Any]:
-        """Regions of contact that were already cropped, by wheel and kind of tooth."""
-        return {}
-
-    def _crop(self, which: int, tooth: int) -> Any:
-        """Return a wheel with a tooth (wheel 2: a space) turned to the contact, cropped to the region of contact."""
+        if kind in self._cropped:
+            return self._cropped[kind]
         shapely = plane_geometry()
         pitch = self.pitches[which]
         facing = 0.0 if which == 0 or self.ring else pi
         turn = facing - tooth * pitch + (0.0 if which == 0 else pitch / 2)
         whole = _moved(self.materials[which], np.array([turn]), 0.0)[0]
         half = self._extents[which] + 1.1 * pitch  # the wheel turns by up to a pitch, plus a margin
-        return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
+        if half < pi / 2:
+            whole = shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
+        self._cropped[kind] = whole
+        return whole
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -247,10 +241,8 @@ class TurnedPair:
 
 
 def _joined(found: Sequence[FreeTurn], place: tuple[float, float] | None) -> FreeTurn:
-    turned, low, high, overlap = (
-        np.concatenate([getattr(each, name) for each in found]) for name in ("turned", "low", "high", "overlap")
-    )
-    return FreeTurn(turned, low, high, overlap, place)
+    names = ("low", "high", "overlap")
+    return FreeTurn(*(np.concatenate([getattr(each, name) for each in found]) for name in names), place)
 
 
 def _part(radius: float, tip: float, root: float) -> str:

@@ -14,7 +14,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.dynamics import find_torque_period
 from geartrain.report import to_markdown
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, describe_budget, find_budget
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, describe_budget, find_budget
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}
@@ -312,8 +312,6 @@ def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget)
 
 
 def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
-    from geartrain.workshop import budget_figure
-
     requested = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
     budget = find_budget(geartrain.load("freeth-2021-teeth"), requested)
     axes = budget_figure(budget).axes[0]
@@ -334,9 +332,6 @@ def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
 
 
 def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:
-    from geartrain.report import to_markdown
-    from geartrain.workshop import describe_budget
-
     text = to_markdown([describe_budget(freeth)])
     missing = freeth.not_declared
     assert f"theory of {missing['theory']}, teeth of {missing['teeth']}" in text
@@ -346,24 +341,20 @@ def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(fr
 
 
 def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
-    from geartrain.workshop import budget_figure
-
     with pytest.raises(geartrain.GearTrainError, match="nothing to draw"):
         budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))
 
 
 def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
-    train = GearTrain.declare(
-        {
-            "links": {"frame": {}, "x": {"wheels": {"a": 24}}, "y": {"wheels": {"b": 36}}},
-            "revolutes": [{"pair": ["frame", "x"], "axis": "A"}, {"pair": ["frame", "y"], "axis": "B"}],
-            "gears": [{"pair": ["a", "b"]}],
-            "inputs": {"x": -1},
-            "outputs": {"y": {}},
-            "loads": {"y": "-3 N m"},
-            "unit": {"per": "1 d"},
-        }
-    )
+    train = geartrain.load("""
+links: {frame: {}, x: {wheels: {a: 24}}, y: {wheels: {b: 36}}}
+revolutes: {A: [frame, x], B: [frame, y]}
+gears: [a ~ b]
+inputs: {x: -1}
+outputs: {y: {}}
+loads: {y: -3 N m}
+unit: {per: 1 d}
+""")
     crank = find_budget(train, BudgetQuestion(**SHORT)).crank
     # no loss: 3 N m at two thirds of the speed, put in
     assert crank.torque is not None
@@ -375,50 +366,7 @@ def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
 # ------------------------------------------------------------------------ over how many turns a budget tells the torque
 
 
-TRIANGULAR = """
-tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-friction: 0.2
-"""
-
-
-def natural_turns(train: GearTrain, pointer: str) -> float:
-    """Turns of the crank over which the budget of a pointer takes the torque."""
-    over_turn = find_budget(train, BudgetQuestion((pointer,), samples=4, trials=1)).crank.over_turn
-    assert over_turn is not None
-    return over_turn.span
-
-
-def test_a_year_of_a_crank_that_turns_five_times_in_it() -> None:
-    train = geartrain.load(f"extends: pennestri-2002{TRIANGULAR}links: {{'5': {{bearing: 1 N mm}}}}\n")
-    assert find_torque_period(train.mechanics) == 95
-    assert natural_turns(train, "1") == pytest.approx(5, rel=1e-9)
-
-
-def test_a_clock_repeats_long_before_a_year_has_passed() -> None:
-    """Between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter."""
-    train = geartrain.load("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n")
-    assert find_torque_period(train.mechanics) == Fraction(1, 4)
-
-
-def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
-    train = geartrain.load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
-    period = find_torque_period(train.mechanics)
-    assert period == Fraction(1, 4)
-    found = train.torques(turns=1, samples=200)
-    assert found.period == 0.25
-    for turns in (0.0321, 0.2, 0.61):
-        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)
-
-
-def test_where_nothing_is_uneven_an_hour_tells_as_much_as_a_year() -> None:
-    train = geartrain.load("extends: longcase-clock\nloads: {escape: -1 N mm}\n")
-    assert find_torque_period(train.mechanics) is None
-    assert natural_turns(train, "minute") == 1
-
-
-def test_a_year_counts_days_of_the_unit_of_speeds() -> None:
-    """A pin that comes round in a thousand days: a year is so many turns of a wheel that turns once a day."""
-    train = geartrain.load("""
+DAYS = """
 links: {frame: {}, day: {wheels: {a: 10}}, slow: {wheels: {b: 10000}}, slot: {bearing: 1 N mm}}
 revolutes: [{pair: [frame, day], axis: A}, {pair: [frame, slow], axis: B}, {pair: [frame, slot], axis: C}]
 gears: [{pair: [a, b]}]
@@ -426,9 +374,39 @@ couplings: [{kind: pin_and_slot, pin: slow, slot: slot, pin_radius: 10 mm, offse
 unit: {per: 1 d}
 inputs: {day: 1}
 outputs: {slot: {}}
-""")
-    assert find_torque_period(train.mechanics) == 1000
-    assert natural_turns(train, "slot") == pytest.approx(float(TROPICAL_YEAR), rel=1e-12)
+"""
+TRIANGULAR = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\nfriction: 0.2\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "period", "pointer", "turns"),
+    [
+        # a year of a crank that turns five times in it
+        (f"extends: pennestri-2002\n{TRIANGULAR}links: {{'5': {{bearing: 1 N mm}}}}\n", 95, "1", 5.0),
+        # between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter
+        ("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n", Fraction(1, 4), "minute", 0.25),
+        # where nothing is uneven an hour tells as much as a year
+        ("extends: longcase-clock\nloads: {escape: -1 N mm}\n", None, "minute", 1.0),
+        # a pin that comes round in a thousand days: a year is so many turns of a wheel that turns once a day
+        (DAYS, 1000, "slot", float(TROPICAL_YEAR)),
+    ],
+)
+def test_a_budget_takes_the_torque_over_a_period_or_a_year(
+    text: str, period: Fraction | None, pointer: str, turns: float
+) -> None:
+    train = geartrain.load(text)
+    assert find_torque_period(train.mechanics) == period
+    over_turn = find_budget(train, BudgetQuestion((pointer,), samples=4, trials=1)).crank.over_turn
+    assert over_turn is not None
+    assert over_turn.span == pytest.approx(turns, rel=1e-9)
+
+
+def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
+    train = geartrain.load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
+    found = train.torques(turns=1, samples=200)
+    assert find_torque_period(train.mechanics) == found.period == 0.25
+    for turns in (0.0321, 0.2, 0.61):
+        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)
 
 
 # ---------------------------- the torque at the crank over a train's natural run, and a clock's weight against its drum

@@ -41,21 +41,6 @@ def even(sizes: TriangularSizes) -> tuple[CutWheel, CutWheel]:
 
 # ------------------------------------------------------------------------------------------------------ without errors
 
-EXACT = [(64, 38, 0.02), (48, 24, 0.02), (45, 225, 0.01), (45, 225, 0.0165), (64, 38, 0.046), (17, 19, 0.02)]
-
-
-@pytest.mark.parametrize(("z1", "z2", "excess"), EXACT)
-def test_without_errors_the_transmission_is_that_of_even_wheels(z1: int, z2: int, excess: float) -> None:
-    sizes = equally_deep(z1, z2, excess)
-    S = np.random.default_rng(1).uniform(-4 * pi, 4 * pi, 2000)
-    for direction in (1, -1):
-        transmission, cut = (
-            TriangularTransmission(sizes, 0.0, direction),
-            CutPairLaw.of(sizes, *even(sizes), direction=direction),
-        )
-        assert np.abs(cut.error(S) - transmission.error(S)).max() < 1e-14 * sizes.p2
-        assert np.abs(cut.speed(S) - transmission.speed(S)).max() < 1e-13 * float(transmission.ratio)
-
 
 @pytest.mark.parametrize(("z1", "z2", "excess"), [(16, 12, 0.02), (12, 60, 0.025), (24, 12, 0.09), (20, 15, 0.004)])
 def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: int, excess: float) -> None:

@@ -12,10 +12,9 @@ import numpy as np
 import pytest
 import shapely
 import svgelements
-import yaml
 
 import geartrain
-from geartrain import GearTrain, GearTrainError
+from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.teeth.contact import GearOutline, ToothFlanks, polyline, solve
 from geartrain.workshop import export_files, wheel_file
@@ -42,7 +41,7 @@ def turned(name: str, pair: str, **making: float) -> TurnedPair:
 
 
 def declared(text: str) -> SolidModel:
-    return SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes(module=1.0, bore=0.0))
+    return SolidModel(geartrain.load(text), ManufacturingSizes(module=1.0, bore=0.0))
 
 
 # ------------------------------------------------------------------------------------------------ what a file says

@@ -85,7 +85,7 @@ def to_dxf(drawing: FlatDrawing) -> str:
     Raise `MissingExtraError` if ezdxf is not installed.
     """
     try:
-        from ezdxf import options, units
+        from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment
         from ezdxf.filemanagement import new
     except ImportError:

@@ -95,12 +95,12 @@ def draw_wheel(
     eccentric = _draw_eccentricity(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
         made = DisplacedWheel(place, tip, flank, flank, zero, zero, *(eccentric or (0.0, 0.0)))
-        good = made.cuttable.all(axis=-1)
+        good = np.asarray(made.cuttable.all(axis=-1))
         return replace(made, place=np.where(good[:, None], place, 0.0)), good
     cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
     if eccentric is not None:
         cut = cut.moved(*eccentric)
-    good = cut.cuttable.all(axis=-1)
+    good = np.asarray(cut.cuttable.all(axis=-1))
     if good.all():
         return cut, good
     # perfect teeth replace those that cannot be cut; these trials are flagged and not counted

@@ -463,8 +463,9 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     """Return the minimum backlash over the cycle (trials,) [rad of the driven wheel], to 1e-6 of a pitch."""
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
-    # two driving teeth may deviate in opposite directions
-    wide = _next_power_of_two(2 * float(np.abs(driver).max()))
+    # two driving teeth may deviate in opposite directions; a power of 2, so that few tables serve many batches
+    spread = 2 * float(np.abs(driver).max())
+    wide = float(2.0 ** np.ceil(np.log2(spread))) if spread else 1e-9
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
     both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
@@ -489,12 +490,6 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
     """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
     one, two = by_residue(driver, driven)
     return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
-
-
-def _next_power_of_two(spread: float) -> float:
-    """Return the spread rounded up to a power of 2, so that few tables serve many batches."""
-    # without pitch deviations the table is read at its middle, so any width will do
-    return float(2.0 ** np.ceil(np.log2(spread))) if spread > 0 else 1e-9
 
 
 @lru_cache(maxsize=256)

@@ -170,7 +170,9 @@ def _proof_lines(proof: TrainProof) -> list[str]:
     if proof.links:
         lines += ["", "While the input is held, each link can turn by this angle:", ""]
         lines += ["| link | degrees |", "| --- | ---: |"]
-        lines += [f"| {_cell(each.link)} | {_turn(each.backlash)} |" for each in proof.links]
+        for each in proof.links:
+            turn = "free" if each.backlash is None else f"{degrees(max(each.backlash, 0.0)):.3g}"
+            lines.append(f"| {_cell(each.link)} | {turn} |")
     return lines
 
 
@@ -180,10 +182,6 @@ def _row(mesh: MeshProof) -> str:
     words = " ".join(errors) if errors else "turns"
     values = (_cell(mesh.pair), f"{mesh.declared:.4f}", f"{mesh.minimum:.4f}", f"{mesh.overlap:.2g}", ratio)
     return f"| {' | '.join(values)} | {mesh.clearance:.3f} | {mesh.tip_width:.3f} | {words} |"
-
-
-def _turn(backlash: float | None) -> str:
-    return "free" if backlash is None else f"{degrees(max(backlash, 0.0)):.3g}"
 
 
 # ---------------------------------------------------------------------------------------------------------------- steps

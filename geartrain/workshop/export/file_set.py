@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.flat_files import to_dxf, to_svg
@@ -20,6 +19,7 @@ from geartrain.workshop.export.assembly_guide import readme, step_pictures
 from geartrain.workshop.export.cut_sheets import cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.workshop.export.parts_list import parts_list, to_csv
 from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
+from geartrain.workshop.export.proof.train_proof import are_installed
 from geartrain.workshop.export.rexs import to_rexs
 
 if TYPE_CHECKING:
@@ -75,19 +75,12 @@ def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
-        if library and not _is_there(library):
+        if library and not are_installed(library):
             what = f"{kind.upper()} files are not written"
             missing.append(Problem(what, f"{library} is not installed", install_command(extra)))
         else:
             found.append(kind)
     return found, missing
-
-
-def _is_there(library: str) -> bool:
-    try:
-        return find_spec(library) is not None
-    except ImportError:
-        return False
 
 
 def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:

@@ -73,7 +73,8 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
     yield from (_shares(found, pointer) for pointer in found.trials.pointers[:4] if len(pointer.shares) > 1)
     yield from map(_indices, found.indices)
     if found.cleared:
-        yield _cleared(found)
+        text = "Probability of each event in any pair of the train, with the same wheels at every clearance."
+        yield Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
     yield _convergence(found)
 
 
@@ -195,11 +196,6 @@ def _indices(each: SobolIndices) -> Section:
 
 def _index(figure: IntervalEstimate) -> str:
     return f"{figure.value:.3f} ({figure.low:.3f}..{figure.high:.3f})"
-
-
-def _cleared(found: MonteCarloResult) -> Section:
-    text = "Probability of each event in any pair of the train, with the same wheels at every clearance."
-    return Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
 
 
 def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:

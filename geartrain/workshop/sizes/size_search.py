@@ -110,7 +110,9 @@ class SizeSearch:
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
-            bound = _limit(second, high + (low - high) * step / (_FRONT + 1))
+            merit = high + (low - high) * step / (_FRONT + 1)
+            # the merit of `jam` is minus the margin, because merits are minimised
+            bound = SizeLimit(second, -merit if second == "jam" else merit)
             known = SampledFunction(self.value(first, [bound]), self.bounds)
             inside = [at for at, each in self.designs.items() if self.keeps(each, [bound])]
             if inside:  # the best known design within the bound is the start
@@ -136,11 +138,6 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
         if min(found[-1].merit(aim) - each.merit(aim), each.merit(aim) - front[-1].merit(aim)) >= worth:
             found.append(each)
     return (*found, *front[1:][-1:])
-
-
-def _limit(aim: str, merit: float) -> SizeLimit:
-    # the merit of `jam` is minus the margin, because merits are minimised
-    return SizeLimit(aim, -merit if aim == "jam" else merit)
 
 
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:

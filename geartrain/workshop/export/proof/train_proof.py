@@ -133,8 +133,13 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
 
 def proof_is_installed() -> bool:
     """Return True if shapely and manifold3d are installed, False otherwise."""
+    return are_installed("shapely", "manifold3d")
+
+
+def are_installed(*libraries: str) -> bool:
+    """Return True if all of the given libraries are installed, False otherwise."""
     try:
-        return all(find_spec(name) is not None for name in ("shapely", "manifold3d"))
+        return all(find_spec(name) is not None for name in libraries)
     except (ImportError, ValueError):
         return False
 

@@ -106,7 +106,7 @@ def batch_verdicts(
     """
     whole = CutGearPair(sizes, first, second, shift)
     # with a common contact function the cost does not depend on the length of the cycle
-    if first.only_pitch_deviations and second.only_pitch_deviations and np.ndim(shift) == 0:
+    if first.only_pitch_deviations and second.only_pitch_deviations and not np.any(shift):
         parts = chunks(whole, chunk // (sizes.z1 + sizes.z2))
         return MeshingVerdicts.joined([verdicts_of_pitch_errors(part, chunk) for part in parts])
     return MeshingVerdicts.joined([cycle_verdicts(part) for part in chunks(whole, chunk // whole.count)])
@@ -461,7 +461,7 @@ def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     """Return the minimum backlash over the cycle (trials,) [rad of the driven wheel], to 1e-6 of a pitch."""
-    sizes = _shifted(pair)
+    sizes = pair.sizes
     driver, driven = pair.first.place, pair.second.place
     # two driving teeth may deviate in opposite directions; a power of 2, so that few tables serve many batches
     spread = 2 * float(np.abs(driver).max())
@@ -508,7 +508,7 @@ class _EntriesAndExits:
     """Entries and exits of teeth with a common contact function: driven teeth only add their pitch deviations."""
 
     def __init__(self, pair: CutGearPair) -> None:
-        self.pair, self.sizes = pair, _shifted(pair)
+        self.pair, self.sizes = pair, pair.sizes
         self.tooth_pair = even_tooth_pair(self.sizes)
         self.reach, self.tip = float(self.tooth_pair.reach), float(-self.tooth_pair.exit_angle)
         self.small = ROUNDING * self.sizes.p2
@@ -574,10 +574,3 @@ class _EntriesAndExits:
             at = k - n if coming else k
             found = np.minimum(found, own[:, at % self.sizes.z1] + other[:, at % self.sizes.z2])
         return found
-
-
-def _shifted(pair: CutGearPair) -> TriangularSizes:
-    """Return the sizes of the pair at its actual centre distance."""
-    if not pair.shift:
-        return pair.sizes
-    return pair.sizes.at(pair.sizes.side * ((pair.sizes.D + pair.shift) / pair.sizes.deepest_distance - 1))

@@ -71,8 +71,7 @@ class BudgetCause(Result):
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """Return the cause with its size also given in days; unchanged if its size or the speed of the pointer is
-        unknown.
+        """Return the cause with its size also in days; unchanged if its size or the pointer's speed is unknown.
 
         Parameters
         ----------
@@ -91,8 +90,7 @@ class BudgetCause(Result):
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer relative to one of its targets, due to the error of the pointer's mean speed; positive if the
-    pointer is fast.
+    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast.
 
     See Also
     --------

@@ -337,8 +337,7 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def find_cutting_trials(
     plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
 ) -> tuple[TrialResults, Floats]:
-    """Return trials with cutting errors, and the errors of perfect teeth at the same positions [rad], shape (outputs,
-    trials).
+    """Return trials with cutting errors, and errors of perfect teeth at their positions (outputs, trials) [rad].
 
     motion   motion with perfect teeth
     """

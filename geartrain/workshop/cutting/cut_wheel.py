@@ -174,8 +174,7 @@ def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the radial displacement [unit of radius] and the rotation [rad], about a fixed centre, of points that are
-    shifted. The formula is exact.
+    """Return radial displacement [unit of radius] and rotation about the origin [rad] of shifted points, exactly.
 
     radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift

@@ -35,9 +35,7 @@ class ErrorSpecification:
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces a declared error: kind, distribution and amount, for the wheel or pair named `of`, or for all
-    wheels or pairs if `of` is empty.
-    """
+    """Error that replaces the declared error of its kind, for the wheel or pair `of`, or for all if `of` is empty."""
 
     kind: str
     way: ErrorDistributionKind
@@ -199,7 +197,7 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the unit of each fraction by kind: an angle [rad] or a length [m]; None without a module with a unit."""
+    """Return the unit of each fraction by kind, an angle [rad] or a length [m]; None for lengths without a module."""
     deep = None
     module = wheel.transverse_module
     if module is not None:

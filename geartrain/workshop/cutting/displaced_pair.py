@@ -218,8 +218,7 @@ class DisplacedPair:
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all columns of the contact interpolated linearly at x [rad]; they are constant beyond the ends, where
-        `_kinks` adds the lag of tips.
+        """Return all columns of the contact at x [rad], interpolated linearly and constant beyond the ends.
 
         Order: across, along and tilt of both wheels, normal, even, apart.
         """
@@ -376,9 +375,7 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag over all tooth pairs at driver angles S [rad], and the number of the tooth pair with
-        this lag; the lag is inf without contact.
-        """
+        """Return the minimum lag at driver angles S [rad], and the number of its tooth pair; inf without contact."""
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -397,7 +394,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 for conjugate flanks."""
+    """Return the mean lag of perfect wheels [rad of the driven wheel]; 0 for conjugate flanks at nominal distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))

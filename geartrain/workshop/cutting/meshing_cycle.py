@@ -1,6 +1,6 @@
 """Events of many pairs of cut wheels at once: jam, clash, dwell and loss of contact.
 
-Events occur only at a few positions. Two flanks jam where a front and a back tooth pair come nearest (`backlash`). The
+Events occur only at a few positions. Two flanks jam where a front and a back tooth pair come nearest (`tightest`). The
 driven wheel dwells only where a tooth pair leaves, and a tooth meets a tip only where one enters. A cycle of
 lcm(z1, z2) tooth pairs therefore needs a few contact computations each, without time steps (`MeshingCycle`).
 
@@ -142,8 +142,7 @@ def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum sum of two contacts, each in one phase, and its position [rad]; inf if both cannot touch at
-    once.
+    """Return the minimum sum of two contacts, each in one phase, and its position [rad]; inf if both never touch.
 
     The algorithm is Newton's method safeguarded by bisection, starting at half the reach. The last step improves the
     value only, by a parabola.
@@ -345,8 +344,8 @@ class MeshingCycle:
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the backlash [rad] between each selected front tooth pair (trial, tooth pair) and the back tooth pair
-        n positions earlier, computed without tables.
+        """Return the backlash [rad] of selected front tooth pairs (trial, pair) and back pairs n before, without
+        tables.
         """
 
         def at(columns: Any) -> Any:
@@ -360,9 +359,7 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return an upper bound of the number of tooth pairs that touch at once; all but two pairs of the cycle if some
-        pair may not touch at all.
-        """
+        """Return an upper bound of the pairs that touch at once; all but two of the cycle if one may never touch."""
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind

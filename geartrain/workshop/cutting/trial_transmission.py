@@ -146,7 +146,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of conjugate teeth with displaced flanks: the foremost tooth pair drives."""
+    """Transmission function of teeth with displaced flanks: the foremost tooth pair drives."""
 
     def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
         super().__init__(pair.teeth, even, rows)

@@ -1,7 +1,7 @@
 """Flat drawings of an export for cutting: wheels, plates, and sheets of stock with all parts.
 
-Wheels of equal shape share one drawing. Outlines are offset outwards by half the kerf. On sheets of stock, parts are
-placed in rows, the tallest first.
+Wheels of equal shape share one drawing. Outlines are offset outwards, and holes inwards, by half the kerf. On sheets of
+stock, parts are placed in rows, the tallest first.
 """
 
 from __future__ import annotations

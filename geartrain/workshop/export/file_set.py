@@ -264,8 +264,7 @@ def _drawn(drawing: FlatDrawing, kind: str) -> bytes:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems that affect an export of the given kinds of files, without duplicates. Examples are parts
-    that cannot be made as laid out, and omitted parts.
+    """Return the problems that affect an export of given kinds, such as parts that cannot be made, each once.
 
     Parameters
     ----------

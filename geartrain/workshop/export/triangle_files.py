@@ -193,7 +193,7 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the index of the mesh with the given triangles and the material of the part, after adding a new one."""
+    """Return the index of the mesh with the given triangles and the material of the part; add it if it is new."""
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]

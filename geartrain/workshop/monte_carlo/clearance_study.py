@@ -50,8 +50,7 @@ class ClearanceCase(Result):
 
 
 def read_clearances(text: str) -> list[float]:
-    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9` into equally spaced clearances, ends
-    included.
+    """Parse a sweep such as `window=0.1:0.9:9` or `clearance_factor=1.005:1.04:8` into equally spaced clearances.
 
     Fractions of a window are below 1, and clearance factors are at least 1.
     """

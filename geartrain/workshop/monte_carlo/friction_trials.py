@@ -64,8 +64,7 @@ class FrictionSpread(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionPlan(Shown):
-    """Plan of Monte Carlo trials with random friction coefficients: the train, and the input positions that each trial
-    evaluates.
+    """Plan of trials with random friction coefficients: the train, and the input positions of each trial.
 
     See Also
     --------

@@ -35,8 +35,7 @@ class PartialTrials(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
-    """Results of Monte Carlo trials of one train, for reports and plots. Optional parts are results at other
-    clearances, errors along a revolution and Sobol indices.
+    """Results of Monte Carlo trials of one train, with optional studies of clearances, revolutions and sensitivity.
 
     See Also
     --------

@@ -211,8 +211,7 @@ class TrialResults(Tabular):
         return [ConvergenceStep(*each) for each in self.convergence("stops")]
 
     def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
-        """Return the probability of an event in at least one pair, estimated from 1/16, 1/8, 1/4, 1/2 and all of the
-        trials.
+        """Return the probability of an event in at least one pair, from the first 1/16, 1/8, 1/4, 1/2 and all trials.
 
         Parameters
         ----------
@@ -225,8 +224,7 @@ class TrialResults(Tabular):
         return [(count, _share(whole[:count], mark)) for count in counts]
 
     def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
-        """Return the standard deviation of a pointer error [rad], estimated from 1/16, 1/8, 1/4, 1/2 and all of its
-        trials.
+        """Return the standard deviation of a pointer error [rad], from the first 1/16, 1/8, 1/4, 1/2 and all trials.
 
         Parameters
         ----------
@@ -442,8 +440,7 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer error of one output over one revolution of the output (of the input if the output is fixed), for each
-    trial.
+    """Pointer errors of one output in each trial over one revolution of the output, or of the input if it is fixed.
 
     See Also
     --------

@@ -1,5 +1,4 @@
-"""Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by the contact of its
-outlines.
+"""Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by its drawn outlines.
 
 The outlines are drawn from the sizes alone, so they verify the transmission function independently.
 """
@@ -205,8 +204,7 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Comparison of a design's properties according to its transmission function and according to the contact of its
-    drawn outlines.
+    """Comparison of a design's properties by its transmission function and by the contact of its drawn outlines.
 
     See Also
     --------

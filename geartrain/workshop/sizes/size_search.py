@@ -172,8 +172,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors stops. Because this probability is expensive to compute,
-    the search evaluates it only for the best designs.
+    """Limit on the probability that a pair with cutting errors stops, evaluated only for the best designs.
 
     See Also
     --------

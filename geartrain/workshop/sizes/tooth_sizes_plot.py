@@ -93,8 +93,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train due to the best tooth sizes. The pair with the worst declared sizes
-    is at the top.
+    """Draw the improvement of each pair of a train by the best tooth sizes, the worst declared pair at the top.
 
     Parameters
     ----------

@@ -50,8 +50,7 @@ def find_train_sizes(
     state: str | None = None,
     on_step: OnStep = lambda: None,
 ) -> BestTrainSizes:
-    """Find the sizes of the triangular teeth of a train that optimise one objective at an output: loss, error, impact
-    or jam margin.
+    """Find the sizes of the triangular teeth of a train that optimise loss, error, impact or margin at an output.
 
     Parameters
     ----------

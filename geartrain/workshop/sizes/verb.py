@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
-"""Approximate number of designs evaluated for each objective, by number of free parameters; sizes the bar."""
+"""Approximate number of designs evaluated for each objective, by number of free parameters; for the progress bar."""
 
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 """Dimensions of limits; other limits are dimensionless."""

@@ -52,7 +52,7 @@ class MeshProof(Result):
     pair: str
     """Name of the pair."""
     declared: float
-    """Declared backlash along the pitch circle of the second wheel, or of the internal wheel [mm]."""
+    """Declared backlash along the pitch circles [mm]."""
     minimum: float
     """Minimum measured backlash [mm]."""
     most: float
@@ -114,7 +114,7 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return by pair of cut wheels its backlash, its blanks (an internal, or the driven, one second), its outlines."""
+    """Return backlash, blanks and turned outlines of each pair of cut wheels; the internal or driven wheel is second."""
     # the backlash of teeth that are not conjugate is stated for a driver that is held
     found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:

@@ -1,5 +1,4 @@
-"""Two written outlines turned against each other: their overlap, and the range of angles in which the second one is
-free.
+"""Two written outlines turned against each other: their overlap, and the angles at which the second one is free.
 
 Wheel 1 is at the origin. Wheel 2 is at the distance between the axes on the positive x axis, or on the negative one if
 it is internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:

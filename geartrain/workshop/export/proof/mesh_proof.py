@@ -114,7 +114,7 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return backlash, blanks and turned outlines of each pair of cut wheels; the internal or driven wheel is second."""
+    """Return backlash, blanks and outlines of each pair of cut wheels; the internal or driven wheel is second."""
     # the backlash of teeth that are not conjugate is stated for a driver that is held
     found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:

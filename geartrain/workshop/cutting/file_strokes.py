@@ -50,6 +50,7 @@ def file_to_fit(
     for _ in range(_ROUNDS):
         part = pair.taken(active).filed((low[0][active], low[1][active]))
         tight = tight_place(part)
+        # pairs that pass are not evaluated again
         jams = tight.backlash < 0
         active, tight = active[jams], _some(tight, jams)
         if not len(active):

@@ -108,6 +108,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         pitch = self.pair.sizes.p1
         u = np.empty_like(S)
         behind(S, pitch, u, np.empty_like(S))
+        # whole pitches and the rest, because k p - S would lose the digits of a long run
         n = np.rint((S - u) / pitch).astype(np.int64)
         lag, first = np.full(len(S), inf), n
         for m in self._window:

@@ -129,13 +129,17 @@ def run(
     of_solids: dict[str, object] = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
     of_solids |= {"--backlash": backlash, "--process": process, "--spokes": spokes, "--sheet": sheet, "--turns": turns}
     if out is not None and out.suffix.lower() == ".fmu":
-        _refuse(of_solids, "does not apply to an .fmu", "omit it")
+        _refuse(
+            of_solids, "does not apply to an .fmu", "an FMU contains the motion of a train, not its parts", "omit it"
+        )
         _unit(file, state, of_time, sink(out, force))
         return
-    _refuse(of_time, "applies only to an .fmu", "give -o FILE.fmu, or omit it")
+    why = "only an FMU contains the motion in time"
+    _refuse(of_time, "applies only to an .fmu", why, "give -o FILE.fmu, or omit it")
     train = load(file)
     if out is not None:
-        _refuse({"--sheet": sheet}, "applies only to a folder", "give --to FOLDER instead of -o")
+        why = "only a folder has drawings of all parts, which are laid out on sheets"
+        _refuse({"--sheet": sheet}, "applies only to a folder", why, "give --to FOLDER instead of -o")
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     work = SolidModel(train, _sizes(lengths, process, spokes, sheet), train.declaration.state_or_first(state))
     shown = None if turns is None else read_turns("--turns", turns)
@@ -147,11 +151,11 @@ def run(
     raise typer.Exit(GOOD if is_sound(work.sized, state) else VERDICT)
 
 
-def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
+def _refuse(given: Mapping[str, object], what: str, why: str, fix: str) -> None:
     """Raise `GearTrainError` if an option is given that does not apply to the requested file."""
     for option, value in given.items():
         if value is not None:
-            raise GearTrainError(Problem(f"{option} {why}", "", fix, option))
+            raise GearTrainError(Problem(f"{option} {what}", why, fix, option))
 
 
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:

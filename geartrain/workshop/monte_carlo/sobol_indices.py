@@ -168,6 +168,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 def _saltelli(values: Floats) -> Floats:
     """Return first-order and total indices, shape (2, d)."""
+    # columns f(A), f(AB(1)), ..., f(AB(d)), f(B)
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
     variance = np.var(values[:, [0, -1]])

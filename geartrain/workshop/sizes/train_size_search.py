@@ -33,6 +33,7 @@ OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
 """Turns of the input and number of positions for the error of a pointer. Its extremes are refined between positions."""
 
+# few and short steps, because an evaluation of the train is slow and each pair is near its separate optimum
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
 _TRIES = 8  # maximum evaluations of the train in one step of the descent
 _SWEEPS = 4

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel
     from geartrain.workshop.export.proof.turned_pair import TurnedPair
 
-_POSES = (Fraction(0), Fraction(1, 7), Fraction(17, 31), Fraction(41, 13))  # turns of the driving link
+# turns of the driving link, with prime denominators, so that teeth are seldom in the same phase in two poses
+_POSES = (Fraction(0), Fraction(1, 7), Fraction(17, 31), Fraction(41, 13))
 _TOUCH = 2e-3  # of a pitch: tolerated overlap of wheels in contact, due to chords and rounded coordinates
 _PARALLEL = 1e-9  # deviation of a cosine from 1 that counts as rounding
 
@@ -238,7 +239,8 @@ class _Motion:
                 yield _finding("error", what, why, "declare a tooth form for its meshes, or give taller teeth")
             elif link.backlash is not None and speeds[link.link] is None:
                 what = f"link '{link.link}' is fixed by its teeth, but `solve` does not determine its speed"
-                yield _finding("note", what, "the proof and the solution contradict each other", "")
+                fix = "check the pairs of this link, or declare another input"
+                yield _finding("note", what, "the proof and the solution contradict each other", fix)
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:
             return

@@ -227,6 +227,7 @@ def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
     assert bool(events.of("disengaged"))
     assert events.of("dwell")
     assert all(event.amount == inf for event in gaps)
+    assert batch_verdicts(sizes, with_errors(driver, tip=short[None]), driven).disengaged.all()
 
 
 # ------------------------------------------------------------------------------------------------------------ refusals
@@ -250,12 +251,6 @@ def test_impossible_wheels_are_refused() -> None:
 
 
 # -------------------------------------------------------------------------------------- many wheels cut by hand at once
-
-
-def stacked(wheels: list[CutWheel]) -> CutWheel:
-    """Wheels of one size as one batch."""
-    names = ("place", "tip", "leading", "trailing")
-    return CutWheel(wheels[0].radius, wheels[0].half_angle, *(np.stack([getattr(w, n) for w in wheels]) for n in names))
 
 
 def cut(
@@ -335,7 +330,7 @@ def test_trials_do_not_know_each_other() -> None:
         assert (parts.stops == whole.stops).all()
     one = driven.taken(3)
     shared = batch_verdicts(sizes, driver, one)
-    copied = batch_verdicts(sizes, driver, stacked([one] * 12))
+    copied = batch_verdicts(sizes, driver, driven.taken(np.full(12, 3)))
     assert np.abs(shared.backlash - copied.backlash).max() < 1e-10 * sizes.p2
 
 

@@ -240,8 +240,10 @@ class TurnedPair:
 
 
 def _joined(found: Sequence[FreeTurn], place: tuple[float, float] | None) -> FreeTurn:
-    names = ("low", "high", "overlap")
-    return FreeTurn(*(np.concatenate([getattr(each, name) for each in found]) for name in names), place)
+    low, high, overlap = (
+        np.concatenate([getattr(each, name) for each in found]) for name in ("low", "high", "overlap")
+    )
+    return FreeTurn(low, high, overlap, place)
 
 
 def _part(radius: float, tip: float, root: float) -> str:

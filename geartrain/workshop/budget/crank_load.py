@@ -32,7 +32,7 @@ MOST_PASSAGES = 600_000
 
 Longer runs are cut off at this number, which takes about two minutes without compiled kernels.
 """
-SAMPLES = 2_000
+SAMPLES = 2_000  # positions of the input in a run
 
 
 def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:

@@ -253,7 +253,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
     for _ in range(_STEPS):
         step = (E - e * np.sin(E) - M) / (1 - e * np.cos(E))
         E = E - step
-        if np.max(np.abs(step), initial=0.0) < 1e-15:
+        if np.max(np.abs(step), initial=0.0) < 1e-15:  # rounding errors of E
             break
     # nu - E by one atan2, without half angles, is continuous over many turns
     beta = e / (1 + np.sqrt(1 - e * e))

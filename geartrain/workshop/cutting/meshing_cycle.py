@@ -462,6 +462,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
     driver, driven = pair.first.place, pair.second.place
     # two driving teeth may deviate in opposite directions; a power of 2, so that few tables serve many batches
     spread = 2 * float(np.abs(driver).max())
+    # without pitch deviations the table is read at its middle, so any width will do
     wide = float(2.0 ** np.ceil(np.log2(spread))) if spread else 1e-9
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)

@@ -62,7 +62,7 @@ _VERTEX = np.dtype(
 )
 """Data type of a vertex: position and normal, each at a multiple of four bytes, as glTF requires."""
 
-_BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126
+_BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126  # component types
 _VERTICES, _INDICES, _KEYS = range(3)  # the buffer views
 _VIEWS: tuple[dict[str, int], ...] = (
     {"byteStride": _VERTEX.itemsize, "target": 34962},  # ARRAY_BUFFER
@@ -245,7 +245,7 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
 
 _A_TURN = 3  # key frames per turn: readers interpolate the shorter way, so two would be ambiguous
 _RIPPLING = 48  # key frames per turn if teeth or pins add transmission errors
-_MINIMUM_RIPPLING = 240
+_MINIMUM_RIPPLING = 240  # minimum number of key frames with transmission errors, for a slow body
 _MOST = 60_000  # maximum key frames of one body: a longer period is not shown completely
 _USUAL = 10  # turns of the driving link, if the period is too long
 _PACE = 1.0  # seconds in which the fastest body turns once

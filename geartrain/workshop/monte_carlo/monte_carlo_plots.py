@@ -51,9 +51,9 @@ if TYPE_CHECKING:
 
 
 PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")
-PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)
-MOST = 20
-LEVELS = (0.01, 0.1, 0.5)
+PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)  # percentiles at the edges of bands
+MOST = 20  # maximum number of bars of a tornado chart
+LEVELS = (0.01, 0.1, 0.5)  # probabilities of the contour lines of a map
 _Given = TypeVar("_Given")
 _ROW = 2.3  # height of a panel [inch]
 _POINTERS = 12  # maximum number of pointers drawn: those with the largest spread

@@ -283,7 +283,7 @@ _BASINS = 3  # number of lowest samples from which local searches start
 _CLOSE = 0.1  # of a range: samples closer than this are in one basin
 _FINE = 1e-7  # of a range: near a smooth minimum, values at this distance differ only due to rounding
 _GAIN = 1e-5  # relative improvement below which the rounds end
-_ROUNDS = 5
+_ROUNDS = 5  # maximum number of simplexes, each half as large as the one before
 _STEP = 0.05  # size of the first simplex, as a fraction of each range
 
 

@@ -36,7 +36,7 @@ _TURNS, _SAMPLES = 20.0, 2_000
 # few and short steps, because an evaluation of the train is slow and each pair is near its separate optimum
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
 _TRIES = 8  # maximum evaluations of the train in one step of the descent
-_SWEEPS = 4
+_SWEEPS = 4  # maximum number of sweeps over all sizes
 _GAIN = 1e-3  # relative improvement below which the sweeps end
 _SCAN = 7  # number of half angles in the first scan
 _ANGLE_TRIES, _NEAR = 8, 1e-3  # iterations and tolerance (rad) of Brent's method around the best of them

@@ -105,7 +105,7 @@ def test_arbors_reach_both_plates_and_pivots_stand_in_their_holes_with_the_fit_t
 def test_a_clock_stands_as_clockmakers_build_it() -> None:
     """The hour pipe runs on the centre arbor, outside it, before the front plate; the going train has no studs."""
     low = {name: ends[0] for name, ends in heights(workpiece("longcase-clock-cycloidal")).items()}
-    dial = low["hour pipe"]  # its hands stand below
+    dial = low["hour pipe"]  # its hands are below
     assert low["centre arbor"] <= dial < low["h72"] < low["plates front plate"]
     assert not [name for name in low if name.endswith("stud")]
 
@@ -138,7 +138,7 @@ def test_pillars_keep_clear_of_wheels_and_pivots_and_hold_all_axes() -> None:
         for at in frame.pillars:
             for wheel in work.scene.wheels:
                 if low < wheel.centre[2] < high:
-                    tip = wheel.tip if wheel.circuits else wheel.radius  # what meshes nothing is cut as a disc
+                    tip = wheel.tip if wheel.circuits else wheel.radius  # a wheel without a mate is cut as a disc
                     away = hypot(at[0] - wheel.centre[0], at[1] - wheel.centre[1])
                     assert away - tip - 4 >= 0.999
             for axis in frame.plan.stack.axes.values():
@@ -149,7 +149,7 @@ def test_pillars_keep_clear_of_wheels_and_pivots_and_hold_all_axes() -> None:
 
 @pytest.mark.parametrize("name", ["nrel-grc-750", "planetary-24-18-60", "wolfrom-175"])
 def test_no_hole_of_a_plate_runs_into_another_and_posts_keep_clear_of_axes(name: str) -> None:
-    """An axis 52.5 mm from that of a ring, whose rim is as far out: a post of the ring stood in its hole."""
+    """Another axis is 52.5 mm from the ring's axis, as its rim is: a post of the ring was in the hole of that axis."""
     frame = workpiece(name).frame
     assert frame is not None
     assert frame.posts

@@ -1,4 +1,4 @@
-"""Wheels as they are cut: the same on the screen as in the files, fit for all their mates, with the play asked for."""
+"""Wheels as cut: equal on the screen and in the files, able to mesh with all mates, with the requested backlash."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from geartrain.workshop import export_files, notices, wheel_file
 from geartrain.workshop.export.proof.mesh_proof import MeshProof, paired_wheels, prove_mesh, read_wheels
 
 TRAINS = sorted(geartrain.shipped())
-CHORDS = 2.5e-3  # modules: what the chords of two flanks add to their play
+CHORDS = 2.5e-3  # modules: backlash added by the chords of two flanks
 
 
 @cache
@@ -36,7 +36,7 @@ def thinned(name: str) -> bool:
 
 
 def proofs(work: SolidModel) -> dict[str, MeshProof]:
-    """Every pair whose wheels are cut and stand where they mesh, its written outlines turned against each other."""
+    """Proof of each pair whose wheels are cut and placed where they mesh, by turning the written outlines."""
     paired = paired_wheels(work, read_wheels(work))
     return {pair: prove_mesh(*each) for pair, each in paired.items() if pair not in work.layout.apart}
 
@@ -48,8 +48,7 @@ def proofs(work: SolidModel) -> dict[str, MeshProof]:
 def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
     """Every vertex of either outline lies on the other, for every wheel that is cut.
 
-    Teeth nobody declares are drawn with the play that is cut; declared ones as they are declared, before a maker thins
-    them.
+    Undeclared teeth are drawn with the backlash that is cut, declared teeth as declared, before a maker thins them.
     """
     train = shipped.train(name)
     state = train.states[0] if train.states else None
@@ -256,7 +255,7 @@ def test_a_wheel_beside_declared_teeth_without_a_form_of_its_own_is_named() -> N
 
 @pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth", "moon-triangular", "sorge-pairs"])
 def test_axes_stand_as_far_apart_as_the_law_of_triangular_teeth_asks(name: str) -> None:
-    """Centre distance over tip radius as in the law, for every mate of every wheel: so each wheel has one size."""
+    """Centre distance over tip radius is that of the tooth form for every mate, so each wheel has one size."""
     work = workpiece(name)
     places, checked = work.layout.wheels, 0
     for mesh in work.train.meshes:

@@ -55,7 +55,7 @@ def as_drawn(outline: GearOutline, wheel: DisplacedWheel) -> GearOutline:
 
 @cache
 def contact_of(name: str, driver: int) -> tuple[DisplacedContact, tuple[GearOutline, GearOutline], float]:
-    """The contact of a pair, its outlines, the driver's first, and the distance of its axles."""
+    """The contact of a pair, its outlines with the driver first, and the centre distance."""
     if name in ARCS:
         gears = ARC.transmission(*ARCS[name], driver=driver).gears
         return displaced_outlines(gears, driver), gears.of(driver), gears.distance
@@ -66,7 +66,7 @@ def contact_of(name: str, driver: int) -> tuple[DisplacedContact, tuple[GearOutl
 
 
 def drawn_contact(name: str, driver: int, pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lag and play of the drawn outlines, in driven pitches."""
+    """Lag and backlash of the drawn outlines, in driven pitches."""
     _, (one, two), distance = contact_of(name, driver)
     found = solve(as_drawn(one, pair.first), as_drawn(two, pair.second), distance + pair.shift, S)
     return off_ratio(pair.contact, found, S)
@@ -99,7 +99,7 @@ def test_wheels_without_errors_keep_their_ratio_and_their_backlash(name: str, dr
 
 @pytest.mark.parametrize(("name", "driver"), [(name, driver) for name in (*PAIRS, *ARCS) for driver in (1, 2)])
 def test_teeth_out_of_place_turn_the_driven_wheel_as_their_outlines_do(name: str, driver: int) -> None:
-    # exact at any size: such a tooth turned about its axle is the same tooth, and corners obey the law of cosines
+    # exact at any size: a tooth turned about the axis is the same tooth, and corners obey the law of cosines
     at = contact_of(name, driver)[0]
     wheels = (replace(each, place=RNG.normal(0, 0.005 * 2 * pi / each.z, each.z)) for each in even(at))
     pair = DisplacedPair(at, *wheels)
@@ -169,7 +169,7 @@ def tilted(side: tuple[OutlineCurve, ...], R: float, lean: float, way: int) -> t
 
 
 def on_sphere(pair: object, gear: int, moved: np.ndarray) -> GearOutline:
-    """A bevel wheel on the unit sphere, tooth by tooth, its teeth turned as one by a small rotation off its axle."""
+    """A bevel wheel on the unit sphere, tooth by tooth, its teeth turned as one by a small rotation off its axis."""
     path = pair.path  # type: ignore[attr-defined]
     pitch, (approach, recess) = path.pitch, path.arcs
     R = -pitch.R1 if gear == 1 else pitch.R2
@@ -247,7 +247,7 @@ ERRORS = {
 def test_each_error_is_in_the_minimum_backlash_as_it_is_angle_by_angle(
     name: str, driver: int, errors: tuple[str, ...]
 ) -> None:
-    """Wheel by wheel or couple by couple: two ways to the same sum, at the angles at which play is looked for."""
+    """Sums of terms of both wheels against sums over tooth pairs, at the angles at which backlash is evaluated."""
     at, rng = displaced_contact(PAIRS[name], driver), np.random.default_rng(8)
     wheels = []
     for wheel in even(at):
@@ -292,7 +292,7 @@ def test_strokes_are_those_of_a_plain_loop_that_files_one_at_a_time() -> None:
     jammed = DisplacedPair(at, replace(first, place=late[None]), second)
     found = file_to_fit(jammed, DisplacedPair.tight_place, stroke, 1.0)
     assert (found.strokes[0], found.teeth[0]) == (strokes, 1)
-    # what stood out, less the play, times the base radius of the driver
+    # the protrusion minus the backlash, times the base radius of the driver
     assert strokes == np.ceil((0.1 * at.pitches[0] - 1.5 * at.backlash) * 12 * cos(radians(20)) / stroke)
 
 
@@ -328,7 +328,7 @@ def test_tips_meet_tips_where_the_lags_of_neighbours_say_so_tooth_pair_by_tooth_
                                  (found.dwell, at.end + at.leaving.most, -1)):  # fmt: skip
             over = np.zeros(trials, bool)
             for n in range(pair.count):
-                # the driver where the tips of couple n meet, just within their reach
+                # the driver where the tips of tooth pair n meet, just within their reach
                 S = n * at.pitches[0] + pair.first.place[:, n % pair.first.z] + x + step * 1e-9 * at.pitches[0]
                 own, mate = (pair.lag(rows, S, np.full(trials, k)) for k in (n, n - step))
                 over |= mate > own
@@ -429,7 +429,7 @@ def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
         find_trial_plan(train, read_error_overrides(["pitch_deviation=0.5 %", "eccentricity=2 %"])), 128, 1
     )
     assert found.train.events["stops"].value == 0
-    # cut nearly true, pointers stray by the ripple of even teeth alone
+    # with negligible errors, pointers deviate only by the ripple of perfect teeth
     sure = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.001 %"])), 512, 1)
     run = MotionRun(train.motion(), 0.5, 20_001)
     run.run()

@@ -354,7 +354,7 @@ def test_rexs_carries_teeth_distances_and_speeds_of_a_turbine_gearbox() -> None:
 
 
 def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
-    """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels stand on them."""
+    """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels are along them."""
     train = geartrain.load("""
 links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 2 mm}}}, b: {wheels: {q: 30}}}
 axes:

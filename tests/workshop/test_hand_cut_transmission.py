@@ -1,4 +1,4 @@
-"""The law of one pair of cut wheels, an oracle for trials: even, off centre, to first order, and by outlines."""
+"""Transmission function of one pair of cut wheels, the oracle of trials: without errors, and against outlines."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: i
 
 
 def drawn(rng: np.random.Generator, ring: Literal[0, 1, 2] = 0) -> tuple[TriangularSizes, CutPairLaw, Judge]:
-    """Two wheels with every kind of error, as the law has them and as outlines."""
+    """Two wheels with every kind of error, as a transmission function and as outlines."""
     while True:
         z1, z2 = (int(z) for z in rng.integers(10, 40, 2))
         b1, b2 = (float(b) for b in np.radians(rng.uniform(20, 38, 2)))
@@ -146,7 +146,7 @@ def outlines(sizes: TriangularSizes, places: list[np.ndarray]) -> Judge:
 
 
 def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
-    """Marched in small steps, never turned back: where it stands, how far it is left behind, where it is caught."""
+    """The driven wheel is marched in small steps and never turned back: its dwell, its lag and its next contact."""
     sizes = equally_deep(20, 30, 0.0)
     sizes = sizes.at(find_window(sizes).at(0.85))
     rng = np.random.default_rng(6)
@@ -157,7 +157,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
     assert stills
     still = max(stills, key=lambda event: event.end - event.start)
     S = np.linspace(still.start - 0.2 * sizes.p1, still.end + 0.2 * sizes.p1, 60)
-    # tip at tip the couple that leaves is thin: steps across it must be finer still
+    # the overlap of a leaving tooth pair is thin at the tips, so steps across it must be finer
     S = np.sort(np.append(S, still.start - 0.2 * sizes.p1 * 0.9 ** np.arange(230)))
     y = np.array([-float(transmission.angle(S[0]))]) - 1e-9 * sizes.p2
     for angle, q in zip(S[1:], transmission.angle(S[1:]), strict=True):
@@ -175,7 +175,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
 def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> None:
     """The outlines are turned on in small steps, the driven wheel dragging, and no step passes through a tooth.
 
-    Soon the driven wheel is caught between the tooth that came in and the one before, though flanks have play. If it
+    Soon the driven wheel is caught between the tooth that came in and the one before, although there is backlash. If it
     lags so far that the tooth that comes in passes its mate altogether, it is not pushed for most of a pitch.
     """
     rng, skipped, steps = np.random.default_rng(5), 0, 400
@@ -208,7 +208,7 @@ def test_after_a_clash_the_outlines_stick_fast_or_skip_a_tooth(number: int) -> N
         else:
             skipped += 1
             assert clash.amount > 0.1 * sizes.p2
-            assert float(transmission.angle(angle)) + y > 0.6 * sizes.p2  # behind the law of its pushing flanks
+            assert float(transmission.angle(angle)) + y > 0.6 * sizes.p2  # behind the pushing flanks
     assert skipped <= 0.05 * number
 
 
@@ -286,7 +286,7 @@ PLACES = CuttingErrorModel(ErrorDistribution(0.04))
 def test_a_batch_says_of_each_what_its_own_transmission_says(
     cutting: CuttingErrorModel, ring: Literal[0, 1, 2], number: int
 ) -> None:
-    """Play, clash, standstill and gap of random pairs, on both sides of their windows."""
+    """Backlash, clash, dwell and loss of contact of random pairs, on both sides of their windows."""
     rng, kinds, done = np.random.default_rng(1), np.zeros(4, int), 0
     while done < (2 * number if ring else number):
         z1, z2 = (int(z) for z in rng.integers(9, 30, 2))
@@ -299,7 +299,7 @@ def test_a_batch_says_of_each_what_its_own_transmission_says(
         sizes = sizes.at(window.at(rng.choice([0.05, 0.3, 0.9, 1.02 if ring else 1.05])))
         shift = 0.0 if cutting is PLACES else 0.01 * min(sizes.depths) * rng.standard_normal(4)
         try:
-            # a ring that jams by more than the depth of a tooth has no law
+            # a ring that jams by more than the depth of a tooth has no transmission function
             driver, driven = cut(sizes, rng, 4, HALF if ring and cutting is EVERY else cutting)
             found = batch_verdicts(sizes, driver, driven, shift)
         except RangeError:
@@ -310,7 +310,7 @@ def test_a_batch_says_of_each_what_its_own_transmission_says(
         for at in range(4):
             here = shift if np.ndim(shift) == 0 else float(shift[at])
             events = CutPairLaw.of(sizes, driver.taken(at), driven.taken(at), here).events
-            if not (ring and found.disengaged[at]):  # where no tooth is in reach the play is that of no position
+            if not (ring and found.disengaged[at]):  # without a tooth in reach the backlash is undefined
                 near = (1e-6 if cutting is PLACES else 1e-8) * sizes.p2
                 assert found.backlash[at] == pytest.approx(events.backlash, abs=near)
             assert found.disengaged[at] == bool(events.of("disengaged"))
@@ -321,7 +321,7 @@ def test_a_batch_says_of_each_what_its_own_transmission_says(
 
 
 def test_trials_do_not_know_each_other() -> None:
-    """In one chunk or in many, alone or together, with shared wheels or copies of them."""
+    """Results do not depend on chunks, nor on whether wheels are shared or copied."""
     sizes, rng = equally_deep(24, 15, 0.02), np.random.default_rng(2)
     driver, driven = cut(sizes, rng, 12, EVERY)
     whole = batch_verdicts(sizes, driver, driven)
@@ -335,7 +335,7 @@ def test_trials_do_not_know_each_other() -> None:
 
 
 def test_places_alone_are_reckoned_in_another_way_with_the_same_result() -> None:
-    """Tips that grow by nothing to speak of send the same wheels through the general way."""
+    """Negligible tip errors select the general computation for the same wheels."""
     rng = np.random.default_rng(3)
     for z1, z2, excess, sigma in ((64, 38, 0.02, 0.06), (24, 15, 0.02, 0.05), (15, 20, 0.03, 0.07)):
         sizes = equally_deep(z1, z2, excess)
@@ -393,7 +393,7 @@ def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the
     filed = wheel.filed(leading, trailing)
 
     def lines(each: CutWheel) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Of both flanks the distance from the axle and the direction of the normal, ahead counted up."""
+        """Distance of both flanks from the axis, and direction of their normals, positive ahead."""
         tip = each.r * np.exp(-1j * each.theta)
         ways = (each.half_angle + each.leading, 1j), (each.half_angle + each.trailing, -1j)
         normals = [tip / abs(tip) * side * np.exp(-side * lean) for lean, side in ways]
@@ -405,7 +405,7 @@ def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the
 
 
 def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:
-    """To first order where e1 + e2 exceeds what the distance has above the least one of the window."""
+    """To first order, this is where e1 + e2 exceeds the distance above the minimum of the window."""
     sizes = equally_deep(64, 38, 0.02)
     room = (0.02 - find_window(sizes).jam) * sizes.deepest_distance
     share = np.array([0.6, 0.85, 1.15, 1.4])
@@ -424,7 +424,7 @@ def test_a_bound_has_its_ends() -> None:
 
 
 def test_wheels_whose_tips_do_not_meet_touch_nowhere_and_stop_nothing() -> None:
-    """Of places alone too, for which tables stand in of couples that there are none of."""
+    """This includes the fast computation of pitch deviations, whose tables assume tooth pairs in contact."""
     sizes = TriangularSizes(45, 225, *equal_depth(45, 225, THIRTY, THIRTY), THIRTY, THIRTY, 0.0225)
     assert sizes.R1 + sizes.R2 < sizes.D
     driver, driven = cut(sizes, np.random.default_rng(5), 3, PLACES)

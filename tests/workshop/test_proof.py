@@ -209,7 +209,7 @@ def test_the_backlash_of_a_link_is_the_sum_of_the_backlashes_on_the_way_to_it() 
 
 
 def test_planets_and_their_carrier_are_held_by_sun_and_ring() -> None:
-    """With sun and ring held, the carrier turns until both meshes are at an end: by half the play of each."""
+    """With sun and ring held, the carrier turns until both meshes are at an end: by half the backlash of each."""
     found = proof("planetary-24-18-60", module=2.0, backlash=0.1)
     assert found.is_ready
     backlashes = {each.link: degrees(each.backlash or 0.0) for each in found.links}
@@ -241,7 +241,7 @@ def test_wheels_of_other_sizes_on_one_axle_pair_do_not_hold_or_do_not_fit() -> N
 
 
 def test_solids_of_two_links_in_one_place_are_named_with_their_volume() -> None:
-    """A back plate half a millimetre too far forward: shoulders stand in it by that less half the end shake."""
+    """A back plate is 0.5 mm too far forward, so shoulders overlap it by this minus half of the end shake."""
     model = SolidModel(geartrain.load("longcase-clock-cycloidal"), ManufacturingSizes())
     heights = {part.name: part.placed.vertices[:, 2].min() for part in model.parts}
     way = 0.5 if heights["plates back plate"] < heights["plates front plate"] else -0.5
@@ -260,7 +260,7 @@ def test_solids_of_two_links_in_one_place_are_named_with_their_volume() -> None:
     assert float(re.search(r"by (\S+) mm3", told)[1]) == pytest.approx(ring * 0.4, rel=0.02)  # type: ignore[index]
 
 
-# ------------------------------------------------------------------------------------------------------- what is told
+# ------------------------------------------------------------------------------------------------------- report
 
 
 def test_the_readme_begins_with_the_verdict_and_has_a_row_for_every_mesh() -> None:
@@ -301,7 +301,7 @@ tooth_form: {{{each}, backlash: 0.05}}
 
 @pytest.mark.slow
 def test_what_check_says_stands_in_the_verdict_with_its_rule() -> None:
-    """Seven planets stand in two layers where no tips meet; what the declaration says is told all the same."""
+    """Seven planets are in two layers where no tips meet; findings on the declaration are listed all the same."""
     model = declared("""
 links:
   frame: {wheels: {ring: {teeth: 60, internal: true}}}

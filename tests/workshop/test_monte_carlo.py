@@ -194,9 +194,10 @@ def even_teeth(plan: TrialPlan) -> tuple[TriangularTransmission, np.ndarray]:
 
 
 def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
-    """One tooth pair touches: a late driving tooth delays the driven wheel by tau times as much, a driven one by as much.
+    """A late driving tooth delays the driven wheel by tau times its error, a late driven tooth by its own error.
 
-    So the variance is that of even teeth, and the mean of tau squared times that of the one wheel, and of the other.
+    The variance is that of perfect teeth, plus the mean of tau squared times that of the driver, plus that of the
+    driven wheel.
     """
     plan = planned(chain((64, 38)), "pitch_deviation=0.6 %")
     transmission, S = even_teeth(plan)

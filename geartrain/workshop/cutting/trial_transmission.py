@@ -64,9 +64,11 @@ class TrialTransmissionFunction(TransmissionFunction):
         return found
 
     def error(self, S: ArrayLike) -> Floats:
+        """Return the transmission errors at angles S [rad of the driven wheel]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
+        """Return the speed ratios dq/dS at angles S [rad]."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
@@ -82,6 +84,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         return 0.0, inf
 
     def efficiency(self, S: ArrayLike) -> Floats:
+        """Return NaN at each angle, because efficiency is not computed in trials."""
         return np.full(np.shape(S), nan)
 
     def efficiency_mean(self) -> float:

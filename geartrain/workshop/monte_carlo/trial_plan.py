@@ -136,22 +136,27 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def teeth(self) -> tuple[int, int]:
+        """Numbers of teeth of the driver and of the driven wheel."""
         return self.sizes.z1, self.sizes.z2
 
     @property
     def depth(self) -> float:
+        """Smaller tooth depth of the two wheels [unit of the radii]."""
         return min(self.sizes.depths)
 
     @property
     def backlash(self) -> float:
+        """Nominal backlash [pitch of the driven wheel]."""
         return nominal_backlash(self.sizes)
 
     @property
     def question(self) -> tuple[float, ...]:
+        """Radii, half angles and excess of the centre distance."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
+        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of the pair."""
         sizes = self.sizes
         R1, R2 = sizes.signed_radii
         first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
@@ -159,19 +164,24 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
+        """Return the events of a cut pair in each trial."""
         return batch_verdicts(pair.sizes, pair.first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
+        """Return the transmission functions of a cut pair, computed tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
+        """Return a cut pair after filing, limited to an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
+        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the jam probability, with the nominal backlash j."""
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
+        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window."""
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
@@ -201,39 +211,48 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def teeth(self) -> tuple[int, int]:
+        """Numbers of teeth of the driver and of the driven wheel."""
         first, second = self.contact.wheels
         return first.z, second.z
 
     @property
     def depth(self) -> float:
+        """Smaller tooth depth of the two wheels [module; rad for bevel gears]."""
         return min(each.depth for each in self.contact.wheels)
 
     @property
     def backlash(self) -> float:
+        """Nominal backlash [pitch of the driven wheel]."""
         return even_backlash(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:
+        """Numbers that identify the contact."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
+        """Return the pair of drawn wheels, mirrored if they turn against the numbering of their teeth."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         return DisplacedPair(self.contact, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
+        """Return the events of a cut pair in each trial."""
         found: MeshingVerdicts = pair.verdicts()
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
+        """Return the transmission functions of a cut pair, from the foremost tooth pair at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
+        """Return a cut pair after filing, limited to an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
+        """Return the pair at a clearance factor of the centre distance, 1 or more."""
         if clearance < 1 or not self.contact.distance < inf:
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"

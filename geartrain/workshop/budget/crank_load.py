@@ -155,8 +155,7 @@ class CrankLoad(Result):
     `over_turn`.
     """
     efficiency: float | None
-    """Output power divided by input power; None if undetermined, or if neither friction nor an efficiency is declared.
-    """
+    """Output power divided by input power; None if undetermined, or without declared friction or efficiency."""
     note: str
     """Note on the loads that apply, or on missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)

@@ -44,9 +44,7 @@ class BudgetCause(Result):
     degrees: float | None = None
     """Size of this contribution as defined by `measure` [deg]; None if it is unknown."""
     rms: float | None = None
-    """Root mean square of the contribution [deg]. For a drift and for cutting, it is taken of the deviation from the
-    mean; for lost motion, of the value itself.
-    """
+    """Root mean square [deg] of the contribution; for a drift and for cutting, of its deviation from the mean."""
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 

@@ -344,9 +344,7 @@ class MeshingCycle:
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the backlash [rad] of selected front tooth pairs (trial, pair) and back pairs n before, without
-        tables.
-        """
+        """Return the backlash [rad] of selected front pairs (trial, tooth pair) and back pairs n before, exactly."""
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each

@@ -71,9 +71,7 @@ class SobolIndices(Result):
     output: str
     """Name of the output."""
     by: By
-    """Grouping of the manufacturing errors into input variables: "wheel" for all errors of one wheel, "kind" for one
-    kind of error of all wheels.
-    """
+    """Input variables: "wheel" for all errors of one wheel, "kind" for one kind of error of all wheels."""
     trials: int
     """Number of base samples in which the pointer error is finite."""
     indices: tuple[SobolIndex, ...]
@@ -199,9 +197,7 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function that returns the errors of the output in some base samples [rad], shape (trials, inputs + 2), with
-    the columns A, AB(i), B.
-    """
+    """Task function: errors of an output in some base samples [rad], one row each with the columns A, AB(i), B."""
 
     plan: TrialPlan
     seed: int

@@ -230,9 +230,7 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the deviations as in `errors`, but to first order [rad]: each pair at its mean angle, each pin at its
-        mean ratio.
-        """
+        """Return `errors` to first order [rad]: each pair at its mean angle, each pin at its mean ratio."""
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 

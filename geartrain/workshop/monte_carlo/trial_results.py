@@ -107,9 +107,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def bounds(self) -> Mapping[str, float]:
-        """Pair -> upper bound of the jam probability, 0 to 1. Pairs without a bound, such as pairs with other errors
-        than normal pitch deviations, are omitted.
-        """
+        """Upper bound of the jam probability, 0 to 1, by pair, if all its errors are normal pitch deviations."""
         found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
         return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -383,9 +381,7 @@ class PointerErrorStatistics(Result):
     first: FirstOrderError
     """Root mean square of the error from first-order superposition, and root mean square of the pointer error [rad]."""
     shares: Mapping[str, float]
-    """Share of each pair in the variance of the pointer error, from first-order superposition; the sum of the shares
-    is 1. Empty if the variance is 0.
-    """
+    """Share of each pair in the variance, by first-order superposition; the sum is 1. Empty if the variance is 0."""
 
     @property
     def runs(self) -> int:

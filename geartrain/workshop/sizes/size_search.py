@@ -77,9 +77,7 @@ class SizeSearch:
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point; designs that do not turn or violate a limit have larger values
-        than all feasible designs.
-        """
+        """Return the objective as a function of a point, larger for infeasible designs than for all feasible ones."""
 
         def figure(at: Point) -> float:
             design = self.design(at)

@@ -85,13 +85,21 @@ def to_dxf(drawing: FlatDrawing) -> str:
     Raise `MissingExtraError` if ezdxf is not installed.
     """
     try:
-        from ezdxf import units
+        from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment
         from ezdxf.filemanagement import new
     except ImportError:
         raise MissingExtraError("ezdxf", "dxf", "an outline as DXF") from None
-    document = new("R2010", units=units.MM)
-    document.header["$TDCREATE"] = document.header["$TDUPDATE"] = 0  # makes the file reproducible
+    kept = options.write_fixed_meta_data_for_testing
+    # fixed dates and GUIDs, which ezdxf sets when a document is created and when it is written
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        return _dxf(drawing, new("R2010", units=units.MM), TextEntityAlignment.MIDDLE_CENTER)
+    finally:
+        options.write_fixed_meta_data_for_testing = kept
+
+
+def _dxf(drawing: FlatDrawing, document: Any, centred: Any) -> str:
     document.header.custom_vars.append("Title", drawing.title)
     space = document.modelspace()
     used: dict[str, int] = {
@@ -109,7 +117,7 @@ def to_dxf(drawing: FlatDrawing) -> str:
         space.add_lwpolyline([(float(x), float(y)) for x, y in line], dxfattribs={"layer": ENGRAVE})
     for mark in drawing.marks:
         text = space.add_text(mark.text, height=mark.height, rotation=mark.angle, dxfattribs={"layer": ENGRAVE})
-        text.set_placement(mark.at, align=TextEntityAlignment.MIDDLE_CENTER)
+        text.set_placement(mark.at, align=centred)
     out = StringIO()
     document.write(out)
     return out.getvalue()

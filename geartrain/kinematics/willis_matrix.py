@@ -15,8 +15,8 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from geartrain.errors import Problem, RangeError
+from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.elimination import PRIME, eliminate, residues
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Shown

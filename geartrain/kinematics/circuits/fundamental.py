@@ -96,6 +96,24 @@ class Circuit(NamedTuple):
         return self._replace(a=a if self.a > 0 else -a, b=b if self.b > 0 else -b)
 
 
+class WillisEquation(NamedTuple):
+    """Equation of a Willis system: the sum of coefficient times speed over `terms` is equal to `right`.
+
+    See Also
+    --------
+    WillisSystem : all rows of a train
+    """
+
+    label: str
+    """Name of the pair, or of the prescribed speed, such as `input sun`."""
+    kind: str
+    """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
+    terms: tuple[tuple[str, int], ...]
+    """Pairs of a link and its non-zero coefficient."""
+    right: Fraction = Fraction(0)
+    """Right-hand side of the equation [unit of the train]."""
+
+
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
     """Return the circuits of all gear pairs, then of all couplings, in the order of the declaration."""

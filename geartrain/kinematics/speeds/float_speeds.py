@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
+from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.kinematics.willis_matrix import independent_rows
 from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.numerics.containers import FrozenFields, LazyMapping

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.numerics.rounding_bounds import two_product, two_sum
 
 if TYPE_CHECKING:

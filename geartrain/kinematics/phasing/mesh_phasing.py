@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import find_components
@@ -428,7 +428,7 @@ class MeshPhasing(Result):
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
         """Phase conditions of a cycle basis of short loops, followed by conditions on several loops together."""
-        return _Loops(self.problem)
+        return tuple(describe_loop(self.problem, condition) for condition in self.problem.conditions)
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
@@ -575,7 +575,7 @@ class MeshPhasing(Result):
         else:
             yield f"phase closure: not all of {loops} can be decided, because positions are too inaccurate"
         shown = self.missing or [at for at, one in enumerate(self.problem.conditions) if one.kind == "unclear"]
-        yield from (f"  {self.loops[at].text}" for at in shown[:_SHOWN])
+        yield from (f"  {describe_loop(self.problem, self.problem.conditions[at]).text}" for at in shown[:_SHOWN])
         if len(shown) > _SHOWN:
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
@@ -604,21 +604,6 @@ class MeshPhasing(Result):
     def _errors(self, angles: Sequence[float] | Floats) -> dict[str, float]:
         found = self.problem.errors(angles).tolist()
         return {circuit.id: error for circuit, error in zip(self.problem.circuits, found, strict=True)}
-
-
-class _Loops(Sequence[LoopPhase]):
-    """Sequence of loop results, each of which is computed when it is accessed."""
-
-    def __init__(self, problem: PhaseSystem) -> None:
-        self.problem = problem
-
-    def __len__(self) -> int:
-        return len(self.problem.conditions)
-
-    def __getitem__(self, at: Any) -> Any:
-        if isinstance(at, slice):
-            return [self[one] for one in range(*at.indices(len(self)))]
-        return describe_loop(self.problem, self.problem.conditions[at])
 
 
 def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, str]) -> dict[str, Fraction] | None:

@@ -20,7 +20,6 @@ from geartrain.kinematics.components import Components, find_components, reduce_
 from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, minors
 from geartrain.kinematics.formulas.laurent import Term as Term
 from geartrain.kinematics.formulas.rational_functions import Formula as Formula
-from geartrain.kinematics.formulas.rational_functions import MonomialGroup as MonomialGroup
 from geartrain.kinematics.formulas.rational_functions import make_formula
 from geartrain.numerics.elimination import PRIME, add_into, eliminate_units
 from geartrain.numerics.results import Result

@@ -12,7 +12,6 @@ from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, comm
 from geartrain.numerics.exact import fraction_text, is_short, log10
 
 if TYPE_CHECKING:
-
     from geartrain.numerics.arrays import Floats, Ints
 
 

@@ -83,8 +83,6 @@ def _intermittent_note(train: Train, wheel: str, position: int) -> Problem:
 Method = Literal["auto", "exact", "sparse", "floats"]
 """Method of solution; "floats" is an older name of "sparse"."""
 
-_CONDITIONED = 400  # maximum number of links for which all condition numbers are computed; else only those of outputs
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -304,7 +302,6 @@ class TrainKinematics(Shown):
         self,
         state: str | None = None,
         inputs: Mapping[str, Sequence[float]] | None = None,
-        condition_of: Sequence[str] = (),
     ) -> FloatSpeeds:
         """Return float64 speeds by sparse LU with error estimates; several input speeds share one factorisation.
 
@@ -314,22 +311,18 @@ class TrainKinematics(Shown):
             A declared state; None only for a train without states.
         inputs : mapping of str to sequence of float, optional
             Input link -> speeds, one for each case, instead of the declared speeds [unit of the train].
-        condition_of : sequence of str
-            Links whose component-wise condition number is computed (docs/theory.md, equation 25).
 
         Returns
         -------
         FloatSpeeds
-            Speeds and error estimates as arrays with axes (link, case).
+            Speeds and error estimates as arrays with axes (link, case), and condition numbers.
         """
         from geartrain.kinematics.speeds import solve_floats
 
         system, case = self.equations(state), self.case(state)
         if inputs is not None:
             _check_inputs(inputs, tuple(case.inputs))
-        for link in condition_of:
-            check_choice("link", link, system.links)
-        return solve_floats(system, inputs, condition_of)
+        return solve_floats(system, inputs)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
         """Return the case with a single output, the link whose speed is the output, and the link relative to which it
@@ -413,7 +406,7 @@ class TrainKinematics(Shown):
             solution = self._without_speeds(part, case)
         if not solution.verdict:  # the system is not square
             return self._rounded_answer(part, case, wanted, solution)
-        found = solve_floats(system, condition_of=self._condition_links(part, case, wanted))
+        found = solve_floats(system)
         speeds: dict[str, SpeedValue] = dict(zip(part.links, found.speeds.values[:, 0].tolist(), strict=True))
 
         def accuracy() -> dict[str, SpeedAccuracy]:
@@ -442,16 +435,6 @@ class TrainKinematics(Shown):
         verdict = exact_verdict(part.reduced, case, self.signs)
         still = verdict.kind == "locked" and not any(case.inputs.values())
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
-
-    def _condition_links(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Return the links whose condition number is reported: all links, or outputs only in long trains, because each
-        costs a solve.
-        """
-        if wanted is None and len(part.links) <= _CONDITIONED:
-            return part.links
-        frame = self.declaration.frame
-        outputs = (wanted,) if wanted else (each.links(name, frame) for name, each in case.outputs.items())
-        return tuple(dict.fromkeys(link for pair in outputs for link in pair))
 
     def _rounded_answer(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution

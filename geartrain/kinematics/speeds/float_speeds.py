@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,10 +19,9 @@ from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.circuits.fundamental import WillisEquation
-from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_matrix import independent_rows
+from geartrain.kinematics.willis_matrix import PaddedRows, independent_rows
 from geartrain.kinematics.willis_system import WillisSystem
-from geartrain.numerics.containers import FrozenFields, LazyMapping
+from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
 from geartrain.numerics.results import Shown
@@ -76,8 +74,8 @@ class FloatSpeeds(FrozenFields, Shown):
     working precision [1].
     """
     condition: Mapping[str, float]
-    """Link -> component-wise condition number cond(A, x) of the first case, equation (25), for the requested links. It
-    is at least 1, and infinite for a link at rest. Computed at the first access.
+    """Link -> component-wise condition number cond(A, x) of the first case, equation (25). It is at least 1, and
+    infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
     """
 
     def _summary(self) -> str:
@@ -88,15 +86,10 @@ class FloatSpeeds(FrozenFields, Shown):
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # overflow is refused below
-def solve_floats(
-    system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None, condition_of: Sequence[str] = ()
-) -> FloatSpeeds:
+def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs        input link -> speeds, one for each case, for every input of the system; all cases share one
-                  factorisation
-    condition_of  links whose component-wise condition number is requested; each costs one transposed solve when it is
-                  read
+    inputs   input link -> speeds, one for each case, for every input of the system; all cases share one factorisation
 
     Raises `RangeError` if the system is not square and regular, or if a speed is not between 1e-120 and 1e120.
     """
@@ -122,9 +115,16 @@ def solve_floats(
         _with_frame(system, matrix, x),
         _with_frame(system, matrix, estimate),
         labelled_array(residual, row=[row.label for row in rows], case=[str(case) for case in range(x.shape[1])]),
-        # the factors are kept in memory until the condition numbers are read, and only if these were requested
-        LazyMapping(partial(matrix.condition, lu, condition_of, x[:, 0])) if condition_of else {},
+        _condition_numbers(system, matrix, x[:, 0], spread[:, 0]),
     )
+
+
+def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
+    """Return |A^-1| |A| |x| / |x| of each link; `spread` is its numerator, exact if the inverse was computed."""
+    if len(x) > _INVERTED:
+        return {}
+    numbers = np.divide(spread, np.abs(x), out=np.full_like(x, np.inf), where=x != 0).tolist()
+    return {link: numbers[matrix.at[link]] if link in matrix.at else float("inf") for link in system.links}
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:

@@ -207,7 +207,7 @@ def test_a_turning_pair_is_removed_by_its_two_links(child: Child) -> None:
         ("{gears: [secnd]}", "did you mean 'second'"),
         ("{wheels: [zz]}", "`remove` names the unknown part 'zz'"),
         ("{outputs: [nothing]}", "`remove` names the unknown part 'nothing'"),
-        ("{revolutes: [[a, b]]}", "an unknown turning pair of a and b"),
+        ("{revolutes: [[a, b]]}", "the unknown turning pair of a and b"),
         ("{couplings: [pin]}", "`remove` names the unknown part 'pin'"),
         ("{states: [s]}", "`remove` names the unknown part 's'"),
         ("{colours: [red]}", "colours"),

@@ -12,10 +12,10 @@ from commands import call
 from hypothesis import given, settings
 from joint_rates import move
 from random_trains import driven_train
-from reference_solver import echelon, solve_naively, willis_rows
+from reference_solver import echelon, willis_rows
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu, spsolve
-from strategies import Data, driven_trains, overdriven_trains, trains
+from strategies import Data, overdriven_trains, trains
 
 from geartrain import GearTrain, load
 from geartrain.errors import RangeError
@@ -30,14 +30,6 @@ def dense_solution(found: WillisMatrix) -> dict[str, Fraction]:
     assert len(lines) == len(found.links)
     assert len(echelon(lines, len(found.links))) == len(found.links)
     return {link: line[-1] for link, line in zip(found.links, lines, strict=True)}
-
-
-@settings(max_examples=20)
-@given(driven_trains())
-def test_elimination_of_the_matrix_gives_the_speeds_of_the_naive_solver(data: Data) -> None:
-    found = GearTrain.declare(data).equations().matrix()
-    right = solve_naively(data).speeds
-    assert dense_solution(found) == {link: right[link] for link in found.links}
 
 
 def test_elimination_of_the_matrix_gives_the_speeds_of_the_joint_rates() -> None:

@@ -91,7 +91,14 @@ SECOND = ("x", "y")
         # a short form keeps what the parent says of the wheel, and a long one merges with a short one
         (
             "links: {b: {wheels: {w: 80}}, a: {wheels: {p: {status: surviving}}}}",
-            {"wheels": {"p": (20, None, "surviving"), "w": (80, "S", None), "x": (10, None, None), "y": (40, None, None)}},
+            {
+                "wheels": {
+                    "p": (20, None, "surviving"),
+                    "w": (80, "S", None),
+                    "x": (10, None, None),
+                    "y": (40, None, None),
+                }
+            },
         ),
         # outputs merge by name and key, and null removes a key or an entry
         ("outputs: {last: {expect: 5}, fresh: {of: a}}", {"last": ("c", "d", 5), "outputs": ["b", "last", "fresh"]}),

@@ -9,10 +9,11 @@ small for real trains.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 
 from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.circuits import Circuit
@@ -136,7 +137,9 @@ def find_components(
     group_carrier: list[int] = []
     closing: list[int] = []
     breaking: list[int] = []
-    for root in _search_order(nodes_of, [index[link] for link in first if link in index], count):
+    starts = (node for link in first if link in index for node in nodes_of.get(index[link], ()))
+    # then components that contain no input
+    for root in chain(starts, range(count)):
         if group[root] >= 0:
             continue
         this = len(group_carrier)
@@ -205,13 +208,6 @@ def _nodes(
         edges[here].append((at, there, -a, b))
         edges[there].append((at, here, -b, a))
     return node_link, node_carrier, edges, holding
-
-
-def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
-    for link in first:
-        yield from nodes_of.get(link, ())
-    # components that contain no input; nodes that were already reached are skipped by the caller
-    yield from range(count)
 
 
 @dataclass(frozen=True, slots=True)

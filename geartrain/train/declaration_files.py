@@ -145,17 +145,9 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """Return a file and all files that it extends, directly or indirectly.
+    """Return a YAML file and all files that it extends, directly or indirectly.
 
-    Parameters
-    ----------
-    path : Path
-        A YAML file.
-
-    Raises
-    ------
-    DeclarationError
-        If one of the files is missing or cannot be read.
+    Raises `DeclarationError` if one of the files is missing or cannot be read.
     """
     child = parse_yaml(_read(path), str(path))
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))

@@ -179,19 +179,10 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
     -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
 
-    Parameters
-    ----------
-    wheels : tuple of Wheel
-        The two wheels.
-    angle : float
-        Angle between the directions of the axes [rad], 0 to pi.
-    side : int
-        1 if the angle is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown.
+    angle   angle between the directions of the axes [rad], 0 to pi
+    side    1 if it is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown
 
-    Raises
-    ------
-    GearTrainError
-        If the teeth are not aligned.
+    Raises `GearTrainError` if the teeth are not aligned.
     """
     lean = wheels[0].helix + wheels[1].helix
     # both sides are tried if the positions do not determine the sense of the angle
@@ -217,12 +208,8 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
     """Return the helix angles of two wheels on skew axes [rad], positive for right hands; None if none is declared.
 
     The helix angle of a worm and the shaft angle determine the helix angle of its wheel by (12a); it may also be
-    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
-
-    Raises
-    ------
-    GearTrainError
-        If the wheel of a worm declares another helix angle or hand than the worm requires.
+    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`. Raises
+    `GearTrainError` if the wheel of a worm declares another helix angle or hand than the worm requires.
     """
     kinds = [wheel.kind for wheel in wheels]
     if "worm" not in kinds:

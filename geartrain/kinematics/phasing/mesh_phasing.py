@@ -287,7 +287,9 @@ class LoopPhase(Result):
             return f"{name} closes{self._accuracy_remark}"
         if self.kind == "unclear":
             return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
-        words = f"{name} misses by {_magnitude_text(self.miss)} pitch at {self.meshes[-1]}{self._accuracy_remark}"
+        miss = abs(self.miss)
+        size = fraction_text(miss) if isinstance(miss, Fraction) else f"{miss:.6g}"
+        words = f"{name} misses by {size} pitch at {self.meshes[-1]}{self._accuracy_remark}"
         if self.retime:
             # the wheel with the smallest rotation is suggested
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
@@ -358,10 +360,6 @@ def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str,
         found[gear] = found.get(gear, Fraction(0)) + part
         before = mesh
     return found
-
-
-def _magnitude_text(value: Fraction | float) -> str:
-    return fraction_text(abs(value)) if isinstance(value, Fraction) else f"{abs(value):.6g}"
 
 
 # --------------------------------------------------------------------------------------------------------- mesh phasing

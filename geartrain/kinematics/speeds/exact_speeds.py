@@ -285,7 +285,8 @@ def propagate(
     bottom = speeds.bottom  # denominators; 0 means unknown
     speeds.set_root(index[frame], 0)
     known = []
-    for name, speed in _prescribed(case, signs):
+    inputs = [(link, speed * signs.get(link, 1)) for link, speed in case.inputs.items()]
+    for name, speed in [*((link, Fraction(0)) for link in case.fixed), *inputs]:
         at = index[name]
         if bottom[at]:
             return None  # prescribed twice, or the frame; the diagnosis decides whether that is consistent
@@ -320,11 +321,6 @@ def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], cas
         if first != second:
             rows.append(tuple([(index[link], factor) for link, factor in ((first, 1), (second, -1)) if link != frame]))
     return rows
-
-
-def _prescribed(case: StateCase, signs: Mapping[str, int]) -> list[tuple[str, Fraction]]:
-    given = [(link, Fraction(0)) for link in case.fixed]
-    return given + [(link, speed * signs.get(link, 1)) for link, speed in case.inputs.items()]
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:

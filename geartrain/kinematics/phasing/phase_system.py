@@ -5,7 +5,7 @@ errors.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -50,12 +50,9 @@ _PASSES = 8  # passes over the remaining chords: a chord that is taken shortens 
 _Edges = dict[int, list[tuple[int, int]]]
 
 
-@collector_paused()
-def find_cycle_basis(
-    parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
-) -> list[PhaseCycle]:
-    """Return a cycle basis: for each chord the shortest loop through it, the search tree, and chords that were used
-    before.
+def find_cycle_basis(parts: Components, ends: Sequence[tuple[int, int]]) -> Iterator[tuple[list[int], list[int]]]:
+    """Yield nodes and meshes of a cycle basis: for each chord the shortest loop through it, the search tree, and chords
+    that were used before.
 
     Each loop contains its own chord and no later chord, so the loops are independent and generate all loops.
     """
@@ -67,7 +64,6 @@ def find_cycle_basis(
     depth = node_depths(parts)
     # chords near the root first: their loops are short, and shorten others
     waiting = sorted(parts.closing, key=lambda at: depth[ends[at][0]] + depth[ends[at][1]])
-    found: list[PhaseCycle] = []
     for most in _LENGTHS:
         for _ in range(_PASSES):
             later = []
@@ -77,14 +73,12 @@ def find_cycle_basis(
                 if way is None:
                     later.append(chord)
                     continue
-                nodes, meshes = way[0], [*way[1], chord]
-                found.append(PhaseCycle(tuple(nodes), tuple(meshes), cycle_weights(circuits, ends, nodes, meshes)))
+                yield way[0], [*way[1], chord]
                 _join(edges, chord, i, j)
             progress = len(later) < len(waiting)
             waiting = later[::-1]  # reversed, because chords left over by one pass may be reachable from the other end
             if not progress or not waiting:
                 break
-    return found
 
 
 def node_depths(parts: Components) -> list[int]:
@@ -128,27 +122,6 @@ def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[i
         nodes.append(node)
         meshes.append(mesh)
     return nodes[::-1], meshes[::-1]
-
-
-def cycle_weights(
-    circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], nodes: Sequence[int], meshes: Sequence[int]
-) -> tuple[int, ...]:
-    """Return weights for which the coefficients cancel at every node; the weight of the last mesh is positive."""
-    weights: list[Fraction | int] = [1]
-    for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
-        came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
-        # one wheel in both meshes, the usual case: no Fraction is needed
-        if abs(came) == abs(goes):
-            weights.append(-weights[-1] if came == goes else weights[-1])
-        else:
-            weights.append(Fraction(-came, goes) * weights[-1])
-    sign = -1 if weights[-1] < 0 else 1
-    return tuple(sign * weight for weight in whole_multiple(weights))
-
-
-def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], mesh: int, node: int) -> int:
-    """Return the coefficient (a or b) of a node's angle in the equation of a mesh."""
-    return circuits[mesh].a if ends[mesh][0] == node else circuits[mesh].b
 
 
 # --------------------------------------------------------------------------------------------------------- phase system
@@ -233,7 +206,27 @@ class PhaseSystem:
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
         """Loops of a cycle basis, which are as short as possible."""
-        return find_cycle_basis(self.parts, self.circuits, self.ends)
+        with collector_paused():
+            return [self._cycle(*loop) for loop in find_cycle_basis(self.parts, self.ends)]
+
+    def _cycle(self, nodes: Sequence[int], meshes: Sequence[int]) -> PhaseCycle:
+        """Return a loop with weights for which the coefficients cancel at every node; the weight of the last mesh is
+        positive.
+        """
+        weights: list[Fraction | int] = [1]
+        for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
+            came, goes = self.coefficient(before, node), self.coefficient(mesh, node)
+            # one wheel in both meshes, the usual case: no Fraction is needed
+            if abs(came) == abs(goes):
+                weights.append(-weights[-1] if came == goes else weights[-1])
+            else:
+                weights.append(Fraction(-came, goes) * weights[-1])
+        sign = -1 if weights[-1] < 0 else 1
+        return PhaseCycle(tuple(nodes), tuple(meshes), tuple(sign * weight for weight in whole_multiple(weights)))
+
+    def coefficient(self, mesh: int, node: int) -> int:
+        """Return the coefficient (a or b) of a node's angle in the equation of a mesh."""
+        return self.circuits[mesh].a if self.ends[mesh][0] == node else self.circuits[mesh].b
 
     # ------------------------------------------------------------------------------------ coupling through shared links
 
@@ -279,7 +272,7 @@ class PhaseSystem:
         speed = parts.relative(node) * factor
         while parts.node_parent[node] >= 0:
             mesh = parts.node_circuit[node]
-            share = speed / (parts.relative(node) * mesh_coefficient(self.circuits, self.ends, mesh, node))
+            share = speed / (parts.relative(node) * self.coefficient(mesh, node))
             total[mesh] = total.get(mesh, Fraction(0)) + share
             node = parts.node_parent[node]
 

@@ -218,14 +218,13 @@ class _Expansion:
             self.declared.gears, lambda gear: [self.declared.wheels[wheel][0] for wheel in gear.pair], self._gear
         )
         couplings = self._all_copies(self.declared.couplings, lambda each: (each.pin, each.slot), self._coupling)
+        counts = [_pair_count(self.declared, gear) for gear in self.declared.gears]
         states = self.declared.states
         made = self.declared.changed(
             links=FrozenDict(links),
             axes=FrozenDict(axes),
             revolutes=tuple(joint for _, joint in joints),
-            gears=tuple(
-                _with_divided_share(gear, _pair_count(self.declared, self.declared.gears[at])) for at, gear in gears
-            ),
+            gears=tuple(_with_divided_share(gear, counts[at]) for at, gear in gears),
             couplings=tuple(coupling for _, coupling in couplings),
             loads=self._loads(self.declared.loads),
             states=FrozenDict({name: state.changed(loads=self._loads(state.loads)) for name, state in states.items()}),

@@ -431,12 +431,12 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
         return Solution(determined_verdict(case), walked, ratios, signs)
     reduced = part.reduced
     budget = elimination_budget(reduced, budget)
-    rows = [*reduced.equations, *held_rows(reduced, case), *_input_rows(reduced, case, signs)]
-    echelon = eliminate_within(rows, budget)
+    held = [*reduced.equations, *held_rows(reduced, case)]
+    echelon = eliminate_within([*held, *_input_rows(reduced, case, signs)], budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
     # all inputs 0: speeds are 0 also for a locked train, so the rank decides
-    if not any(case.inputs.values()) and _is_immobile(reduced, case, budget):
+    if not any(case.inputs.values()) and eliminate(held, budget).rank == reduced.unknowns:
         return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)
     speeds, undetermined = _determined_speeds(reduced, forms, signs)
@@ -497,11 +497,6 @@ def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int
         if speed:
             row[_GIVEN] = -speed * signs.get(link, 1)
         yield row
-
-
-def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """Return True if no link can move. The speeds of a case whose inputs are all 0 do not show this."""
-    return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
 def _free_difference(reduced: ReducedSystem, forms: Mapping[int, LinearForm], of: str, base: str) -> Fraction | None:

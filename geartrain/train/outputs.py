@@ -77,13 +77,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it.
-
-    See Also
-    --------
-    Dial : one with a pointer
-    DialRing : one around a dial
-    """
+    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it."""
 
     divisions: Whole = Field(
         1, description="Number of divisions along all turns; default the sum of the spans of its names"

@@ -104,7 +104,7 @@ class GearSearch(Tabular, Result):
     output: str
     """Name of the driven link."""
     closed: int
-    """Number of elements that must be closed so that the inputs determine all speeds."""
+    """Number of shift elements that must be closed so that the inputs determine all speeds."""
     combinations: int
     """Number of combinations of `closed` shift elements."""
     gears: tuple[PossibleGear, ...]
@@ -206,7 +206,7 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Find every gear with the smallest number of closed elements that determines the speeds.
+    """Return every gear with the smallest number of closed elements that determines the speeds, without a series.
 
     All such combinations have the same size, because they are the bases of a matroid.
     """

@@ -38,19 +38,19 @@ class Components:
     node_carrier: Sequence[int]
     """Carrier of each node, as an index into `links`."""
     node_group: Sequence[int]
-    """Component of each node."""
+    """Index of the component of each node."""
     ratios: FactoredRatios
     """Speed of each node's link relative to its carrier, divided by the unknown speed of its component."""
     node_circuit: Sequence[int]
-    """Circuit through which the breadth-first search reached each node; -1 for a root."""
+    """Index of the circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
-    """Carrier of each component."""
+    """Carrier of each component, as an index into `links`."""
     nodes_of: Mapping[int, Sequence[int]]
     """Link -> its nodes, one for each carrier relative to which it meshes."""
     closing: Sequence[int]
-    """Circuits that close a loop with ratio product 1; each is redundant."""
+    """Indices of the circuits that close a loop with ratio product 1; each of these circuits is redundant."""
     breaking: Sequence[int]
-    """Circuits that close a loop with another ratio product; they lock their component to its carrier."""
+    """Indices of the circuits that close a loop with another ratio product and lock their component to its carrier."""
     holding: Sequence[int]
     """Couplings with winding number 0, which lock the component of the slot to its carrier."""
 

@@ -1,7 +1,7 @@
-"""Equal planets declared by `copies`, and the expanded train in which each of them is declared separately.
+"""Equal planets declared by `copies`, and the expanded train in which each planet is declared separately.
 
-Speeds need only one of them, because equal planets have equal speeds. Assembly, loads, drawings and part lists need all
-of them: docs/theory.md, 6.
+One planet determines all speeds, because equal planets have equal speeds. Assembly, loads, drawings and part lists need
+all planets: docs/theory.md, 6.
 """
 
 from __future__ import annotations
@@ -197,7 +197,9 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Expansion of the copies of a train and their turning pairs; copy 1 is the declared link."""
+    """Expansion of a train in which every copy of a link, joint, pair or coupling becomes a separate part; copy 1 is
+    the declared part.
+    """
 
     declared: Train
     tree: Tree

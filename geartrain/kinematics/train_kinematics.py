@@ -1,7 +1,8 @@
 """Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-Solution of a state has four steps: read its inputs, brakes and locks; find the relevant part of the train; choose the
-method; evaluate the outputs. Remarks are notes, not errors: they describe conventions and mean values in the answers.
+A state is solved in four steps: read its inputs, brakes and locks; find the part of the train that affects the
+requested links; choose the method; evaluate the outputs. Remarks are notes, not errors: they describe conventions and
+mean values in the answers.
 """
 
 from __future__ import annotations

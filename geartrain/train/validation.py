@@ -105,7 +105,7 @@ def _union_tags(kind: Any) -> tuple[Any, ...]:
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Return a mapping from tag to class of every friction law."""
+    """Return the class of each friction law by its tag, the value of `law`."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
@@ -192,7 +192,7 @@ def _without_space(loc: Loc, value: Any) -> str:
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
-    """Return the discriminator key and the allowed tags from the error of an unknown tag."""
+    """Return the key that selects a model, and its allowed values, from pydantic's error on an unknown value."""
     context = error["ctx"]
     return context["discriminator"].strip("'"), tuple(context["expected_tags"].replace("'", "").split(", "))
 

@@ -78,8 +78,8 @@ class YamlNode:
 
 @collector_paused()
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError` for invalid
-    YAML.
+    """Parse `text` as one YAML document; `name` is the file name in the places of the nodes. Raises `DeclarationError`
+    for invalid YAML.
     """
     try:
         _check_limits(text, name)
@@ -104,7 +104,7 @@ def parse_yaml(text: str, name: str) -> YamlNode:
 
 
 def _check_limits(text: str, name: str) -> None:
-    """Raise `DeclarationError` for too many values, or for deep nesting, before the composer overflows the stack."""
+    """Raise `DeclarationError` for too many values or deep nesting, on which the recursive composer would fail."""
     depth = 0
     for values, event in enumerate(yaml.parse(text, Loader=_Loader), 1):
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
@@ -201,7 +201,7 @@ class _Reader:
         return target
 
     def _add(self, mapping: YamlNode, key: YamlNode, value: YamlNode) -> None:
-        """Add an entry to a mapping."""
+        """Add an entry to a mapping; report a key that is null, repeated, or not a scalar."""
         if not isinstance(key.value, str):
             text = "null" if key.value is None else "a list or mapping"
             self.problems.append(

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of a rule: the id of a wheel with a free count, or a fixed count."""
+"""Tooth count as a term of a rule: the id of a wheel with a variable count, or a fixed count."""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without unit, "m" for a length."""
@@ -44,7 +44,7 @@ class AssemblyMesh:
     axes: tuple[str, str]
     """Labels of the axes about which the two links turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
-    """Tooth counts of the wheels: the id of a wheel with a free count, or a fixed count."""
+    """Tooth counts of the wheels: the id of a wheel with a variable count, or a fixed count."""
     sense: int
     """1 if the wheels turn in opposite senses relative to the carrier, else -1."""
     ring: int | None
@@ -60,7 +60,7 @@ class AssemblyMesh:
 
     @property
     def is_free(self) -> bool:
-        """True if at least one tooth count of the pair is free."""
+        """True if at least one tooth count of the pair is variable."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
@@ -107,7 +107,7 @@ class Planet:
 
     @property
     def mesh_of(self) -> dict[str, AssemblyMesh]:
-        """One mesh of each of the planet's wheels that mesh in the set, the last in the order of the fields."""
+        """Wheel of the planet that meshes in the set -> one of its meshes, the last in the order of the fields."""
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
         return {self.own(mesh): mesh for mesh in meshes}
@@ -150,7 +150,7 @@ _Central = tuple[str, AssemblyMesh]  # central wheel, and its mesh with a planet
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """Train with the data that the assembly rules of planets need: fixed and free tooth counts, meshes, sets of
+    """Train with the data that the assembly rules of planets need: fixed and variable tooth counts, meshes, sets of
     planets.
     """
 
@@ -163,12 +163,12 @@ class TrainAssembly:
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
-        """Return the assembly data of a train whose wheels `free` have free tooth counts."""
+        """Return the assembly data of a train whose wheels `free` have variable tooth counts."""
         tree = find_tree(train)
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of a rule: its id if the count is free, else the count."""
+        """Return the tooth count of a wheel as a term of a rule: its id if the count is variable, else the count."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 

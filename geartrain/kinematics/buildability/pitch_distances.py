@@ -1,6 +1,6 @@
 """Checks of modules and centre distances: wheels in mesh must have the same module, and two axes one centre distance.
 
-Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance between two
+Modules and distances are stored as multiples of each other. Wheels in mesh share a module (1). The distance between two
 axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
 and offsets give some of them in mm. These statements are stored in a weighted union-find structure with exact
 fractions; a statement on a quantity that is already known is compared with it.
@@ -233,7 +233,8 @@ class PitchPair:
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum centre distance at which these teeth can run, possibly with more backlash [modules].
+        """Minimum and maximum centre distance at which these teeth can run [modules]; the backlash at the maximum may
+        be larger than at `distance`.
 
         Profiles may be shifted if no tooth form is declared. If no size is declared either, the two wheels may have
         been cut with slightly different pitches. Declared involutes can run at distances with more backlash.

@@ -135,7 +135,7 @@ class Formula:
     label: str
     """Name of the output whose speed is given by the function, or cause of a condition."""
     wheels: tuple[str, ...]
-    """Free wheels on which the function depends, in the order of the declaration."""
+    """Wheels on whose tooth counts the function depends, in the order of the declaration."""
     numerator: tuple[Term, ...]
     """Terms of the numerator, with non-negative exponents in the order of `wheels`. Coefficients are integers, coprime
     with the coefficients of the denominator.

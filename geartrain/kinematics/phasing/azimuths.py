@@ -330,8 +330,8 @@ def _floats(vector: IntegerVector) -> tuple[float, float, float]:
 def _families(
     circuits: Sequence[Circuit], contacts: Sequence[_Contact], turns: Sequence[tuple[float, float]]
 ) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
-    """Return the family of each contact, its angle from the first contact of the family [turn], and the families with
-    guesses.
+    """Return the family of each contact, its angle from the first contact of the family [turn], and the families in
+    which angles were recognised as fractions from rounded positions.
     """
     heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
     guessed: set[int] = set()

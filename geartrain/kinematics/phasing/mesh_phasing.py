@@ -249,7 +249,9 @@ class LoopPhase(Result):
     weights: tuple[int, ...]
     """Integer weight of each pair in the sum of the phase equations; 1 or -1 except for compound wheels."""
     residue: Fraction | float
-    """Deviation of the sum from the nearest integer [pitch], -1/2 to 1/2; a Fraction if it is exact."""
+    """Weighted sum of the phase constants of the pairs minus the nearest integer [pitch], -1/2 to 1/2; a Fraction if it
+    is exact.
+    """
     slack: float
     """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""
     how: ResidueKnowledge
@@ -304,7 +306,7 @@ class LoopPhase(Result):
 
 
 def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
-    """Return a phase condition with the names of its wheels and pairs."""
+    """Return a phase condition as a `LoopPhase`, with the names of its wheels and pairs."""
     gears: list[str] = []
     over: dict[str, int] = {}
     cycle = condition.cycle

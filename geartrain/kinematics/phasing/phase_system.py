@@ -36,7 +36,7 @@ class PhaseCycle(NamedTuple):
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Coprime integers; with them as weights, the left sides of the equations of the meshes add up to 0."""
+    """Coprime integer weight of each mesh; the weighted left sides of the meshes' equations add up to 0."""
 
     @property
     def row(self) -> dict[int, int]:
@@ -163,14 +163,16 @@ class PhaseCondition:
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Basis of the residue: "exact", "recognised" or "numeric"."""
+        """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions) or
+        "numeric".
+        """
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"
 
     @property
     def miss(self) -> Fraction | float:
-        """Error of the last mesh if all other meshes mesh exactly [pitch]."""
+        """Phase error of the last mesh if all other meshes have none [pitch]."""
         return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
 
 

@@ -1,10 +1,10 @@
 """Exact speeds by propagation or elimination, and the verdict.
 
-Propagation is tried first: if two of a circuit's three links are known, the third follows. It solves ordinary trains,
-and every train whose links are driven one after another, in integers and in linear time. If it stops (a planetary set
-with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved by Gaussian
-elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes and locks that
-cause this.
+Propagation is tried first: if the speeds of two of a circuit's three links are known, the third follows. It solves
+ordinary trains, and every train whose links are driven one after another, in integers and in linear time. If it stops
+(a planetary set with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved
+by Gaussian elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes
+and locks that cause this.
 """
 
 from __future__ import annotations
@@ -448,8 +448,8 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """Return the operation budget for one system: 30 operations for each equation are added, for equations that are not
-    coupled.
+    """Return the operation budget for one system: `budget` plus 30 operations for each equation, which equations need
+    even if they are not coupled. None stays None.
     """
     return None if budget is None else budget + 30 * len(reduced.equations)
 

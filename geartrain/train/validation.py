@@ -306,7 +306,7 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
 
 
 def _single_link(axis: str, place: str) -> Problem:
-    why = "its list begins with the link that carries the other links"
+    why = "the first link of its list carries the other links"
     return Problem(
         f"axis '{axis}' has fewer than two links", why, f"for example, write `{axis}: [frame, arbor]`", place
     )

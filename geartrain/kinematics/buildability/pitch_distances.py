@@ -74,6 +74,7 @@ def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> fl
     SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80
     or 100 teeth 16.
     """
+    # a tip circle of the ring within its base circle is treated as the base circle
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
     lean = cos(tip2) / cos(tip1)
     outer = asin(sqrt(min(max((1 - lean**-2) / (1 - (z1 / z2) ** 2), 0.0), 1.0)))

@@ -347,8 +347,8 @@ class Formulas(Mapping[str, Formula], Result):
     the items of `outputs`.
 
     A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with variable counts are assumed to
-    turn. A train that moves although such a loop is locked therefore has no formulas. Loops without variable counts may turn
-    or be locked.
+    turn. A train that moves although such a loop is locked therefore has no formulas. Loops without variable counts may
+    turn or be locked.
     """
 
     outputs: Mapping[str, Formula]

@@ -288,6 +288,7 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
             return "its axes do not intersect"
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
     sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
+    # an error of one direction turns the common plane of both axes by at most error/sine
     rounded = _turns((first.unsure + second.unsure) / sine)
     # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
     return _Contact((across_whole(m, first.way), across_whole(n, second.way)), rounded, 16 * EPS / sine)
@@ -297,6 +298,7 @@ def _norm(vector: IntegerVector) -> Fraction:
     """Return the length of an integer vector as a Fraction, to at least 64 bits; its components may have hundreds of
     digits.
     """
+    # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
 

@@ -109,6 +109,7 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
     hidden = 16 * UNIT_ROUNDOFF**2 * terms + 16 * UNIT_ROUNDOFF * matrix.size(more)
     reach, spread = np.hsplit(_error_bound(lu, np.hstack([hidden, terms])), 2)
     _check_digits(lu, matrix, np.abs(x), spread)
+    # equation (24) with A^-1 r' refined once; the factor 2 covers the rounding errors of that solution
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + reach
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
     return FloatSpeeds(
@@ -230,6 +231,7 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
     small.
     """
     far = ((x != 0) & (np.abs(np.frexp(x)[1]) > _LARGEST_EXPONENT)).any(axis=1)
+    # a row whose links are all nearly at rest is compared with the fastest link of the train
     limit = np.maximum(matrix.size(x), np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
     # breakdown of the factors; negated `<=`, so that nan counts as wrong
     wrong = (~(np.abs(rest) <= 1e-6 * limit)).any(axis=1)

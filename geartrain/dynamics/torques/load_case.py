@@ -58,9 +58,7 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on one link that balances the loads in every motion, equation (16); None if no
-    torque does.
-    """
+    """Return the torque on one link that balances the loads in every motion, equation (16); None if no torque does."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))

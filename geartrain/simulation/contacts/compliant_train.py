@@ -136,15 +136,8 @@ class CompliantTrain(TrainModel):
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
     def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients of a pair's opening speed in the speeds of the coordinates, at the mean speed
-        ratio.
-        """
-        row = np.zeros(len(self.coordinates))
-        for at, value in pair.driven.items():
-            row[at] += value
-        for at, value in pair.driver.items():
-            row[at] -= pair.front.slope * value
-        return row
+        """Return the coefficients of a pair's opening speed at the mean speed ratio."""
+        return pair.opening_row(len(self.coordinates), pair.front.slope)
 
     def _inertia(self, row: Floats) -> float:
         """Return the effective inertia of a pair's row [kg m2], 1/(r M^-1 r^T); 0 if all its speeds are prescribed."""

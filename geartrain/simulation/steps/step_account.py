@@ -90,7 +90,7 @@ def count_contacts(
     rules: StepRules,
 ) -> None:
     """Add times in contact, impacts with their energy, and friction losses, by pair."""
-    for m in range(len(system.stiff)):
+    for m in range(len(system.tables)):
         rate_S, rate_q, mean_S, mean_q = 0.0, 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
@@ -125,8 +125,6 @@ def count_contacts(
         if struck and system.two_sided[m] == 0 and here.closing[m, side] > minimum:
             state.struck[m] = 1
             count_impact(record, m, taken, here.P[m], state.steady[m])
-            counts[IMPACT_COUNT] += 1.0
-            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.closing[m, side])
             note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
         elif state.struck[m] != 0:
             # a ratio that jumps within a step is replaced by the mean of both values; the next step has the rest
@@ -151,7 +149,7 @@ def count_compliant_contacts(
     The work of a contact without its damping is added to the numerical dissipation, from which the change of the stored
     energy must be subtracted.
     """
-    for m in range(len(system.stiff)):
+    for m in range(len(system.tables)):
         rate_S, rate_q, start_S, start_q = 0.0, 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
@@ -162,8 +160,8 @@ def count_compliant_contacts(
         mean_S, mean_q = (start_S + rate_S) / 2, (start_q + rate_q) / 2
         counts = record.counts[m]
         if system.two_sided[m] == 0:
-            ahead = teeth.gap[m, 0] + rules.step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
-            behind = teeth.gap[m, 1] + rules.step / 4 * (here.ratio[m, 1] * rate_S - rate_q)
+            ahead = here.gap[m, 0] + rules.step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
+            behind = here.gap[m, 1] + rules.step / 4 * (here.ratio[m, 1] * rate_S - rate_q)
             count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
             for side in range(2):
                 opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
@@ -187,8 +185,6 @@ def count_compliant_contacts(
         if now != here.before[m] and system.two_sided[m] == 0:
             if here.before[m] != 0:
                 counts[CHANGES] += 1.0
-            counts[IMPACT_COUNT] += 1.0
-            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], -sign * rate)
             # at first contact the force is only that of damping, which decreases within the first step
             met = sign * (here.ratio[m, side] * start_S - start_q)
             teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
@@ -216,7 +212,7 @@ def count_released_energy(
     """
     parted = (1 if here.before[m] == side + 1 else 0) - (1 if state.touching[m] == side + 1 else 0)
     if parted != 0:
-        pressed = min(teeth.gap[m, side] - opened, 0.0)
+        pressed = min(here.gap[m, side] - opened, 0.0)
         left = parted * teeth.stiffness[m] / 2 * pressed * pressed
         record.energy[IMPACT_LOSS] += left
         record.energy[STEP] -= left
@@ -273,45 +269,41 @@ def count_stops(
     system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, step: float
 ) -> None:
     """Add the impacts of links against their stops."""
-    pairs = len(system.stiff)
-    for m in range(len(system.stop_stiff)):
-        if state.stopped[m] == 0:
-            state.struck[pairs + m] = 0
+    for stop in range(len(system.stop_pitch)):
+        m = len(system.tables) + stop
+        if state.touching[m] == OPEN:
+            state.struck[m] = 0
             continue
         rate, start = 0.0, 0.0
-        for x in range(system.stop_at[m], system.stop_at[m + 1]):
-            rate += system.stop_c[x] * here.middle[system.stop_of[x]]
-            start += system.stop_c[x] * state.speed[system.stop_of[x]]
-        taken = here.P[pairs + m] * rate
-        counts = record.counts[pairs + m]
-        counts[IMPULSE] += here.P[pairs + m]
-        if state.struck[pairs + m] != 0:
-            state.struck[pairs + m] = 0
-            record.energy[IMPACT_LOSS] += taken
-            counts[IMPACT_ENERGY] += taken
-        elif here.before[pairs + m] == 0 and start > 0.0:
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            rate += system.pair_driven[x] * here.middle[system.pair_of[x]]
+            start += system.pair_driven[x] * state.speed[system.pair_of[x]]
+        taken = here.P[m] * rate
+        # the whole dissipation of a stop belongs to its impacts
+        record.energy[IMPACT_LOSS] += taken
+        counts = record.counts[m]
+        counts[IMPULSE] += here.P[m]
+        counts[IMPACT_ENERGY] += taken
+        closing = -1.0
+        if state.struck[m] != 0:
+            state.struck[m] = 0
+        elif here.before[m] == OPEN and start > 0.0:
             # it reaches its stop in this step, and comes to rest in the next
-            state.struck[pairs + m] = 1
-            record.energy[IMPACT_LOSS] += taken
-            counts[IMPACT_COUNT] += 1.0
-            counts[IMPACT_ENERGY] += taken
-            closing = here.stop_closing[m]
-            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], closing)
-            note_impact(record, state.clock[0], pairs + m, closing, taken, here.P[pairs + m])
-        else:
-            # a stop that advances and is reached again within one step: its whole dissipation belongs to that impact
-            # (its closing speed is at least that of the step)
-            record.energy[IMPACT_LOSS] += taken
-            counts[IMPACT_ENERGY] += taken
-            if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
-                counts[IMPACT_COUNT] += 1.0
-                counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.stop_bound[m])
-                note_impact(record, state.clock[0], pairs + m, here.stop_bound[m], taken, here.P[pairs + m])
+            state.struck[m] = 1
+            closing = here.stop_closing[stop]
+        elif -here.bound[m, 1] * step > system.stop_pitch[stop] / 2:
+            # a stop that advances and is reached again within one step; its closing speed is at least that of the step
+            closing = -here.bound[m, 1]
+        if closing >= 0.0:
+            note_impact(record, state.clock[0], m, closing, taken, here.P[m])
 
 
 @kernel
 def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
-    """Append an impact to the list; if the list is full, only count it."""
+    """Count an impact of a contact, and append it to the list unless that is full."""
+    counts = record.counts[which]
+    counts[IMPACT_COUNT] += 1.0
+    counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], speed)
     at = record.numbers[IMPACTS]
     if at < len(record.impacts):
         row = record.impacts[at]

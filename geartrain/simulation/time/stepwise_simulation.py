@@ -111,7 +111,6 @@ class Simulation(Shown):
         self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops))
         self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
-        self._place = np.argsort(model.order.coordinates)
         self._torque = np.array(self._system.torque)
         self.time = 0.0
         self.torque = 0.0
@@ -174,7 +173,7 @@ class Simulation(Shown):
     @property
     def speeds(self) -> dict[str, float]:
         """Angular speeds of the outputs by name [rad/s]."""
-        return self._by_output(self._of.speeds @ self._state.speed[self._place])
+        return self._by_output(self._of.speeds @ self._state.speed)
 
     @property
     def angle(self) -> float:
@@ -184,12 +183,12 @@ class Simulation(Shown):
     def _turned(self) -> Floats:
         """Return the angle through which each link has turned since the start [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
-        return self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
+        return self._of.speeds @ (self._state.angle + late * self._state.speed)
 
     @property
     def speed(self) -> float:
         """Angular speed of the link at which power enters [rad/s]."""
-        return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed[self._place])
+        return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed)
 
     @property
     def output_links(self) -> tuple[str, ...]:
@@ -261,7 +260,7 @@ class Simulation(Shown):
 
     def _set_torques(self) -> None:
         drive = self.drive if self.drive_kind == "torque" else 0.0
-        self._torque[:] = self._of.torque_of(self.loads, drive)[list(self._model.order.coordinates)]
+        self._torque[:] = self._of.torque_of(self.loads, drive)
         self._system.torque[:] = self._torque
 
     def advance(self, seconds: float) -> None:
@@ -307,7 +306,7 @@ class Simulation(Shown):
             return 0
         jump = np.zeros(len(self._torque))
         for at, value in self._of.model.given.items():
-            jump[self._place[at]] = value * self._share - self._state.speed[self._place[at]]
+            jump[at] = value * self._share - self._state.speed[at]
         if not jump.any():
             return 0
         self._state.speed[:] += jump
@@ -333,7 +332,7 @@ class Simulation(Shown):
         self.unsolved += int(record.numbers[UNSOLVED])
         way = -1.0 if self._of.typical(self.drive_link) < 0 else 1.0
         if self.drive_kind == "rate":
-            self.torque = float(way * drive[self._place[self._of.coordinates.index(self.drive_link)]])
+            self.torque = float(way * drive[self._of.coordinates.index(self.drive_link)])
         elif self.drive_kind == "torque":
             self.torque = way * self.drive
         else:

@@ -269,11 +269,12 @@ class Formula:
         """Return values in float64, and bounds on their absolute errors."""
         import numpy as np
 
-        from geartrain.numerics.bounded_polynomials import BoundedQuotient, in_range, products_of
+        from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of
 
-        quotient = BoundedQuotient.of(self.upper, self.lower, [group.roundings for group in self.groups])
+        roundings = [group.roundings for group in self.groups]
         with np.errstate(all="ignore"):
-            value, error = quotient.bounded(products_of([group.monomials(columns) for group in self.groups]))
+            product = products_of([group.monomials(columns) for group in self.groups])
+        value, error = bounded_quotient(self.upper, self.lower, roundings, product)
         terms = (*self.numerator, *self.denominator)
         scale = max(abs(term.coefficient) for term in terms)
         # the bounds are valid only without overflow and underflow

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, cos, exp, log, sqrt
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
     from geartrain.simulation.contacts.contact_model import ContactPair
     from geartrain.simulation.contacts.rubbing_arms import Arms
-    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.pin_coupling import Coupling
     from geartrain.teeth.transmission import ExactRatio
-    from geartrain.train import GearPair, Train
+    from geartrain.train import GearPair
 
 
 DAMPING_RATIO = 0.05
@@ -53,19 +53,9 @@ class CompliantTrain(TrainModel):
 
     restitution: float | None = None
 
-    @cached_property
-    def table(self) -> ToothComplianceTable:
-        """Stiffness and damping of the pairs of the train."""
-        driven = {}
-        for gear in self.train.gears:
-            first, second = gear.pair
-            driver = self.problem.drivers.get(gear.name)
-            driven[gear.name] = first if driver is not None and driver.wheel == second else second
-        return ToothComplianceTable(self.train, self._meshes, driven, self.restitution)
-
     def _is_contact(self, circuit: Circuit) -> bool:
         # a pair without stiffness keeps its ratio unless the rigid model makes it a contact
-        return circuit.id in self.table.pairs or super()._is_contact(circuit)
+        return circuit.id in self.compliances or super()._is_contact(circuit)
 
     def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         return (
@@ -75,28 +65,18 @@ class CompliantTrain(TrainModel):
     @property
     def assumed(self) -> tuple[str, ...]:
         """Notes on the estimates that replace undeclared stiffness and damping."""
-        names = [pair.name for pair in self.model.pairs]
-        yields = [self.table.pairs[name] for name in names]
-        notes = [each.note for each in yields if each.note]
-        assumed = [
-            name
-            for name, each in zip(names, yields, strict=True)
-            if each.damping is None and self.restitution is None and self._undeclared(name)
-        ]
-        if assumed:
-            ratio = self.table.pairs[assumed[0]].ratio
+        found = {pair.name: self.compliances[pair.name] for pair in self.model.pairs}
+        notes = [each.note for each in found.values() if each.note]
+        if assumed := [name for name, each in found.items() if each.assumes_ratio]:
             notes.append(
-                f"damping of {', '.join(assumed)} taken as {ratio:g} of the critical damping, because none is declared"
+                f"damping of {', '.join(assumed)} taken as {DAMPING_RATIO:g} of the critical damping, because none is "
+                "declared"
             )
         return tuple(notes)
 
-    def _undeclared(self, name: str) -> bool:
-        parts = {part.name: part for part in (*self.train.gears, *self.train.couplings)}
-        return self.train.restitution_of(parts[name]) is None
-
     @cached_property
-    def pair_compliances(self) -> tuple[PairCompliance, ...]:
-        """Stiffness and damping of each pair of the contact model.
+    def yields(self) -> ToothCompliance:
+        """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays.
 
         Raises `QuestionError` if a stiffness is missing, and for escapements.
         """
@@ -105,8 +85,7 @@ class CompliantTrain(TrainModel):
             raise QuestionError(
                 Problem(what, "the stops of an escapement are rigid", "use rigid teeth (`--model rigid`)")
             )
-        lacking = [pair.name for pair in self.model.pairs if pair.name not in self.table.pairs]
-        if lacking:
+        if lacking := [pair.name for pair in self.model.pairs if pair.name not in self.compliances]:
             what = f"the stiffness of {', '.join(lacking)} is not known"
             why = (
                 "it is estimated only for involute wheels of steel, brass or bronze with known module, thickness and "
@@ -114,21 +93,17 @@ class CompliantTrain(TrainModel):
             )
             fix = "declare the stiffness of pairs or the train, such as `stiffness: 20 N m/rad` (pins: only N m/rad)"
             raise QuestionError(Problem(what, why, fix))
-        return tuple(self.table.pairs[pair.name] for pair in self.model.pairs)
-
-    @cached_property
-    def yields(self) -> ToothCompliance:
-        """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays."""
-        stiffness = np.array([each.stiffness for each in self.pair_compliances], dtype=np.float64)
-        damping = [
-            # damping from the damping ratio: c = 2 zeta sqrt(k m)
-            2 * each.ratio * np.sqrt(each.stiffness * self._inertia(self._row(pair)))
-            if each.damping is None
-            # declared
-            else each.damping
-            for pair, each in zip(self.model.pairs, self.pair_compliances, strict=True)
-        ]
-        return ToothCompliance(stiffness, np.array(damping, dtype=np.float64))
+        stiffness, damping = np.zeros(len(self.model.pairs)), np.zeros(len(self.model.pairs))
+        for at, pair in enumerate(self.model.pairs):
+            own = self.compliances[pair.name]
+            stiffness[at] = own.stiffness
+            # damping that is not declared follows from the damping ratio: c = 2 zeta sqrt(k m)
+            damping[at] = (
+                2 * own.ratio * sqrt(own.stiffness * self._inertia(self._row(pair)))
+                if own.damping is None
+                else own.damping
+            )
+        return ToothCompliance(stiffness, damping)
 
     @cached_property
     def free(self) -> list[int]:
@@ -194,61 +169,35 @@ class CompliantTrain(TrainModel):
             rates.append(float(c) / inertia / 2 if inertia else 0.0)
         return max(float(np.sqrt(self.vibration[0][-1])), *rates)
 
-
-# --------------------------------------------------------------------------------------- stiffness and damping of pairs
-
-
-@dataclass(frozen=True)
-class PairCompliance:
-    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
-
-    stiffness: float
-    source: Literal["declared", "estimated"]
-    """Source of the stiffness; `note` describes the estimate."""
-    damping: float | None
-    """Damping [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
-    ratio: float
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class ToothComplianceTable:
-    """Stiffness and damping of the pairs of a train, declared or estimated."""
-
-    train: Train
-    meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth by name; `driven` has the driven wheel of each pair."""
-    driven: Mapping[str, str]
-    restitution: float | None = None
-    """Coefficient of restitution of every pair; None for the declared values."""
+    # ----------------------------------------------------------------------------------- stiffness and damping of pairs
 
     @cached_property
-    def pairs(self) -> Mapping[str, PairCompliance]:
+    def compliances(self) -> Mapping[str, PairCompliance]:
         """Stiffness and damping by pair or coupling, where the stiffness is declared or can be estimated."""
         found = {}
         for gear in self.train.gears:
-            ratio = self._ratio(gear)
             stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
             if stiffness is not None:
+                estimate: tuple[float, str] | None = self._about_driven(gear, stiffness, "stiffness"), ""
+            else:
+                estimate = self._estimate(gear)
+            if estimate is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
-                value = self._about_driven(gear, stiffness, "stiffness")
-                found[gear.name] = PairCompliance(value, "declared", own, ratio)
-            elif (estimate := self._estimate(gear)) is not None:
-                own = None if damping is None else self._about_driven(gear, damping, "damping")
-                found[gear.name] = PairCompliance(estimate[0], "estimated", own, ratio, estimate[1])
-        for coupling in self.train.couplings:
-            stiffness, damping = self.train.stiffness, self.train.damping
-            if stiffness is not None and stiffness.dimension == "torsional stiffness":
-                turning = damping is not None and damping.dimension == "torsional damping"
-                own = damping.si if damping is not None and turning else None
-                found[coupling.name] = PairCompliance(stiffness.si, "declared", own, self._ratio(coupling))
+                found[gear.name] = self._compliance(gear, *estimate, own)
+        stiffness, damping = self.train.stiffness, self.train.damping
+        if stiffness is not None and stiffness.dimension == "torsional stiffness":
+            turning = damping is not None and damping.dimension == "torsional damping"
+            own = damping.si if damping is not None and turning else None
+            for coupling in self.train.couplings:
+                found[coupling.name] = self._compliance(coupling, stiffness.si, "", own)
         return found
 
-    def _ratio(self, part: GearPair | object) -> float:
-        restitution = self.restitution
-        if restitution is None:
-            restitution = self.train.restitution_of(part)  # type: ignore[arg-type]
-        return DAMPING_RATIO if restitution is None else damping_ratio(restitution)
+    def _compliance(
+        self, part: GearPair | Coupling, stiffness: float, note: str, damping: float | None
+    ) -> PairCompliance:
+        restitution = self.train.restitution_of(part) if self.restitution is None else self.restitution
+        ratio = DAMPING_RATIO if restitution is None else damping_ratio(restitution)
+        return PairCompliance(stiffness, damping, ratio, damping is None and restitution is None, note)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
         """Convert a stiffness or damping to the driven wheel's axis [N m/rad or N m s/rad]."""
@@ -265,8 +214,10 @@ class ToothComplianceTable:
 
     def _arm(self, gear: GearPair) -> float | None:
         """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is not known."""
-        wheel = self.driven[gear.name]
-        mesh = self.meshes.get(gear.name)
+        first, second = gear.pair
+        driver = self.problem.drivers.get(gear.name)
+        wheel = first if driver is not None and driver.wheel == second else second
+        mesh = self._meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
         module = mesh.wheels.module if mesh is not None else None
         if module is None:
@@ -282,7 +233,7 @@ class ToothComplianceTable:
         """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
         method.
         """
-        mesh, arm = self.meshes.get(gear.name), self._arm(gear)
+        mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
         wheels = [self.train.wheels[name][1] for name in gear.pair]
@@ -300,6 +251,20 @@ class ToothComplianceTable:
             f"{elastic / _STEEL:.2g} by Young's modulus"
         )
         return _SINGLE * elastic / _STEEL * width * arm**2, note
+
+
+@dataclass(frozen=True)
+class PairCompliance:
+    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
+
+    stiffness: float
+    damping: float | None
+    """Damping [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
+    ratio: float
+    assumes_ratio: bool
+    """True if neither damping nor restitution is declared, so that `ratio` is the default."""
+    note: str
+    """Description of the estimate of the stiffness; empty if the stiffness is declared."""
 
 
 def restitution_at(ratio: float) -> float:

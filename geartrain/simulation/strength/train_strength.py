@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import hypot, inf, pi, sqrt
@@ -460,8 +460,7 @@ class StrengthQuestion:
                 self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
-            load = ArborLoad.of(own, steepest)
-            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
+            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), own, steepest)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
         """Return the names of the pairs of the given wheels that carry a torque but have no known forces."""
@@ -478,63 +477,41 @@ class StrengthQuestion:
 # ------------------------------------------------------------------------------------------ arbors between two bearings
 
 
-@dataclass(frozen=True, slots=True)
-class ArborLoad:
-    """Upper bounds of the load on an arbor by its wheels, as if all transverse forces acted in one direction."""
-
-    across: float
-    """Sum of the transverse forces [N]."""
-    along: float
-    """Maximum sum of the axial forces of one sign [N]; `thrust` is the resultant axial force on its shoulders [N]."""
-    thrust: float
-    couple: float
-    """Moment of the axial forces at their radii [N mm]; `torque` is the torque [N mm]."""
-    torque: float
-
-    @classmethod
-    def of(cls, forces: Iterable[WheelForce], steepest: Mapping[str, float]) -> ArborLoad:
-        """Return the load on an arbor by the forces on its wheels.
-
-        steepest   force of one tooth pair in single contact, by pair where it is known [N]
-        """
-        own = list(forces)
-        axial = [each.axial for each in own]
-        return cls(
-            sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in own),
-            # the arbor carries the larger sum of axial forces, its shoulders the resultant
-            max(sum(part for part in axial if part > 0), -sum(part for part in axial if part < 0)),
-            abs(sum(axial)),
-            sum(abs(each.axial) * each.radius for each in own),
-            max((abs(each.torque) * 1e3 for each in own), default=0.0),
-        )
-
-
-def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
+def arbor_strength(
+    link: str, arbor: ArborSizes, material: Material, forces: Sequence[WheelForce], steepest: Mapping[str, float]
+) -> ArborStrength:
     """Return the stresses and the strength of an arbor between two bearings: docs/strength.md (16), (17) and (26).
 
-    The stresses are upper bounds for all positions of its wheels.
+    The stresses are upper bounds for all positions of its wheels, as if all transverse forces acted in one direction.
+
+    steepest   force of one tooth pair in single contact, by pair where it is known [N]
     """
+    across = sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in forces)
+    # the arbor carries the larger sum of axial forces of one sign, its shoulders the resultant
+    along = max(sum(max(each.axial, 0.0) for each in forces), sum(max(-each.axial, 0.0) for each in forces))
+    thrust = abs(sum(each.axial for each in forces))
+    couple = sum(abs(each.axial) * each.radius for each in forces)
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
     # a pivot without a declared length is as long as its diameter
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
-    bending = bending_stress(maximum_moment(load.across, load.couple, span), diameter)
+    bending = bending_stress(maximum_moment(across, couple, span), diameter)
     # axial stress adds to the bending stress
-    bending += 4 * load.along / (pi * diameter**2)
-    torsion = torsional_stress(load.torque, diameter)
+    bending += 4 * along / (pi * diameter**2)
+    torsion = torsional_stress(max((abs(each.torque) * 1e3 for each in forces), default=0.0), diameter)
     strength = None if material.strength is None else material.strength.si / 1e6
     shoulder = pi / 4 * (diameter**2 - pivot**2)
     return ArborStrength(
         link,
         arbor.material,
-        load.across,
-        load.thrust,
+        across,
+        thrust,
         bending,
         torsion,
         sqrt(bending**2 + 3 * torsion**2),
         # all transverse forces, and the reaction to their moment, on one pivot
-        (load.across + load.couple / span) / (pivot * length),
-        load.thrust / shoulder if shoulder > 0 else None,
+        (across + couple / span) / (pivot * length),
+        thrust / shoulder if shoulder > 0 else None,
         strength,
     )
 

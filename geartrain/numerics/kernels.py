@@ -139,10 +139,6 @@ class Kernel(Generic[P, R]):
         """Return the compiled function if `fast`, else the function in plain Python."""
         return self.compiled if fast else self
 
-    def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
-        """Return the function with some of the kernels that it calls directly replaced by others, by name."""
-        return Kernel(cast("Callable[P, R]", self._copy_with(kernels)))
-
     def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
         """Return a copy of the function in which some global names refer to other objects."""
         own = self._function

@@ -10,14 +10,16 @@ import csv
 import io
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
 from geartrain.numerics.files.atomic import destination, place, unfinished_file
+
+T = TypeVar("T")
 
 PARTIAL_SUFFIX = "# partial: "
 
@@ -219,19 +221,12 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
     `#` begins a comment. Raises `GearTrainError` with the invalid lines.
     """
-    points: list[tuple[float, float, float]] = []
-    problems = []
-    for at, words in _rows(path):
-        try:
-            x, y, z = map(float, words)
-        except ValueError:
-            text = f"'{' '.join(words)}' is not a point"
-            problems.append(Problem(text, "a point consists of three numbers", "write x y z", f"{path}:{at}"))
-        else:
-            points.append((x, y, z))
-    if problems:
-        raise GearTrainError(problems)
-    return points
+
+    def point(words: list[str]) -> tuple[float, float, float]:
+        x, y, z = map(float, words)
+        return x, y, z
+
+    return _parsed_rows(path, point, "is not a point", "a point consists of three numbers", "write x y z")
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
@@ -239,19 +234,25 @@ def read_edges(path: Path) -> list[tuple[str, str]]:
 
     `#` begins a comment. Raises `GearTrainError` with the invalid lines.
     """
-    edges: list[tuple[str, str]] = []
-    problems = []
+
+    def edge(words: list[str]) -> tuple[str, str]:
+        first, second = words
+        return first, second
+
+    return _parsed_rows(path, edge, "is not a mesh", "a mesh consists of two names", "write the names of two gears")
+
+
+def _parsed_rows(path: Path, parse: Callable[[list[str]], T], what: str, why: str, fix: str) -> list[T]:
+    """Return the parsed lines of a file; `parse` raises `ValueError` for invalid words."""
+    found, problems = [], []
     for at, words in _rows(path):
-        if len(words) == 2:
-            edges.append((words[0], words[1]))
-        else:
-            text = f"'{' '.join(words)}' is not a mesh"
-            problems.append(
-                Problem(text, "a mesh consists of two names", "write the names of two gears", f"{path}:{at}")
-            )
+        try:
+            found.append(parse(words))
+        except ValueError:
+            problems.append(Problem(f"'{' '.join(words)}' {what}", why, fix, f"{path}:{at}"))
     if problems:
         raise GearTrainError(problems)
-    return edges
+    return found
 
 
 def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:

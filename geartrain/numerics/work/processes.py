@@ -64,11 +64,8 @@ class ProcessPool(WorkerPool):
             theirs = self._submit_to_pool(fn, *args, **kwargs)
         ours = follow(theirs, _translate)
         self._open[theirs] = ours
-        theirs.add_done_callback(self._forget)
+        theirs.add_done_callback(lambda ended: self._open.pop(ended, None))
         return ours
-
-    def _forget(self, theirs: Future[Any]) -> None:
-        self._open.pop(theirs, None)
 
     def _submit_to_pool(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         # not within `_interrupts_blocked`, because creating a pool starts a resource tracker, which unblocks signals

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 Form = Mapping[int, float]
 """Linear form of the coordinates: coefficient by index of the coordinate."""
 
-# a redundant row and that of a stop are regularised: the inverse compliance exceeds the inertia of all that turns with
-# the row by the first factor, and that of its own coordinates by at most the second
+# rows without a free coordinate, and those of stops, are regularised: the inverse compliance exceeds the inertia of all
+# that turns with the row by the first factor, and that of its own coordinates by at most the second
 _STIFF, _STIFFEST = 1e6, 1e9
 
 
@@ -121,20 +121,6 @@ class ContactModel:
     springs: Sequence[Spring] = ()
     start: Floats | None = field(default=None)
 
-    @cached_property
-    def redundant(self) -> list[bool]:
-        """True for each pair whose row depends linearly on the rows of earlier pairs, as in a closed loop of pairs."""
-        n = len(self.torque)
-        free = [at for at in range(n) if at not in self.given]
-        rows, found = np.zeros((0, len(free))), []
-        for pair in self.pairs:
-            # during a dwell the driver's speed has no effect
-            row = pair.opening_row(n, pair.front.slope if pair.has_no_dwell else 0.0)[free]
-            more = np.vstack([rows, row])
-            found.append(bool(np.linalg.matrix_rank(more) == len(rows)))
-            rows = rows if found[-1] else more
-        return found
-
     @property
     def fall_times(self) -> list[float]:
         """Time that each stopped link takes from one stop to the next [s], with all coordinates in their mean ratios.
@@ -190,8 +176,8 @@ class ContactModel:
             matrix = matrix + past**2 * spring.stiffness * np.outer(c, c)
         _, transmissions, rubbing = self._functions
         if yields is None:
-            pairs = zip(self.pairs, self.redundant, strict=True)
-            compliance = [1 / self._stiffness(pair.opening_row(n, 0.0)) if loop else 0.0 for pair, loop in pairs]
+            compliance = [0.0 if self._is_regular(pair) else 1 / self._stiffness(pair.opening_row(n, 0.0))
+                          for pair in self.pairs]  # fmt: skip
         else:
             compliance = (1 / (step**2 / 4 * yields.stiffness + step / 2 * yields.damping)).tolist()
         compliance += [1 / self._stiffness(_dense(stop.angle, n)) for stop in self.stops]
@@ -227,6 +213,12 @@ class ContactModel:
             np.array([each.rest for each in self.springs], dtype=np.float64),
             np.array([each.rate for each in self.springs], dtype=np.float64),
         )
+
+    def _is_regular(self, pair: ContactPair) -> bool:
+        """Return True if a free coordinate always contributes to the opening speed of a pair."""
+        # during a dwell the driver's speed has no effect
+        row = pair.opening_row(len(self.torque), pair.front.slope if pair.has_no_dwell else 0.0)
+        return any(value and at not in self.given for at, value in enumerate(row))
 
     def _stiffness(self, row: Floats) -> float:
         """Return the regularising inverse compliance of a row [kg m2], far above the inertia of the links that turn

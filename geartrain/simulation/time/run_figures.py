@@ -99,14 +99,11 @@ class RunFigures:
         found: Floats = self.of.speeds @ self.run.angles.T
         return found
 
-    def turns_of(self, link: str) -> Floats:
-        """Return the revolutions of a link since the start, shape (samples,)."""
-        return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
-
     @cached_property
     def turns(self) -> Floats:
         """Revolutions of the driving link, positive in its sense of rotation."""
-        return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.driving_link), dtype=np.float64)
+        turned = self.turned[self.of.index[self.of.problem.driving_link]] / tau
+        return np.asarray(self.of.problem.way * turned, dtype=np.float64)
 
     @cached_property
     def names(self) -> list[str]:

@@ -153,9 +153,7 @@ def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, in
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Extend the matching by a row through breadth-first search; return True if an augmenting path exists, else
-    False.
-    """
+    """Extend the matching by a row through breadth-first search; return True if an augmenting path exists."""
     # column -> the row that reached it, and the column matched to that row
     came: dict[int, tuple[int, int | None]] = {}
     queue: list[tuple[int, int | None]] = [(root, None)]

@@ -54,9 +54,7 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """Return the sum of arrays in their order, and the sum of their absolute values; zeros of `shape` if there are
-    none.
-    """
+    """Return the sum of arrays in their order, and the sum of their absolute values; zeros of `shape` for no arrays."""
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)

@@ -108,9 +108,7 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 def _scaled(value: Fraction, power: int, digits: int) -> int:
-    """Return round(value * 10**power), a number with about `digits` digits; only leading bits are used if they are
-    sufficient.
-    """
+    """Return round(value * 10**power), a number of about `digits` digits, from the leading bits if they suffice."""
     with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
         near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
         off = near - near.to_integral_value()

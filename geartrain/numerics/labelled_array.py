@@ -102,9 +102,7 @@ class LabelledArray(Tabular, Result):
 
 
 def _shown(count: int) -> list[int | None]:
-    """Return the displayed positions of an axis: all of them, or the first and the last positions with None between
-    them.
-    """
+    """Return the displayed positions of an axis: all, or the first and the last ones with None between them."""
     if count <= _MOST:
         return list(range(count))
     return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]

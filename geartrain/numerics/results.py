@@ -299,16 +299,16 @@ def _cell(value: object) -> str:
     return escape(value) if isinstance(value, str) else f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def imported_function(room: str, name: str) -> Callable[..., Any]:
+def imported_function(module: str, name: str) -> Callable[..., Any]:
     """Import the function that draws or describes a result, by name.
 
     Modules that draw import modules that calculate, not the reverse. Results call drawing code only through this
     function, by name, when they are displayed.
 
-    room   module or package below `geartrain`
-    name   name of the public function or class in it
+    module   module or package below `geartrain`
+    name     name of the public function or class in it
     """
-    found: Callable[..., Any] = getattr(import_module(f"geartrain.{room}"), name)
+    found: Callable[..., Any] = getattr(import_module(f"geartrain.{module}"), name)
     return found
 
 
@@ -350,9 +350,7 @@ class Key:
     of: str = ""
     """Path of the attribute, `part.attribute` for an attribute of a part, "." for the object; by default `name`."""
     to: Callable[[Any], Any] | None = None
-    """Function that converts each number or object in the attribute, at any depth; its return annotation is the type in
-    the data.
-    """
+    """Function that converts each number or object in the attribute; its return annotation is the type in the data."""
     keys: tuple[str | Key, ...] = ()
     """Keys of each object in the attribute, if they differ from the keys of its class."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from geartrain.errors import MissingExtraError
 from geartrain.numerics import LabelledArray
 
 
+@cache
 def tables() -> dict[str, Any]:
     box, set_ = geartrain.load("zf-8hp70"), geartrain.load("planetary-24-18-60")
     loaded = geartrain.load("longcase-clock-loaded")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import acos, cos, degrees, pi, sin, sqrt, tau
+from math import acos, degrees, pi, sqrt, tau
 
 import numpy as np
 import pytest
@@ -364,15 +364,6 @@ def test_a_disc_has_its_closed_form_wherever_it_stands() -> None:
     assert polar == pytest.approx(81 * pi / 2, rel=1e-15)
     area, polar = Contour.circle(3.0, (4.0, -5.0)).moments()
     assert polar == pytest.approx(81 * pi / 2 + 9 * pi * 41, rel=1e-14)
-
-
-@pytest.mark.parametrize("sides", [3, 4, 7, 100])
-def test_a_regular_polygon_has_its_closed_form(sides: int) -> None:
-    """n/2 r^2 sin(2 pi/n), and that times r^2 (2 + cos(2 pi/n))/6."""
-    kinks = [(2 * cos(tau * at / sides), 2 * sin(tau * at / sides), 0.0) for at in range(sides)]
-    area, polar = Contour.of(kinks).moments()
-    assert area == pytest.approx(2 * sides * sin(tau / sides), rel=1e-13)
-    assert polar == pytest.approx(2 * sides * sin(tau / sides) * 4 * (2 + cos(tau / sides)) / 6, rel=1e-13)
 
 
 def test_arcs_that_turn_left_and_right_agree_with_fine_triangles() -> None:

@@ -249,8 +249,8 @@ def test_two_discs_on_teeth_turn_together_and_swing_against_each_other() -> None
     wheels = {
         "links": {
             "frame": {},
-            "a": {"wheels": {"p": 20}, "inertia": "3e-6 kg m2"},
-            "b": {"wheels": {"w": 60}, "inertia": "5e-5 kg m2"},
+            "a": {"wheels": {"p": {"teeth": 20, "module": "0.5 mm"}}, "inertia": "3e-6 kg m2"},
+            "b": {"wheels": {"w": {"teeth": 60, "module": "0.5 mm"}}, "inertia": "5e-5 kg m2"},
         },
         "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
         "gears": [{"pair": ["p", "w"], "stiffness": "2 N/um", "damping": "30 N s/m"}],
@@ -258,10 +258,6 @@ def test_two_discs_on_teeth_turn_together_and_swing_against_each_other() -> None
         "drive": {"torque": "1 N mm"},
         "rate": "1 turn/s",
     }
-    for wheel in ("p", "w"):
-        wheels["links"]["a" if wheel == "p" else "b"]["wheels"] = {  # type: ignore[index]
-            wheel: {"teeth": 20 if wheel == "p" else 60, "module": "0.5 mm"}
-        }
     found = find_vibration_modes(GearTrain.declare(wheels).mechanics)
     k, ease = 2e6 * 0.015**2, 1 / 5e-5 + 1 / 9 / 3e-6  # of the driven wheel's radius, half of 60 times 0.5 mm
     assert found.frequencies == pytest.approx([0, sqrt(k * ease) / tau], rel=1e-9)
@@ -343,13 +339,17 @@ def test_the_stiffness_of_involute_teeth_of_known_metal_is_estimated() -> None:
         assert any("ISO 6336-1" in note for note in found.assumed)
 
 
+def flying_body() -> ContactModel:
+    """A body of 2 kg m2 flies at 1 rad/s into a flank that stands."""
+    flanks = tabled_angle(Wave(0.0, 0.0)), tabled_angle(Wave(0.0, 9.0))
+    pair = ContactPair("wall", {0: 1.0}, {1: 1.0}, (0.0, 0.01), *flanks)
+    start = np.array([1.0, -1.0])
+    return ContactModel(np.diag([0.0, 2.0]), np.zeros((2, 2)), np.zeros(2), {0: 1.0}, start, [pair], start=start)
+
+
 @pytest.mark.parametrize("restitution", [0.07, 0.3, 0.8])
 def test_damping_for_a_restitution_throws_a_body_back_so_fast(restitution: float) -> None:
-    # a body flies at 1 rad/s into a flank that stands
-    still = tabled_angle(Wave(0.0, 0.0))
-    pair = ContactPair("wall", {0: 1.0}, {1: 1.0}, (0.0, 0.01), still, tabled_angle(Wave(0.0, 9.0)))
-    start = np.array([1.0, -1.0])
-    model = ContactModel(np.diag([0.0, 2.0]), np.zeros((2, 2)), np.zeros(2), {0: 1.0}, start, [pair], start=start)
+    model = flying_body()
     zeta = damping_ratio(restitution)
     run = yielding(model, StepPlan(2e-5, 0, 5000, 5000), 1e5, 2 * zeta * sqrt(1e5 * 2))
     assert run.speeds[-1, 1] == pytest.approx(restitution, abs=2e-3)
@@ -358,11 +358,8 @@ def test_damping_for_a_restitution_throws_a_body_back_so_fast(restitution: float
 @pytest.mark.parametrize("zeta", [0.6, 1.0, 2.0])
 @pytest.mark.parametrize("steps", [40, 160])
 def test_damping_alone_makes_the_peak_where_flanks_meet_whatever_the_step(zeta: float, steps: int) -> None:
-    # a body flies at 1 rad/s into a flank that stands: from a damping ratio of 1/2 on its torque only falls from c
-    still = tabled_angle(Wave(0.0, 0.0))
-    pair = ContactPair("wall", {0: 1.0}, {1: 1.0}, (0.0, 0.01), still, tabled_angle(Wave(0.0, 9.0)))
-    start = np.array([1.0, -1.0])
-    model = ContactModel(np.diag([0.0, 2.0]), np.zeros((2, 2)), np.zeros(2), {0: 1.0}, start, [pair], start=start)
+    # from a damping ratio of 1/2 on its torque only falls from c
+    model = flying_body()
     step, damping = tau / sqrt(1e5 / 2) / steps, 2 * zeta * sqrt(1e5 * 2)
     run = yielding(model, StepPlan(step, 0, 40 * steps, 40 * steps), 1e5, damping)
     assert run.peaks is not None

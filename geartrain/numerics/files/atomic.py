@@ -109,9 +109,7 @@ def umask() -> int:
 
 
 def _target(path: Path) -> tuple[Path, int | None]:
-    """Return the target of a path after resolving symbolic links, and its mode; None as mode if the file does not
-    exist.
-    """
+    """Return the target of a path after resolving symbolic links, and its mode; None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
     except (FileNotFoundError, NotADirectoryError):

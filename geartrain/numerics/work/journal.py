@@ -252,14 +252,12 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem to report if an existing journal contains a different `question` and therefore belongs to
-    another run.
-    """
+    """Return the problem to report if the data in a journal differ from `question`: it belongs to another run."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]
     except (OSError, ValueError, KeyError, TypeError):
-        return _another("its first line, the question, cannot be read", path)
+        return _another("its first line, which identifies the run, cannot be read", path)
     return _another(first_difference(theirs, json.loads(json.dumps(question))), path)
 
 

@@ -285,8 +285,6 @@ class _Run:
         submission = self.pending.pop(future)
         try:
             outcome = future.result()
-        except BrokenExecutor as error:
-            self._repeat(submission, getattr(error, "times", 1))
         except CancelledError:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
             raise GearTrainError(
@@ -294,6 +292,12 @@ class _Run:
                     "the work was interrupted", why, "run it again; finished tasks are in the journal, if there is one"
                 )
             ) from None
+        except Exception as error:
+            pool = self.executor
+            deaths = pool.deaths(error) if isinstance(pool, WorkerPool) else int(isinstance(error, BrokenExecutor))
+            if not deaths:
+                raise
+            self._repeat(submission, deaths)
         else:
             if isinstance(outcome, RemoteFailure):
                 raise outcome.error()

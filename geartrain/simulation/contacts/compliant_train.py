@@ -1,7 +1,7 @@
 """Train with compliant teeth: the contacts of `TrainModel`, each with stiffness and damping, and the vibration modes.
 
-M x'' + C x' + K x = 0 about contact, docs/dynamics.md (19), where K = sum k r^T r over touching pairs and the springs
-of drives. r is the row of speeds by which a pair closes, with ratios at their means.
+Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, docs/dynamics.md (19), where K = sum k r^T r over
+all pairs and the springs of drives. r is the row of a pair's opening speed at its mean speed ratio.
 
 Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
 wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
@@ -28,18 +28,15 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.quantity import Quantity
     from geartrain.simulation.contacts.contact_model import ContactPair
-    from geartrain.simulation.contacts.rubbing_arms import Arms
     from geartrain.teeth.pin_coupling import Coupling
-    from geartrain.teeth.transmission import ExactRatio
     from geartrain.train import GearPair
 
 
 DAMPING_RATIO = 0.05
 """Damping ratio of a pair without declared damping and restitution, of the order measured on spur gears."""
 
-_MINIMUM = (
-    0.05  # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
-)
+# minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
+_MINIMUM = 0.05
 _SINGLE = 14e9
 """Stiffness of one pair of steel teeth in contact by face width [N/m2]: ISO 6336-1, method B, simplified."""
 
@@ -56,11 +53,6 @@ class CompliantTrain(TrainModel):
     def _is_contact(self, circuit: Circuit) -> bool:
         # a pair without stiffness keeps its ratio unless the rigid model makes it a contact
         return circuit.id in self.compliances or super()._is_contact(circuit)
-
-    def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
-        return (
-            None if self._gears[circuit.id].efficiency is None else super()._constant_ratio_arms(circuit, transmission)
-        )
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -231,7 +223,7 @@ class CompliantTrain(TrainModel):
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
         """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
-        method.
+        method; None for other teeth.
         """
         mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):

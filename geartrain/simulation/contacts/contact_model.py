@@ -41,9 +41,8 @@ class ContactPair:
     front: TabledFunction
     """Driven angle as a function of the driver's angle, in contact on the drive flank [rad]."""
     back: TabledFunction
-    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; for a pair without
-    backlash it is
-    the same object as `front`.
+    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; the same object as `front`
+    for a pair without backlash.
     """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
@@ -89,9 +88,9 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates [N m/rad,
-    rad,
-    rad/s].
+    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates.
+
+    Units are N m/rad, rad and rad/s.
     """
 
     name: str
@@ -221,9 +220,7 @@ class ContactModel:
         return any(value and at not in self.given for at, value in enumerate(row))
 
     def _stiffness(self, row: Floats) -> float:
-        """Return the regularising inverse compliance of a row [kg m2], far above the inertia of the links that turn
-        with it.
-        """
+        """Return the regularising inverse compliance of a row [kg m2], far above the inertia that turns with it."""
         heavy = float(self.typical @ self.mass @ self.typical)
         speed = float(row @ self.typical)
         # a prescribed coordinate has infinite inertia, so it does not contribute

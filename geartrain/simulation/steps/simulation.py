@@ -44,9 +44,7 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run: their length [s], the numbers of skipped and of counted steps, and the steps between
-    samples.
-    """
+    """Time steps of a run: their length [s], numbers of skipped and of counted steps, and steps between samples."""
 
     step: float
     skip: int
@@ -93,8 +91,8 @@ def simulate(
 ) -> SimulatedRun:
     """Return the results of a simulated run; with `fast` the kernels are compiled.
 
-    on_done   called with the steps done since the last call; if it returns True, the run stops, and the plan of the
-              result has the number of counted steps
+    on_done   called with the number of steps done since the last call; if it returns True, the run stops, and
+              `plan.steps` of the result is the number of counted steps so far
     yields    stiffness and damping of each pair; None for rigid teeth
     """
     system, n = model.system(plan.step, yields), len(model.torque)

@@ -54,7 +54,6 @@ from geartrain.simulation.steps.contact_solution import (
     solve_guess,
 )
 from geartrain.simulation.steps.step_account import (
-    count_compliant_contacts,
     count_contacts,
     count_energy,
     count_stops,
@@ -73,17 +72,13 @@ _IMPACT_CHANGE = 0.01  # relative change of a driver's speed within a step that 
 
 
 @kernel
-def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
-    """Return True if all speeds before and after a step are 0 within a tolerance.
-
-    still   tolerance of the speeds [rad/s]
-    """
-    fastest = 0.0
-    for d in range(len(after)):
-        fastest = max(fastest, abs(after[d]), abs(before[d]))
-        if fastest > still:
-            break
-    return fastest <= still
+def fastest(speed: Floats) -> float:
+    """Return the maximum magnitude of the speeds [rad/s]; NaN if one of them is NaN."""
+    found = 0.0
+    for each in speed:
+        if not abs(each) <= found:
+            found = abs(each)
+    return found
 
 
 @kernel
@@ -136,10 +131,11 @@ def run_steps(
             before[:, :] = record.counts
         # the previous contact state is the first guess
         rounds = solve_step(system, transmissions, state, here, rules, teeth)
-        if diverges(here.v, rules.step):
+        most = fastest(here.v)
+        if not most * rules.step < FARTHEST:
             record.numbers[DIVERGED] = 1
             break
-        rests = rigid and rounds == 1 and is_at_rest(state.speed, here.v, still)
+        rests = rigid and rounds == 1 and max(most, fastest(state.speed)) <= still
         # only a step that changed nothing may be repeated
         times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
@@ -150,12 +146,8 @@ def run_steps(
         if counted:
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += times
-            if rigid:
-                count_energy(system, state, here, record, rules, here.v)
-                count_contacts(system, transmissions, state, here, record, rules)
-            else:
-                count_energy(system, state, here, record, rules, here.middle)
-                count_compliant_contacts(system, state, here, record, rules, teeth)
+            count_energy(system, state, here, record, rules, here.v if rigid else here.middle)
+            count_contacts(system, transmissions, state, here, record, rules, teeth)
             if len(system.stop_pitch) > 0:
                 count_stops(system, state, here, record, rules.step)
             if times > 1:
@@ -183,15 +175,6 @@ def run_steps(
             if since == rules.stride:
                 end_sample(state, record, rules.stride * rules.step)
                 since = 0
-
-
-@kernel
-def diverges(speed: Floats, step: float) -> bool:
-    """Return True if a coordinate turns by more than `FARTHEST` in one step, or its speed is NaN."""
-    near = True
-    for each in speed:
-        near = near and abs(each) * step < FARTHEST
-    return not near
 
 
 @kernel

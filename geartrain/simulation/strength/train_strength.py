@@ -50,9 +50,7 @@ _PINS = "steel"  # material of the pins of couplings if the train declares none
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Return pressures, root stresses, safety factors and wear under the loads of one state; see
-    `GearTrain.strength`.
-    """
+    """Return pressures, root stresses, safety factors and wear in one state; see `GearTrain.strength`."""
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
@@ -124,7 +122,7 @@ class Service:
                     Problem(
                         f"a service life of {value:g} {name} is out of range",
                         "it must be positive and finite",
-                        "give a number above 0",
+                        "give a finite number above 0",
                     )
                 )
         speed, declared = _input_speed(train, state), train.declaration
@@ -173,7 +171,7 @@ class StrengthQuestion:
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
-    """Pairs with real teeth, with their drivers in this load case."""
+    """Pairs with a tooth form, with their drivers in this load case."""
     scale: float | None
     """Total revolutions per unit of relative speed; None if wear is not requested. `turns` is the number for the input.
     """
@@ -269,7 +267,7 @@ class StrengthQuestion:
             wheels = {name: self.declared.wheels[name][1] for name in circuit.wheels}
             names = [self._material_name(wheel) for wheel in wheels.values()]
             if lacking := [
-                *self._missing_helix_angles(wheels),
+                *(f"'{name}' has no `helix_angle`" for name, wheel in wheels.items() if wheel.helix_angle is None),
                 *self._missing_for_any(wheels, self.torques.pairs[circuit.id]),
             ]:
                 self._leave_out(circuit.id, "; ".join(lacking))
@@ -279,12 +277,6 @@ class StrengthQuestion:
             is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
             wheels_there = forces.crossed_wheels(circuit)
             yield SkewPair(wheels_there, (both[0], both[1]), (first, second), is_worm, forces.involute_of(circuit))
-
-    @staticmethod
-    def _missing_helix_angles(wheels: Mapping[str, Wheel]) -> Iterator[str]:
-        for name, wheel in wheels.items():
-            if wheel.helix_angle is None:
-                yield f"'{name}' has no `helix_angle`"
 
     # -------------------------------------------------------------------------------------------------------- pins
 
@@ -495,10 +487,9 @@ def arbor_strength(
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
     # a pivot without a declared length is as long as its diameter
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
-    bending = bending_stress(maximum_moment(across, couple, span), diameter)
-    # axial stress adds to the bending stress
-    bending += 4 * along / (pi * diameter**2)
-    torsion = torsional_stress(max((abs(each.torque) * 1e3 for each in forces), default=0.0), diameter)
+    # the axial stress adds to the bending stress of a round bar
+    bending = 32 * maximum_moment(across, couple, span) / (pi * diameter**3) + 4 * along / (pi * diameter**2)
+    torsion = 16 * max((abs(each.torque) * 1e3 for each in forces), default=0.0) / (pi * diameter**3)
     strength = None if material.strength is None else material.strength.si / 1e6
     shoulder = pi / 4 * (diameter**2 - pivot**2)
     return ArborStrength(
@@ -514,16 +505,6 @@ def arbor_strength(
         thrust / shoulder if shoulder > 0 else None,
         strength,
     )
-
-
-def bending_stress(moment: float, diameter: float) -> float:
-    """Return the bending stress of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
-    return 32 * moment / (pi * diameter**3)
-
-
-def torsional_stress(torque: float, diameter: float) -> float:
-    """Return the torsional stress of a round bar [MPa]: 16 T/(pi d^3), T in N mm and d in mm."""
-    return 16 * torque / (pi * diameter**3)
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:

@@ -84,9 +84,7 @@ class VirtualSpurs:
 
     @classmethod
     def of(cls, mesh: GearMesh, module: float, width: float) -> VirtualSpurs | None:
-        """Return the virtual pair for the module at the large ends and the width; None for axes that do not
-        intersect.
-        """
+        """Return the virtual pair for the module at the large ends and the width; None unless the axes intersect."""
         form = mesh.tooth_form
         if mesh.path is None or not mesh.path.pitch.bevel or not isinstance(form, ConjugateToothForm):
             return None

@@ -86,7 +86,7 @@ class Simulation(Shown):
     ) -> None:
         if not 0 < step < inf:
             what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
-            raise QuestionError(Problem(what, why, "pass a step above 0, such as step=1e-4"))
+            raise QuestionError(Problem(what, why, "pass a finite step above 0, such as step=1e-4"))
         self._of, self._outputs, self._fast = of, tuple(outputs), fast
         self.step = step
         self.drive_link, self.drive_kind = of.case.drive.link, of.case.drive.kind
@@ -281,7 +281,7 @@ class Simulation(Shown):
                 Problem(
                     f"a duration of {seconds:g} s is out of range",
                     "a duration must be finite and not negative",
-                    "give a duration of 0 or more",
+                    "give a finite duration of 0 or more",
                 )
             )
         self.time += seconds

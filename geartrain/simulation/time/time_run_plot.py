@@ -124,9 +124,7 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the pairs with backlash in the order of the train: at most `_PAIRS`, which are apart for the longest
-    times.
-    """
+    """Return up to `_PAIRS` pairs with backlash that are apart for the longest times, in the order of the train."""
     names = [
         name
         for row, name in enumerate(run.gaps.labels[0])
@@ -257,9 +255,7 @@ def _minor_numbers(panel: Axes) -> None:
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines that are not close to each
-    other.
-    """
+    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines, without close neighbours."""
     taken: list[float] = []
     for peak in peaks:
         near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)

@@ -126,26 +126,22 @@ class TimeStudy:
 
         Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
         """
-        model = self.of.model
         plans = self.plan(1), self.plan(2)
         whole = sum(plan.skip + plan.steps for plan in plans)
-        fast = self.is_fast
-        stopped = False
+        fast, peaks = self.is_fast, self.static_peaks()
 
-        def advance(steps: int) -> bool:
-            nonlocal stopped
-            stopped = on_done(steps / whole) is True
-            return stopped
+        def run(plan: StepPlan) -> RunFigures:
+            done = simulate(self.of.model, plan, fast, lambda steps: on_done(steps / whole), self.of.yields)
+            return RunFigures(self.of, self.outputs, done, peaks)
 
-        yields = self.of.yields
-        peaks = self.static_peaks()
-        first = RunFigures(self.of, self.outputs, simulate(model, plans[0], fast, advance, yields), peaks)
+        first = run(plans[0])
         if not first.plan.steps:
             raise KeyboardInterrupt
-        if stopped:
-            return first.result(None)
-        second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance, yields), peaks)
-        return first.result(None) if second.plan.steps < plans[1].steps else second.result(first)
+        if first.plan.steps == plans[0].steps:
+            second = run(plans[1])
+            if second.plan.steps == plans[1].steps:
+                return second.result(first)
+        return first.result(None)
 
     def static_peaks(self) -> Sequence[float | None]:
         """Return the maximum quasi-static torque of each pair [N m], from a rigid run with almost no inertia.

@@ -145,7 +145,27 @@ def find_vibration_modes(
     """
     found = model_in_time(train, state, without, None, None, yields=True, scale=1.0)
     assert isinstance(found, CompliantTrain)
-    return find_modes(found)
+    squares, modes = found.vibration
+    speeds = np.sqrt(squares)
+    # damping ratio of each mode, neglecting coupling of modes by damping
+    losses = np.einsum("im,ij,jm->m", modes, found.matrices[1], modes)
+    damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
+    shapes = found.speeds[:, found.free] @ modes
+    for column in shapes.T:
+        # the largest angle becomes +1, which fixes scale and sign
+        column /= column[np.argmax(np.abs(column))]
+    shapes += 0.0  # turns -0.0 into 0.0
+    frequencies = speeds / tau
+    frequencies.flags.writeable = damping.flags.writeable = False
+    return VibrationModes(
+        found.train.name,
+        frequencies,
+        damping,
+        labelled_array(shapes, link=found.problem.system.links, mode=[str(at + 1) for at in range(len(speeds))]),
+        {pair.name: float(k) for pair, k in zip(found.model.pairs, found.yields.stiffness, strict=True)},
+        found.notes,
+        found.assumed,
+    )
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
@@ -221,31 +241,3 @@ class VibrationModes(Tabular, Result):
             "damping": self.damping.tolist(),
             **{f"{link} angle": row for link, row in angles},
         }
-
-
-def find_modes(of: CompliantTrain) -> VibrationModes:
-    """Return the vibration modes of a train in one state."""
-    squares, modes = of.vibration
-    speeds = np.sqrt(squares)
-    # damping ratio of each mode, neglecting coupling of modes by damping
-    losses = np.einsum("im,ij,jm->m", modes, of.matrices[1], modes)
-    damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
-    shapes = of.speeds[:, of.free] @ modes
-    for column in shapes.T:
-        # the largest angle becomes +1, which fixes scale and sign
-        column /= column[np.argmax(np.abs(column))]
-    shapes += 0.0  # turns -0.0 into 0.0
-    names = [str(at + 1) for at in range(len(speeds))]
-    stiffness = {pair.name: float(k) for pair, k in zip(of.model.pairs, of.yields.stiffness, strict=True)}
-    frequencies = speeds / tau
-    frequencies.flags.writeable = damping.flags.writeable = False
-    links = of.problem.system.links
-    return VibrationModes(
-        of.train.name,
-        frequencies,
-        damping,
-        labelled_array(shapes, link=links, mode=names),
-        stiffness,
-        of.notes,
-        of.assumed,
-    )

@@ -98,32 +98,9 @@ def decimal(value: Fraction, digits: int = 10) -> str:
     number = as_float(value)
     if number is not None:
         return f"{number:.{digits}g}"
-    exponent = math.floor(log10(value))
-    mantissa = str(_scaled(abs(value), digits - 1 - exponent, digits))
-    # rounding may carry, and the logarithm may be inexact near a power of ten: the number of digits decides
-    exponent += len(mantissa) - digits
-    sign = "-" if value < 0 else ""
-    rest = f".{mantissa[1:digits]}" if digits > 1 else ""
-    return f"{sign}{mantissa[0]}{rest}e{exponent:+d}"
-
-
-def _scaled(value: Fraction, power: int, digits: int) -> int:
-    """Return round(value * 10**power), a number of about `digits` digits, from the leading bits if they suffice."""
-    with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
-        near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
-        off = near - near.to_integral_value()
-        # 30 guard digits: the error of `off` is far below 1e-10
-        if abs(abs(off) - Decimal("0.5")) > Decimal("1e-10"):
-            return int(near.to_integral_value())
-    exact: Fraction = value * Fraction(10) ** power
-    return round(exact)  # a tie, or almost one: all digits are needed
-
-
-def _leading(number: int) -> Decimal:
-    """Return a long positive integer as a Decimal rounded to the precision of the context."""
-    # 1024 bits are about 308 digits, far more than the precision of the context
-    cut = max(number.bit_length() - 1024, 0)
-    return Decimal(number >> cut) * Decimal(2) ** cut
+    # a quotient of Decimals is rounded correctly, whatever the length of its terms
+    with localcontext(Context(prec=digits, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
+        return f"{Decimal(value.numerator) / Decimal(value.denominator):.{digits - 1}e}"
 
 
 _PLAIN, _SHORT = 2000, 600

@@ -166,6 +166,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
             if column in row_of:
                 queue.append((row_of[column], column))
                 continue
+            # flip the matching along the path back to the root
             last: int | None = column
             while last is not None:
                 row_of[last], last = came[last]

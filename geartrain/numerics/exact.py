@@ -25,7 +25,7 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
     """Return n/d times a/b as a reduced fraction (numerator, positive denominator).
 
-    n/d must be reduced. a and b are short, so the gcds are cheap.
+    n/d must be reduced. a and b have few digits, so that the gcds take little time.
     """
     if b < 0:
         a, b = -a, -b

@@ -92,6 +92,7 @@ class RatioSets(Generic[V]):
         """Record that the second quantity is `ratio` times the first, unless their ratio is already known."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         if root != other:
+            # the ratio of the representatives follows from the ratio of their members
             self._above[other] = root, ratio * times / multiple
 
     def ratio(self, first: V, second: V) -> Fraction | None:

@@ -56,13 +56,9 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
     if tail <= _NOISE and min(half[1] for half in halves) > tail / 4:
         return [piece]  # bisecting a smooth curve reduces the tail far more: the rest is noise
     if depth == _DEEPEST or not np.isfinite(tail):
-        raise RangeError(
-            Problem(
-                f"a curve cannot be interpolated near parameter {start:.6g}",
-                "the curve is not smooth or not finite there",
-                "split it into curves at its kinks, or use another parameter",
-            )
-        )
+        what = f"a curve cannot be interpolated near parameter {start:.6g}"
+        why = "the curve is not smooth or not finite there"
+        raise RangeError(Problem(what, why, "split it into curves at its kinks, or use another parameter"))
     return fitted(curve, start, middle, depth + 1) + fitted(curve, middle, end, depth + 1)
 
 

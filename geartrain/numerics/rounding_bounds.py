@@ -1,8 +1,8 @@
-"""Rounding in float64: error-free transformations of sums and products, and a priori error bounds.
+"""Rounding in float64: error-free transformations of sums and products, and constants of a priori error bounds.
 
 The relative error of a term after n roundings is at most n u / (1 - n u) (Higham, Accuracy and Stability of Numerical
-Algorithms, section 3.1). The bounds are of first order in u, times `SLACK`. They are valid without underflow and
-overflow, which the caller must ensure.
+Algorithms, section 3.1). Bounds are of first order in u, times `SLACK`. They are valid without underflow and overflow,
+which the caller must ensure.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ in time with impacts and energy, vibration modes, contact pressure, root stress 
 
 contacts   moments of inertia, separation rates, and the contact model that is stepped
 steps      the equations of one step, the search for contacts, the energy balance
-time       runs and their figures, spectra, modes, step-by-step simulation
+time       runs and their results, spectra, modes, step-by-step simulation
 strength   pressures, stresses and wear of a loaded train: ISO 6336, Hertz, Lewis and Archard
 fmu        co-simulation units (FMI)
 answers    the results that commands print as JSON

@@ -33,7 +33,7 @@ def tables() -> dict[str, Any]:
 
 @pytest.mark.needs("pandas")
 @pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "search", "strength", "array"])
-def test_frames_and_records_hold_the_columns(name: str) -> None:
+def test_frames_and_records_hold_the_columns_with_meanings_and_units(name: str) -> None:
     table = tables()[name]
     frame, records = table.to_frame(), table.to_records()
     assert list(frame.columns) == list(table.columns) == list(records.dtype.names)
@@ -42,12 +42,6 @@ def test_frames_and_records_hold_the_columns(name: str) -> None:
         given = [value for value in values if value is not None]
         assert frame[column].dropna().tolist() == [value for value in given if value == value]
     assert table._repr_html_().startswith("<")
-
-
-@pytest.mark.needs("pandas")
-@pytest.mark.parametrize("name", ["answer", "torques", "gearbox", "variants", "cycle", "search", "strength", "array"])
-def test_each_column_has_a_meaning_and_its_unit(name: str) -> None:
-    frame = tables()[name].to_frame()
     assert [*frame.attrs["meanings"]] == [*frame.columns]
     assert all(frame.attrs["meanings"].values())
     units = frame.attrs["units"]

@@ -137,9 +137,8 @@ def _name(path: Path) -> Problem | None:
 def _folder(path: Path, real: Path) -> Problem | None:
     folder = real.parent
     if not folder.is_dir():
-        return Problem(
-            "the folder does not exist", f"the file would be in {folder}", "create the folder first", str(path)
-        )
+        what = "the folder does not exist"
+        return Problem(what, f"the file would be in {folder}", "create the folder first", str(path))
     if not os.access(folder, os.W_OK | os.X_OK):
         return _unwritable(folder)
     return None
@@ -161,12 +160,8 @@ def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | Non
 
 
 def _exists(path: Path) -> Problem:
-    return Problem(
-        "the file exists",
-        "existing files are overwritten only with --force",
-        "give --force, or another name",
-        str(path),
-    )
+    what = "the file exists"
+    return Problem(what, "existing files are overwritten only with --force", "give --force, or another name", str(path))
 
 
 def _invalid_name(path: Path, why: str) -> Problem:
@@ -229,9 +224,8 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
         others = len(there) - 1
         more = f" and {plural(others, 'other file')} are" if others else " is"
         what = f"'{there[0]}'{more} already in the folder"
-        raise GearTrainError(
-            Problem(what, "existing files are overwritten only with --force", "give --force, or an empty folder", place)
-        )
+        why = "existing files are overwritten only with --force"
+        raise GearTrainError(Problem(what, why, "give --force, or an empty folder", place))
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
@@ -256,9 +250,8 @@ def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool =
             shutil.rmtree(beside, ignore_errors=True)
     except OSError as error:
         why = error.strerror or str(error)
-        raise GearTrainError(
-            Problem("the files cannot be written", why, "check the folder and its permissions", str(folder))
-        ) from None
+        what = "the files cannot be written"
+        raise GearTrainError(Problem(what, why, "check the folder and its permissions", str(folder))) from None
     return len(made)
 
 

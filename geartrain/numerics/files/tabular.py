@@ -38,15 +38,12 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
     found = partial_name(destination(path, force))
     if found.is_symlink():
         fix = "remove it, or give another name"
-        raise GearTrainError(
-            Problem("this is a symbolic link", "a partial file must be a regular file", fix, str(found))
-        )
+        what = "this is a symbolic link"
+        raise GearTrainError(Problem(what, "a partial file must be a regular file", fix, str(found)))
     if found.exists() and not (force or resume):
         destination(found, force=True)  # raises the error for a file that is not regular
-        why, fix = (
-            "it contains the rows of an interrupted run",
-            "give --resume to continue it, or --force to begin again",
-        )
+        why = "it contains the rows of an interrupted run"
+        fix = "give --resume to continue it, or --force to begin again"
         raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
     return destination(found, force=True)
 
@@ -86,14 +83,10 @@ class LongTable:
                 if not line.endswith(b"\n") or line.startswith(PARTIAL_SUFFIX.encode()):
                     break
                 if rows < 0 and line.decode("utf-8").rstrip("\n") != self.header:
-                    raise GearTrainError(
-                        Problem(
-                            "the partial file belongs to another run",
-                            f"a resumed table must have the same columns as the file: {line.decode('utf-8').rstrip()}",
-                            "request the same outputs, or omit --resume to begin again",
-                            str(self.partial),
-                        )
-                    )
+                    what = "the partial file belongs to another run"
+                    why = f"a resumed table must have the same columns as the file: {line.decode('utf-8').rstrip()}"
+                    fix = "request the same outputs, or omit --resume to begin again"
+                    raise GearTrainError(Problem(what, why, fix, str(self.partial)))
                 rows, end = rows + 1, end + len(line)
         # the resumed run writes the incomplete row again
         os.truncate(self.partial, end)
@@ -213,6 +206,7 @@ def _cell(cell: object) -> object:
     if not isinstance(cell, str):
         return cell
     text = printable(cell).replace("\n", "\\n").replace("\t", "\\t")
+    # an apostrophe prevents a spreadsheet from evaluating the text
     return f"'{text}" if cell.startswith(_FORMULA) and not _NUMBER.fullmatch(cell) else text
 
 
@@ -260,9 +254,8 @@ def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise GearTrainError(
-            Problem("the file cannot be read", str(why), "check its name and contents", str(path))
-        ) from None
+        what = "the file cannot be read"
+        raise GearTrainError(Problem(what, str(why), "check its name and contents", str(path))) from None
     for at, line in enumerate(text.splitlines(), 1):
         if words := line.partition("#")[0].replace(",", " ").split():
             yield at, words

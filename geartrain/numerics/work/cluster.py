@@ -54,13 +54,8 @@ class DaskPool(WorkerPool):
             self.dismiss()
             fix = f"install geartrain {ours} with the extra 'dask' for the scheduler and all workers"
             found = ", ".join(sorted(map(str, theirs)))
-            raise GearTrainError(
-                Problem(
-                    f"the cluster at {address} runs another version of geartrain than {ours}",
-                    f"its workers run {found}",
-                    fix,
-                )
-            )
+            what = f"the cluster at {address} runs another version of geartrain than {ours}"
+            raise GearTrainError(Problem(what, f"its workers run {found}", fix))
         self._threads: int = sum(self._client.nthreads().values())
         self._executor = self._client.get_executor(pure=False)  # results must not be taken from a cache
 

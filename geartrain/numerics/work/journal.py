@@ -188,6 +188,7 @@ class Journal:
         """
         try:
             at = self._file.seek(0, os.SEEK_END)
+            # an unbuffered write may write only a part of the line
             left = memoryview(line)
             while left:
                 left = left[self._file.write(left) or 0 :]

@@ -251,6 +251,7 @@ class _Run:
                 return _Submission(index, task, mark)
             self.ready[index] = text
             self.pace.step()
+            # results of a journal are limited like others, so that they do not fill the memory
             if self.issued >= self.next + _RESULTS_AHEAD * self._width:
                 return None
         self.exhausted = True
@@ -262,13 +263,9 @@ class _Run:
         try:
             future = self.executor.submit(carry, self.work, submission.task)
         except BrokenExecutor:
-            raise GearTrainError(
-                Problem(
-                    "the executor is broken",
-                    "one of its workers died, and it does not start new workers",
-                    "use the executor of open_executor, which survives the death of workers",
-                )
-            ) from None
+            why = "one of its workers died, and it does not start new workers"
+            fix = "use the executor of open_executor, which survives the death of workers"
+            raise GearTrainError(Problem("the executor is broken", why, fix)) from None
         self.pending[future] = submission
         future.add_done_callback(self.ended.put)
 
@@ -287,11 +284,8 @@ class _Run:
             outcome = future.result()
         except CancelledError:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
-            raise GearTrainError(
-                Problem(
-                    "the work was interrupted", why, "run it again; finished tasks are in the journal, if there is one"
-                )
-            ) from None
+            fix = "run it again; finished tasks are in the journal, if there is one"
+            raise GearTrainError(Problem("the work was interrupted", why, fix)) from None
         except Exception as error:
             pool = self.executor
             deaths = pool.deaths(error) if isinstance(pool, WorkerPool) else int(isinstance(error, BrokenExecutor))

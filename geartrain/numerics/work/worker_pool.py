@@ -37,6 +37,7 @@ class WorkerPool(Executor, ABC):
 
     def begin(self, tasks: int) -> None:
         """Report at the first call that other processes will do `tasks` tasks (0 if unknown)."""
+        # only the first call has an announcement
         announce, self.announce, self.waits = self.announce, None, False
         if announce is not None:
             announce(tasks, min(self.width, tasks or self.width))

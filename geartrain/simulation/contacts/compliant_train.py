@@ -74,9 +74,8 @@ class CompliantTrain(TrainModel):
         """
         if self.case.escapements:
             what = f"'{self.train.name}' has an escapement, which compliant teeth do not support"
-            raise QuestionError(
-                Problem(what, "the stops of an escapement are rigid", "use rigid teeth (`--model rigid`)")
-            )
+            why = "the stops of an escapement are rigid"
+            raise QuestionError(Problem(what, why, "use rigid teeth (`--model rigid`)"))
         if lacking := [pair.name for pair in self.model.pairs if pair.name not in self.compliances]:
             what = f"the stiffness of {', '.join(lacking)} is not known"
             why = (
@@ -138,9 +137,8 @@ class CompliantTrain(TrainModel):
         if not self.free:
             what = f"'{self.train.name}' cannot vibrate"
             why = "all its links have constant speed ratios to the drive"
-            raise QuestionError(
-                Problem(what, why, "declare the stiffness of a pair or of the train, such as `stiffness: 20 N m/rad`")
-            )
+            fix = "declare the stiffness of a pair or of the train, such as `stiffness: 20 N m/rad`"
+            raise QuestionError(Problem(what, why, fix))
         mass, _, stiffness = self.matrices
         # the mass matrix is positive definite, as checked by `mass`
         squares, modes = eigh(stiffness, mass)

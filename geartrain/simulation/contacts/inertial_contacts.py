@@ -275,9 +275,8 @@ def find_inertial_loads(
         for link, torque in torques.items():
             if _is_plain(torque):
                 what = f"the {key} torque of '{link}', {torque}, has no unit"
-                raise QuestionError(
-                    Problem(what, "torques are compared with inertias in kg m2", f"for example, write '{torque} N m'")
-                )
+                why = "torques are compared with inertias in kg m2"
+                raise QuestionError(Problem(what, why, f"for example, write '{torque} N m'"))
     loads = {link: torque.si for link, torque in load.items()}
     driven = None if case.drive is None else case.drive.steady_torque
     # a torque on a prescribed input does no virtual work

@@ -87,6 +87,7 @@ def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:
+        # pieces are found by the uniform cell that contains their start, without a search
         table = each.table
         breaks = table.breaks
         uniform = np.arange(table.cells) * (table.period / table.cells)

@@ -231,9 +231,8 @@ class TrainModel:
         if lacking:
             what = f"no inertia turns with {', '.join(lacking)}"
             why = "a link without inertia has no equation of motion after teeth separate"
-            raise QuestionError(
-                Problem(what, why, "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels")
-            )
+            fix = "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels"
+            raise QuestionError(Problem(what, why, fix))
         return found
 
     # --------------------------------------------------------------------------------------------------------- contacts

@@ -262,6 +262,7 @@ def _stored(
         angle = state.angle[system.pair_of[row]]
         S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
         q = float(system.start_driven[m] + system.pair_driven[row] @ angle)
+        # only compressed flanks store energy; a pair without backlash is a spring in both directions
         gaps = [
             (1 - 2 * side) * (q - value_and_slope(transmissions, int(system.tables[m, side]), S)[0])
             for side in range(2)

@@ -1,7 +1,7 @@
 """Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
 
-Rigid teeth are stepped after Moreau and Jean. Contacts without rebound are enforced at the position level,
-docs/dynamics.md (12). With S* = S + h dS/dt and F*, tau* there,
+Rigid teeth use the nonsmooth time stepping of Moreau and Jean. Contacts without rebound are enforced at the position
+level, docs/dynamics.md (12). With S* = S + h dS/dt, and F* and tau* at S*,
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
 
@@ -9,9 +9,9 @@ so that gaps do not drift. The complementarity problem of touching contacts and 
 solution of the previous step. Wrong contact states are flipped all at once (block pivoting) and, if that does not
 converge, the lowest index first (Murty's method).
 
-A train at rest takes identical steps at once, up to the next beat of an escapement. Between two beats a clock rests
-most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends without
-speed, and for which no contact state was flipped, is followed by the same step again.
+Identical steps of a train at rest are taken at once, up to the next beat of an escapement. Between two beats a clock
+rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
+without speed, and for which no contact state was flipped, is followed by the same step again.
 
 Compliant teeth have stiffness and damping, docs/dynamics.md (15) and (18):
 

@@ -286,13 +286,8 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     # an axis ratio below exp(-34) is close to the rounding error: practically a line
     elif ratio(-34.0) < 0:
         why = f"their generatrices cross at only {crossing:.3g} rad"
-        raise RangeError(
-            Problem(
-                "nearly parallel cylinders have no contact ellipse",
-                why,
-                "use the pressure of a line contact, `hertz_pressure`",
-            )
-        )
+        what = "nearly parallel cylinders have no contact ellipse"
+        raise RangeError(Problem(what, why, "use the pressure of a line contact, `hertz_pressure`"))
     else:
         # in logarithms, because long ellipses have axis ratios down to 1e-15
         k = float(np.exp(brentq(ratio, -34.0, -1e-7)))

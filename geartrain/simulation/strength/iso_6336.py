@@ -102,13 +102,8 @@ class RackPair:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
         if not 1 <= self.contact_ratio < 2:
             what = f"the contact ratio {self.contact_ratio:.4g} is outside the range of ISO 6336 method B"
-            raise RangeError(
-                Problem(
-                    what,
-                    "its load sharing applies to contact ratios from 1 to 2, excluding 2",
-                    "use the stresses by Lewis and Hertz",
-                )
-            )
+            why = "its load sharing applies to contact ratios from 1 to 2, excluding 2"
+            raise RangeError(Problem(what, why, "use the stresses by Lewis and Hertz"))
 
 
 @dataclass(frozen=True, slots=True)

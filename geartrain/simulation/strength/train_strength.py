@@ -58,11 +58,8 @@ def solve_strength(
         return TrainStrength(found.state, found.verdict)
     if not has_torque_units(train.declaration, found.state):
         what = "the loads have no unit"
-        raise QuestionError(
-            Problem(
-                what, "stresses are computed from torques in N m", "declare the loads with a unit, such as `-0.5 N m`"
-            )
-        )
+        why = "stresses are computed from torques in N m"
+        raise QuestionError(Problem(what, why, "declare the loads with a unit, such as `-0.5 N m`"))
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
     question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
@@ -98,9 +95,8 @@ class Service:
         own = WearRange(*(self.wear or WEAR_RANGE))
         if not 0 < own.minimum <= own.maximum < inf:
             what = f"{own.minimum:g} to {own.maximum:g} is not a range of wear coefficients"
-            raise QuestionError(
-                Problem(what, "K must be positive, with the minimum first", "for example, give --wear 1e-7 1e-3")
-            )
+            why = "K must be positive, with the minimum first"
+            raise QuestionError(Problem(what, why, "for example, give --wear 1e-7 1e-3"))
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
@@ -109,31 +105,16 @@ class Service:
         if turns is None and years is None:
             return None
         if turns is not None and years is not None:
-            raise QuestionError(
-                Problem(
-                    "both turns and years are given",
-                    "turns and years both define the service life",
-                    "omit --turns or --years",
-                )
-            )
+            why = "turns and years both define the service life"
+            raise QuestionError(Problem("both turns and years are given", why, "omit --turns or --years"))
         for name, value in (("turns", turns), ("years", years)):
             if value is not None and not 0 < value < inf:
-                raise QuestionError(
-                    Problem(
-                        f"a service life of {value:g} {name} is out of range",
-                        "it must be positive and finite",
-                        "give a finite number above 0",
-                    )
-                )
+                what = f"a service life of {value:g} {name} is out of range"
+                raise QuestionError(Problem(what, "it must be positive and finite", "give a finite number above 0"))
         speed, declared = _input_speed(train, state), train.declaration
         if not speed:
-            raise QuestionError(
-                Problem(
-                    f"'{declared.name}' does not move",
-                    "no input has a speed other than 0",
-                    "declare a non-zero speed under `inputs`",
-                )
-            )
+            fix = "declare a non-zero speed under `inputs`"
+            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input has a speed other than 0", fix))
         if turns is not None:
             return turns / speed
         case, unit = train.kinematics.case(state), declared.unit_speed
@@ -142,10 +123,8 @@ class Service:
         if case.rate is not None and case.rate.unit is not None:
             return years * _YEAR * float(case.rate.base) / speed
         if unit is None:
-            what, why = (
-                "years cannot be converted to turns",
-                "the speeds of this train are numbers without a unit",
-            )
+            what = "years cannot be converted to turns"
+            why = "the speeds of this train are numbers without a unit"
             raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
         return years * _YEAR * float(unit)
 

@@ -149,10 +149,8 @@ class Simulation(Shown):
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
         if outside := [each for each in bounces.values() if not 0 <= each <= 1]:
-            what, why = (
-                f"a restitution of {outside[0]:g} is out of range",
-                "a coefficient of restitution is from 0 to 1",
-            )
+            what = f"a restitution of {outside[0]:g} is out of range"
+            why = "a coefficient of restitution is from 0 to 1"
             raise QuestionError(Problem(what, why, "pass a value from 0 to 1, such as 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
@@ -182,6 +180,7 @@ class Simulation(Shown):
 
     def _turned(self) -> Floats:
         """Return the angle through which each link has turned since the start [rad]."""
+        # the requested time may be within a step that is not computed yet
         late = self.time - float(self._state.clock[1]) * self.step
         return self._of.speeds @ (self._state.angle + late * self._state.speed)
 
@@ -218,13 +217,8 @@ class Simulation(Shown):
         if value == self.drive:
             return
         if self.drive_kind == "spring":
-            raise QuestionError(
-                Problem(
-                    "the drive is a spring",
-                    "the torque of a spring cannot be set",
-                    "declare a `drive` other than a spring",
-                )
-            )
+            why = "the torque of a spring cannot be set"
+            raise QuestionError(Problem("the drive is a spring", why, "declare a `drive` other than a spring"))
         before, self.drive = self.drive, value
         if self.drive_kind == "hand":
             self._system.spring_rate[0] = value
@@ -249,11 +243,8 @@ class Simulation(Shown):
             If the link does not exist.
         """
         if link not in self._of.index:
-            raise QuestionError(
-                Problem(
-                    f"the train has no link '{link}'", "a load acts on a declared link", suggest(link, self._of.index)
-                )
-            )
+            what = f"the train has no link '{link}'"
+            raise QuestionError(Problem(what, "a load acts on a declared link", suggest(link, self._of.index)))
         if torque != self.loads.get(link, 0.0):
             self.loads[link] = torque
             self._set_torques()
@@ -277,13 +268,9 @@ class Simulation(Shown):
             If the duration is negative or not finite.
         """
         if not 0 <= seconds < inf:
-            raise QuestionError(
-                Problem(
-                    f"a duration of {seconds:g} s is out of range",
-                    "a duration must be finite and not negative",
-                    "give a finite duration of 0 or more",
-                )
-            )
+            what = f"a duration of {seconds:g} s is out of range"
+            why = "a duration must be finite and not negative"
+            raise QuestionError(Problem(what, why, "give a finite duration of 0 or more"))
         self.time += seconds
         # the number of steps depends only on the time, not on the calls
         steps = floor(self.time / self.step + _EARLY) - int(self._state.clock[1])

@@ -84,10 +84,8 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     leading = [each.output for each in run.deviations if degrees(max(each.ahead, each.behind)) > _FLAT]
     tall = [1.25] * (len(pairs) + len(stops)) + [1.875] * bool(leading) + [2.5] * bool(moving)
     if not tall:
-        what, why = (
-            f"the plot of '{run.train}' would be empty",
-            "no pair has backlash, and no output deviates from its mean motion",
-        )
+        what = f"the plot of '{run.train}' would be empty"
+        why = "no pair has backlash, and no output deviates from its mean motion"
         raise QuestionError(Problem(what, why, "declare tooth forms with backlash, or an escapement"))
     figure, panels = curve_panels(tall, 0.9, share=False)
     if moving:

@@ -56,22 +56,16 @@ class TimeStudy:
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
             what = f"turns = {self.turns:g} or skip = {self.skip:g} is out of range"
-            raise QuestionError(
-                Problem(what, "turns must be above 0, and skip 0 or more", "for example, pass turns=10, skip=1")
-            )
+            why = "turns must be above 0, and skip 0 or more"
+            raise QuestionError(Problem(what, why, "for example, pass turns=10, skip=1"))
         if self.steps is not None and self.steps < 1:
-            raise QuestionError(
-                Problem(
-                    f"{self.steps} steps per revolution are too few",
-                    "at least 1 step per revolution is required",
-                    "for example, pass steps=200",
-                )
-            )
+            what = f"{self.steps} steps per revolution are too few"
+            why = "at least 1 step per revolution is required"
+            raise QuestionError(Problem(what, why, "for example, pass steps=200"))
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:
             what = f"the run would take {self.per_turn * (self.turns + self.skip):.3g} steps"
-            raise QuestionError(
-                Problem(what, f"the maximum is {_MOST_STEPS:.0e} steps, which take days", "give fewer turns or steps")
-            )
+            why = f"the maximum is {_MOST_STEPS:.0e} steps, which take days"
+            raise QuestionError(Problem(what, why, "give fewer turns or steps"))
 
     @cached_property
     def busiest(self) -> float:

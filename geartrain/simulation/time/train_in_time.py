@@ -178,19 +178,13 @@ def radians_per_second(rate: str | float | None) -> float | None:
         try:
             rate = Quantity.parse(rate, "speed", plain=True).si
         except PydanticCustomError as error:
-            raise QuestionError(
-                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "for example, write '1 turn/s'")
-            ) from None
+            why = "a rate is a number with a unit"
+            raise QuestionError(Problem(f"rate: {error.message()}", why, "for example, write '1 turn/s'")) from None
     check_numbers(rate=rate)
     if rate is not None and not 0 < rate < inf:
         why = "a rate is positive, because the sense of rotation follows from the declared inputs"
-        raise QuestionError(
-            Problem(
-                f"a rate of {rate:g} rad/s is out of range",
-                why,
-                "give a rate above 0, or change the sign of the inputs",
-            )
-        )
+        what = f"a rate of {rate:g} rad/s is out of range"
+        raise QuestionError(Problem(what, why, "give a rate above 0, or change the sign of the inputs"))
     return rate
 
 

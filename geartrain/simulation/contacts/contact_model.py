@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 Form = Mapping[int, float]
 """Linear form of the coordinates: coefficient by index of the coordinate."""
 
-# rows without a free coordinate, and those of stops, are regularised: the inverse compliance exceeds the inertia of all
-# that turns with the row by the first factor, and that of its own coordinates by at most the second
-_STIFF, _STIFFEST = 1e6, 1e9
+_STIFF = 1e6  # inverse compliance of a contact between prescribed coordinates, relative to the inertia of the train
 
 
 @dataclass(frozen=True)
@@ -175,11 +173,13 @@ class ContactModel:
             matrix = matrix + past**2 * spring.stiffness * np.outer(c, c)
         _, transmissions, rubbing = self._functions
         if yields is None:
-            compliance = [0.0 if self._is_regular(pair) else 1 / self._stiffness(pair.opening_row(n, 0.0))
-                          for pair in self.pairs]  # fmt: skip
+            # during a dwell the driver's speed has no effect
+            ratios = [pair.front.slope if pair.has_no_dwell else 0.0 for pair in self.pairs]
+            contacts = [pair.opening_row(n, ratio) for pair, ratio in zip(self.pairs, ratios, strict=True)]
+            compliance = [self._compliance(row) for row in contacts]
         else:
             compliance = (1 / (step**2 / 4 * yields.stiffness + step / 2 * yields.damping)).tolist()
-        compliance += [1 / self._stiffness(_dense(stop.angle, n)) for stop in self.stops]
+        compliance += [self._compliance(_dense(stop.angle, n)) for stop in self.stops]
         # a stop has the row of a pair whose driver does not move
         rows: list[tuple[Form, Form]] = [(pair.driver, pair.driven) for pair in self.pairs]
         rows += [({}, stop.angle) for stop in self.stops]
@@ -213,21 +213,13 @@ class ContactModel:
             np.array([each.rate for each in self.springs], dtype=np.float64),
         )
 
-    def _is_regular(self, pair: ContactPair) -> bool:
-        """Return True if a free coordinate always contributes to the opening speed of a pair."""
-        # during a dwell the driver's speed has no effect
-        row = pair.opening_row(len(self.torque), pair.front.slope if pair.has_no_dwell else 0.0)
-        return any(value and at not in self.given for at, value in enumerate(row))
-
-    def _stiffness(self, row: Floats) -> float:
-        """Return the regularising inverse compliance of a row [kg m2], far above the inertia that turns with it."""
-        heavy = float(self.typical @ self.mass @ self.typical)
-        speed = float(row @ self.typical)
-        # a prescribed coordinate has infinite inertia, so it does not contribute
-        free = [at for at, value in enumerate(row) if value and at not in self.given]
-        with np.errstate(divide="ignore"):
-            own = float(1 / np.sum(row[free] ** 2 / np.diag(self.mass)[free])) if free else heavy
-        return min(_STIFF * max(own, heavy / speed**2 if speed else 0.0), _STIFFEST * own)
+    def _compliance(self, row: Floats) -> float:
+        """Return the compliance of a contact with rigid flanks [1/(kg m2)]: 0 if its row has a free coordinate; else a
+        small one, without which the equations would be singular.
+        """
+        if any(value and at not in self.given for at, value in enumerate(row)):
+            return 0.0
+        return 1 / (_STIFF * (float(np.trace(self.mass)) or 1.0))
 
 
 def _dense(form: Form, n: int) -> Floats:

@@ -3,8 +3,8 @@
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
 The speeds v+ and the impulses P_c are the solution of one system of linear equations (13). The compliance 1/s_c is 0
-for rigid teeth. A stop may act on the same link as a stuck bearing, and a contact between prescribed coordinates has no
-unknown speed, so these rows have a compliance far below that of any mass.
+for rigid teeth and stops. Contacts between prescribed coordinates, whose speeds are known, have a compliance far below
+that of any mass, so that the system is regular.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import builtins
+import sys
 from functools import cache
 from typing import Any
 
@@ -149,13 +149,6 @@ def test_arrays_of_any_number_of_axes() -> None:
 
 
 def test_without_pandas_it_is_said_what_brings_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    real = builtins.__import__
-
-    def without(name: str, *args: Any, **given: Any) -> Any:
-        if name == "pandas":
-            raise ImportError(name)
-        return real(name, *args, **given)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(MissingExtraError, match="tables"):
         geartrain.load("planetary-24-18-60").solve().to_frame()

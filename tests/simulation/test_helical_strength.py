@@ -71,13 +71,9 @@ def test_straight_teeth_have_as_many_tooth_pairs_as_touch_at_minimum() -> None:
 
 def test_teeth_that_hardly_lean_are_as_strong_as_straight_ones() -> None:
     straight, leaning = strength(0, 20), strength(0.01, 20)
-    assert leaning.iso is not None
-    assert straight.iso is not None
     assert leaning.iso.stress == pytest.approx(straight.iso.stress, rel=1e-3)
     for one, other in zip(leaning.wheels, straight.wheels, strict=True):
         assert one.tip_stress == pytest.approx(other.tip_stress, rel=1e-3)
-        assert one.iso is not None
-        assert other.iso is not None
         assert one.iso.stress == pytest.approx(other.iso.stress, rel=1e-3)
 
 
@@ -94,7 +90,6 @@ def test_pressure_at_the_pitch_point_is_hertz_in_space_and_that_of_the_standard(
     pressure = 189.8 * sqrt(normal / lines * curvature)
     (pitch,) = (each for each in found.contact if each.where == "pitch point")
     assert pitch.pressure == pytest.approx(pressure * found.elasticity / 189.8, rel=1e-9)
-    assert found.iso is not None
     assert found.iso.Zeps == pytest.approx(1 / sqrt(ratio))
     assert found.iso.nominal == pytest.approx(pitch.pressure * found.iso.Zbeta, rel=1e-9)
     assert found.iso.stress == (found.iso.nominal, found.iso.nominal), "single contact there is none"
@@ -132,7 +127,6 @@ def test_roots_are_those_of_the_spur_wheel_with_the_teeth_across() -> None:
     assert z == pytest.approx(Z1 / cos(radians(15)) ** 3, rel=0.02)
     contact_ratio = strength(15, 40).contact
     assert contact_ratio
-    assert found.iso is not None
     wheel = RackWheel(z, 0.0, z / 2 + 1)
     force = TORQUE * 1e3 / (Z1 * NORMAL / cos(radians(15)) / 2)
     low, high = (root_stress(wheel, radians(20), force, 40, NORMAL, radius) for radius in (z / 2, z / 2 + 1))
@@ -208,7 +202,6 @@ def test_curvatures_are_those_of_the_path_on_the_sphere_within_two_percent(z1: i
     """Flanks are cones of rays through the apex: what they are curved across these is the geodesic curvature there."""
     bevels = f"teeth: {z1}, module: 3 mm, kind: bevel", f"teeth: {z2}, kind: bevel"
     sphere = pair_of(*bevels, 20, 1.0, axis="[0, 1, 0]").meshes[0].path
-    assert sphere is not None
     cone = sphere.pitch.R1
     counts = z1 / cos(cone), z2 / sin(cone)
     base = [z / 2 * cos(ANGLE) for z in counts]

@@ -48,8 +48,6 @@ def test_a_slot_leaves_its_pin_where_its_speed_falls_most(offset: int, fall: flo
     assert degrees(S) == pytest.approx(angle, abs=1e-4)
     found = pin(offset)
     assert found.complete
-    assert found.first is not None
-    assert found.rate is not None
     assert found.rate * tau == pytest.approx(sqrt(1e-3 / (1e-5 * closed)), rel=1e-9)
     assert found.rate * tau == pytest.approx(rate, rel=3e-9)
     assert 360 * found.first.at == pytest.approx(degrees(S), abs=2e-3)
@@ -63,7 +61,6 @@ def test_viscous_drag_holds_a_slot_to_its_pin() -> None:
     speed, fall = r * (r - e * np.cos(S)) / square, r * e * (r * r - e * e) * np.sin(S) / square**2
     expected = float(np.min(2e-4 * speed[1:-1] / (1e-5 * fall[1:-1])))
     found = pin(2, "drag: 0.2 N mm s/rad")
-    assert found.rate is not None
     assert found.rate * tau == pytest.approx(expected, rel=1e-9)
 
 
@@ -137,7 +134,6 @@ def test_the_moons_train_parts_first_at_its_last_pair() -> None:
     for each in found.pairs:
         assert each.rate == pytest.approx(printed[each.pair], rel=1.5e-3)
         assert each.rate < printed[each.pair]
-    assert found.first is not None
     assert found.first.at == pytest.approx(16.9213, abs=5e-4)
     assert found.complete
     assert found.turns == 95
@@ -275,10 +271,7 @@ inputs: {{a: 1}}
 def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
     """Beyond 1.031256 the driven wheel stands still for a while in each pitch: it would have to be stopped."""
     still, running = (find_separation(load(TEETH.format(clearance)).mechanics).first for clearance in ("1.035", "1.03"))
-    assert still is not None
     assert (still.rate, still.leap) == (0, True)
-    assert running is not None
-    assert running.rate is not None
     assert not running.leap
     transmission = load(TEETH.format("1.03")).meshes[0].transmission
     assert running.rate * tau == pytest.approx(sqrt(1e-3 / (1e-5 * (transmission.steepest_fall() or 0))), rel=1e-6)

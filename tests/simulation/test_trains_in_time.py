@@ -146,7 +146,6 @@ def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, backlash: dict[s
     )
     run = train.dynamics(rate="0.05 turn/s", turns=1, skip=0.25, steps=2000, fast=False)
     requested = train.torques(turns=1).mean
-    assert requested is not None
     assert run.torque == pytest.approx(requested, rel=3e-3)
     assert run.energy.friction == pytest.approx(abs(run.energy.drive + run.energy.loads), rel=3e-3)
 
@@ -166,7 +165,6 @@ def test_a_load_that_drives_gives_back_what_teeth_leave_of_it(gear: dict[str, ob
     )
     run = train.dynamics(rate="0.05 turn/s", turns=0.5, skip=0.25, steps=2000, fast=False)
     requested = train.torques(turns=0.5).mean
-    assert requested is not None
     assert requested < 0 < run.energy.friction
     assert run.torque == pytest.approx(requested, rel=3e-3)
 
@@ -402,7 +400,6 @@ links: {moon: {inertia: 1e-8 kg m2}, d: {inertia: 3e-5 kg m2}}
 def test_stepped_teeth_part_first_at_the_rate_of_the_condition(text: str, turns: float, steps: int) -> None:
     train = load(text)
     closed = find_separation(train.mechanics, turns=turns)
-    assert closed.rate is not None
     below, above = (
         train.dynamics(rate=share * closed.rate * tau, turns=turns, skip=0, steps=steps, restitution=0.0, fast=True)
         for share in (0.99, 1.02)

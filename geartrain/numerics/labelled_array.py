@@ -43,6 +43,7 @@ class LabelledArray(Tabular, Result):
     def __post_init__(self) -> None:
         if self.values.shape != tuple(len(names) for names in self.labels):
             raise ValueError(f"shape {self.values.shape} does not fit the labels of {self.axes}")
+        # the instance is frozen, and so must its array be
         self.values.flags.writeable = False
 
     def __getitem__(self, key: str | tuple[str, ...]) -> Any:

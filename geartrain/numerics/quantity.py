@@ -272,6 +272,7 @@ def _half_unit(text: str) -> Fraction | None:
     mantissa, _, exponent = text.lower().partition("e")
     if "." not in mantissa and not exponent:
         return None
+    # an exponent moves the last decimal: 1e3 is known to half a thousand
     decimals = len(mantissa.partition(".")[2])
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 

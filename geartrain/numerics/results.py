@@ -178,6 +178,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
             return None
     except OverflowError:  # more items than `len` can return
         return None
+    # short tuples of numbers and names are shown, other containers by their length only
     if isinstance(values, tuple) and len(values) <= 4 and not hasattr(values, "_fields"):
         parts = [brief(each) for each in values]
         text = f"({', '.join(part or '-' for part in parts)})"
@@ -220,6 +221,7 @@ class Tabular(Shown):
         """Return the meaning of one column; "" if it is unknown."""
         own: Any = type(self)
         row = getattr(modules[own.__module__], self.ROW or own.__name__)
+        # a column of the row class has precedence over a field of the result with the same name
         known = {**field_docs(own), **field_docs(row), **self.MEANINGS}
         exact = known.get(column) or _property_doc(getattr(row, column, None))
         return exact or next((text for name, text in known.items() if fnmatchcase(column, name)), "")
@@ -438,6 +440,7 @@ def _plain_data(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]
         if key.name:
             found[key.name] = value
         else:
+            # a key without a name merges the keys of a part; a part that is None has none
             found |= value or {}
     return found
 

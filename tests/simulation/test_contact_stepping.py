@@ -27,6 +27,10 @@ EVEN: dict[str, Any] = {
 }
 
 
+def with_b(**more: Any) -> dict[str, Any]:
+    return EVEN["links"] | {"b": EVEN["links"]["b"] | more}
+
+
 def turned(
     step: float, restitution: float = 0.0, at: float | None = 1.0, fast: bool = False, **more: Any
 ) -> Simulation:
@@ -77,9 +81,7 @@ def test_free_bodies_share_their_momentum_by_impacts() -> None:
 )
 def test_drag_and_impacts_stop_a_body_between_its_flanks(step: float, fast: bool, off: float) -> None:
     # the crank stops, b flies on at 0.15 rad/s and is slowed by 0.05 rad/s2: energies by hand, in J of a unit inertia
-    links = {name: {**link} for name, link in EVEN["links"].items()}
-    links["b"]["bearing"] = f"{0.05 * J} N m"
-    made = turned(step, 0.7, 0.15, fast=fast, links=links)
+    made = turned(step, 0.7, 0.15, fast=fast, links=with_b(bearing=f"{0.05 * J} N m"))
     made.advance(step)
     made.set_drive(0.0)
     made.advance(2.0)
@@ -89,9 +91,7 @@ def test_drag_and_impacts_stop_a_body_between_its_flanks(step: float, fast: bool
 
 @pytest.mark.parametrize(("torque", "moves"), [(0.9, False), (1.1, True)])
 def test_friction_at_rest_holds_what_friction_of_motion_would_not(torque: float, moves: bool) -> None:
-    links = {name: {**link} for name, link in EVEN["links"].items()}
-    links["b"]["bearing"] = {"sliding": "0.5 N mm", "static": "1 N mm"}
-    made = turned(1e-3, links=links).anew(drive=0.0)
+    made = turned(1e-3, links=with_b(bearing={"sliding": "0.5 N mm", "static": "1 N mm"})).anew(drive=0.0)
     made.set_load("b", -1e-3 * torque)
     made.advance(0.02)
     expected = 1e-3 * (torque - 0.5) / J * 0.02 if moves else 0.0
@@ -99,8 +99,7 @@ def test_friction_at_rest_holds_what_friction_of_motion_would_not(torque: float,
 
 
 def test_viscous_drag_limits_a_speed_exponentially_and_a_spring_swings_at_its_frequency() -> None:
-    links = {name: {**link} for name, link in EVEN["links"].items()}
-    links["b"]["drag"] = "1e-4 N m s/rad"
+    links = with_b(drag="1e-4 N m s/rad")
     # the ideal pair makes one body of 3 J, with the drag of b
     gears = [{"pair": ["p", "w"]}]
     made = turned(1e-4, at=None, rate="1 rad/s", drive={"torque": "1 N mm"}, links=links, gears=gears)
@@ -114,8 +113,7 @@ def test_viscous_drag_limits_a_speed_exponentially_and_a_spring_swings_at_its_fr
 
 def clock(step: float, e: float, **more: Any) -> GearTrain:
     """A barrel that drives an escape wheel of 30 teeth through a pair with backlash, 0.9 s from beat to beat."""
-    links = {name: {**link} for name, link in EVEN["links"].items()}
-    links["b"]["bearing"] = {"sliding": "0.5 N mm", "static": "1 N mm"}
+    links = with_b(bearing={"sliding": "0.5 N mm", "static": "1 N mm"})
     escapement = {"link": "b", "teeth": 30, "beat": "0.9 s"}
     return GearTrain.declare(
         EVEN | {"links": links, "escapement": escapement, "drive": {"torque": "3 N mm"}, "restitution": e} | more

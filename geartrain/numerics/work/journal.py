@@ -105,7 +105,7 @@ class Journal:
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _MOST_HEADER_BYTES:
-            why = "its first line is not the first line of a journal"
+            why = f"its first line does not begin with {_START.decode()}"
             raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
             return 0

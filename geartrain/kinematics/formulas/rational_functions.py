@@ -212,14 +212,12 @@ class Formula:
         """Return values in float64, and bounds on their absolute errors."""
         import numpy as np
 
-        from geartrain.numerics.bounded_polynomials import BoundedQuotient, in_range, products_of
+        from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of
 
-        # tooth counts up to 10^12 are exact in float64
-        quotient = BoundedQuotient.of(self.numerator, self.denominator, [0] * len(self.wheels))
         with np.errstate(all="ignore"):
-            value, error = quotient.bounded(
-                products_of([np.asarray(columns[wheel]).astype(np.float64) for wheel in self.wheels])
-            )
+            # tooth counts up to 10^12 are exact in float64
+            product = products_of([np.asarray(columns[wheel]).astype(np.float64) for wheel in self.wheels])
+        value, error = bounded_quotient(self.numerator, self.denominator, [0] * len(self.wheels), product)
         terms = (*self.numerator, *self.denominator)
         scale = max(abs(term.coefficient) for term in terms)
         # the bounds are valid only without overflow and underflow

@@ -16,7 +16,7 @@ configuration, assembly                      axes, meshes and kinds of gear of a
 gear_sphere, gear_sizes                      mobility and assembly of a set; sizes of its gears
 pitch_cones                                  pitch and base cones of a pair
 tooth_count_search                           tooth numbers that nearly share one pitch (exhaustive search)
-axis_adjustment, symmetric_displacement      axes adjusted until all meshes have one pitch, or loops close (Newton)
+axis_adjustment                              axes adjusted until all meshes have one pitch, or loops close (Newton)
 """
 
 from __future__ import annotations

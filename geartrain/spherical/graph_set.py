@@ -18,7 +18,6 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.spherical.axis_adjustment import (
-    AxisAdjustment,
     LoopCorners,
     corners_of,
     fit_phases,
@@ -312,7 +311,7 @@ def from_graph(
     corners = corners_of([walk for at, walk in enumerate(regions) if at != largest], side)
     if aim == "pitch":
         z = choices[0]
-        fit = fit_pitch(axes, meshes, z, float((np.sin(cones) / z).mean()))
+        fit = fit_pitch(axes, meshes, z)
     else:
         # the rounding whose pitches remain most uniform when loops are closed
         z = min(choices[:_MOST_CHOICES], key=lambda z: forecast_spread(axes, meshes, z, corners))
@@ -326,12 +325,12 @@ def _answer(
     z: Ints,
     aim: Aim,
     packing: SpherePacking,
-    fit: AxisAdjustment,
+    fit: tuple[Floats, list[float]],
     corners: LoopCorners,
 ) -> GraphSet:
     labels = tuple(str(name) for name in names)
     # a common rotation is removed, so that displacements are meaningful
-    axes = kabsch_aligned(fit.axes, packing.axes[: len(names)])
+    axes = kabsch_aligned(fit[0], packing.axes[: len(names)])
     chosen = dict(zip(labels, z.tolist(), strict=True))
     title = f"{len(names)} gears on a planar graph"
     configuration = Configuration(labels, axes, meshes, labels, (0,) * len(names), chosen, title)
@@ -339,7 +338,7 @@ def _answer(
     residue = float(np.abs(sums - np.round(sums)).max(initial=0.0))
     apart = np.linalg.norm(axes - packing.axes[: len(names)], axis=1)
     return GraphSet(
-        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), fit.residuals
+        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), tuple(fit[1])
     )
 
 
@@ -381,7 +380,9 @@ class GraphSet(Result):
     moved: Floats
     """Displacement of each axis from its direction in the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
-    """Residual after each step of the adjustment [rad for "pitch", pitch for "phases"]."""
+    """Residual after each step of the adjustment: maximum deviation of the logarithm of a pitch from its mean [1] for
+    "pitch", maximum closing error [pitch] for "phases".
+    """
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, aim {self.aim}, residue {self.residue:.3g} pitches"

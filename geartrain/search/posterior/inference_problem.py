@@ -13,13 +13,12 @@ from geartrain.kinematics.formulas import Formula, find_formulas
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Result
 from geartrain.search.join.product_lists import Domains
-from geartrain.search.join.wheel_monomials import Interval, IntervalConstraint, is_within
+from geartrain.search.join.wheel_monomials import Interval, IntervalConstraint
 from geartrain.search.train.output_requirements import (
     SpeedRequirement,
     find_output_requirements,
     find_turning_conditions,
     meet,
-    of_either_sense,
 )
 from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
@@ -129,9 +128,14 @@ def build_inference_problem(
             if outputs and requirement.name not in outputs:
                 continue
             formula = formulas.outputs[requirement.name]
-            witness = ObservedOutput(
-                prefix + requirement.name, formula, observations_of(requirement.demands, against, scale)
+            # targets without a tolerance are not evidence
+            claims = tuple(
+                demand.scaled(scale)
+                for demand in requirement.demands
+                if demand.allowed is not None and not demand.approached
+                if against in ("all", "targets" if demand.target else "figures")
             )
+            witness = ObservedOutput(prefix + requirement.name, formula, claims)
             if witness.claims and formula.wheels:
                 witnesses.append(witness)
                 known.add(requirement.name)
@@ -334,64 +338,6 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
 
 
 @dataclass(frozen=True, slots=True)
-class Observation:
-    """Observed speed of an output with its tolerance."""
-
-    label: str
-    """Description, such as "speed 254/19 within 0.2 %"."""
-    wanted: Fraction
-    """Observed speed in the unit of the train; positive if only the magnitude is known."""
-    signed: bool
-    """False if only the magnitude of the speed is known."""
-    intervals: tuple[Interval, ...]
-    """Closed intervals of accepted speeds or magnitudes; None for an infinite end."""
-
-    @property
-    def is_exact(self) -> bool:
-        """True if exactly one speed is accepted."""
-        return all(low == high for low, high in self.intervals)
-
-    def scaled(self, factor: Fraction) -> Observation:
-        """Return the observation with all tolerances multiplied by a factor."""
-        if factor == 1:
-            return self
-        stretched = tuple((self._moved(low, factor), self._moved(high, factor)) for low, high in self.intervals)
-        return replace(self, intervals=stretched)
-
-    def _moved(self, end: Fraction | None, factor: Fraction) -> Fraction | None:
-        return None if end is None else self.wanted + factor * (end - self.wanted)
-
-    def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above or below the observed speed; None if it is unlimited, or if no interval contains
-        the speed.
-        """
-        # interval that contains the observed speed
-        own = [each for each in self.intervals if is_within(self.wanted, (each,))]
-        end = own[0][1 if above else 0] if own else None
-        return None if end is None else abs(end - self.wanted)
-
-    def met(self, speed: Fraction) -> bool:
-        """Return whether a speed is within the tolerance."""
-        value = speed if self.signed else abs(speed)
-        return is_within(value, self.intervals)
-
-    def misfit(self, speed: Fraction) -> Fraction:
-        """Return (error / tolerance)^2; 0 for an unlimited tolerance and for an exact observation."""
-        value = speed if self.signed else abs(speed)
-        half = self.half(value > self.wanted)
-        return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
-
-    def allowed(self) -> tuple[Interval, ...]:
-        """Return the intervals of accepted speeds, of either sense if only the magnitude is known."""
-        if self.signed:
-            return self.intervals
-        ((low, high),) = self.intervals
-        assert low is not None, "a target has a tolerance on both sides"
-        assert high is not None, "a target has a tolerance on both sides"
-        return of_either_sense(low, high)
-
-
-@dataclass(frozen=True, slots=True)
 class ObservedOutput:
     """Output with its speed as a function of uncertain tooth counts, and with observations of this speed as
     evidence.
@@ -401,7 +347,7 @@ class ObservedOutput:
     """Name of the output, or "state: output" if several states are used at once."""
     formula: Formula
     """Speed as a function of one or more uncertain counts."""
-    claims: tuple[Observation, ...]
+    claims: tuple[SpeedRequirement, ...]
     """Observations of its speed, at least one, all of which must be satisfied."""
 
     @property
@@ -424,7 +370,7 @@ class ObservedOutput:
         """
         common: tuple[Interval, ...] = (_LINE,)
         for claim in self.claims:
-            common = meet(common, (claim.scaled(FAR) if soft else claim).allowed())
+            common = meet(common, (claim.scaled(FAR) if soft else claim).allowed or (_LINE,))
         return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
 
     def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
@@ -434,29 +380,3 @@ class ObservedOutput:
         then. With `graded` the join also returns the misfit of the output.
         """
         return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
-
-
-def observations_of(
-    demands: Sequence[SpeedRequirement], kind: LikelihoodKind, factor: Fraction = Fraction(1)
-) -> tuple[Observation, ...]:
-    """Convert the requirements on an output to observations. Targets without a tolerance are omitted.
-
-    kind     "figures" for `expect` and `published`, "targets" for targets, or "all" for both
-    factor   factor of every tolerance
-    """
-    found = []
-    for demand in demands:
-        if (
-            demand.allowed is None
-            or demand.approached
-            or kind not in ("all", "targets" if demand.target else "figures")
-        ):
-            continue
-        intervals = demand.allowed
-        if not demand.signed:
-            most = demand.allowed[-1][1]
-            assert most is not None, "a target has a tolerance"
-            # symmetric about the observed magnitude
-            intervals = ((2 * demand.wanted - most, most),)
-        found.append(Observation(demand.label, demand.wanted, demand.signed, intervals).scaled(factor))
-    return tuple(found)

@@ -81,8 +81,7 @@ def _combination(
         assert speed is not None, "what fits has a speed"
         speeds[witness.name] = speed
         claim = max(witness.claims, key=lambda one: one.misfit(speed))
-        value = speed if claim.signed else abs(speed)
-        errors[witness.name] = value / claim.wanted - 1 if claim.wanted else value
+        errors[witness.name] = claim.error(speed)
         misfit += witness.misfit(speed)
     changed = tuple(wheel for wheel, count in ordered.items() if count != question.uncertainties[wheel].declared)
     probability = _probability(question, ordered, misfit, evidence)

@@ -22,7 +22,8 @@ from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.join.wheel_monomials import IntervalConstraint, is_within
-from geartrain.search.posterior.inference_problem import InferenceProblem, Observation, ObservedOutput, ToothCountPrior
+from geartrain.search.posterior.inference_problem import InferenceProblem, ObservedOutput, ToothCountPrior
+from geartrain.search.train.output_requirements import SpeedRequirement
 
 KEPT = 2000
 """Maximum number of best combinations that a task returns; further ties are omitted."""
@@ -245,7 +246,7 @@ class _Scale:
     above: float
 
     @classmethod
-    def of(cls, claim: Observation) -> _Scale:
+    def of(cls, claim: SpeedRequirement) -> _Scale:
         halves = (claim.half(side) for side in (False, True))
         wanted, below, above = (as_float(each or Fraction(0)) for each in (claim.wanted, *halves))
         if wanted is None or below is None or above is None:
@@ -262,7 +263,7 @@ class _Scale:
 
 def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
     """Return a function from speeds of an output to their misfits, sums of (error / tolerance)^2, up to rounding."""
-    scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
+    scales = [_Scale.of(claim) for claim in witness.claims if not claim.exact]
 
     def misfit(speeds: Floats) -> Floats:
         return sum((scale.misfit(speeds) for scale in scales), np.zeros(len(speeds)))

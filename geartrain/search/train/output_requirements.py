@@ -79,26 +79,55 @@ class SpeedRequirement:
             return self.allowed
         # the tolerance is absolute if the requested speed is 0
         size = abs(self.wanted) or Fraction(1)
-        near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share)
+        near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share * size)
         return near if self.allowed is None else meet(near, self.allowed)
 
     def met(self, speed: Fraction) -> bool:
         """Return whether a speed is admissible."""
         return self.allowed is None or is_within(speed, self.allowed)
 
+    @property
+    def exact(self) -> bool:
+        """True if exactly one speed, or one magnitude, is admissible."""
+        return self.allowed is not None and all(low == high for low, high in self.allowed)
 
-def _around(middle: Fraction, half: Fraction) -> Interval:
+    def half(self, above: bool) -> Fraction | None:
+        """Return the tolerance above or below the requested speed; None if it is unlimited, or if the requested speed
+        is not admissible.
+        """
+        around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]
+        # a magnitude has equal tolerances, even if its interval extends to negative speeds
+        end = around[0][1 if above or not self.signed else 0] if around else None
+        return None if end is None else abs(end - self.wanted)
+
+    def scaled(self, factor: Fraction) -> SpeedRequirement:
+        """Return the requirement with all tolerances multiplied by a factor."""
+        if self.allowed is None or factor == 1:
+            return self
+        half = self.half(above=True)
+        if not self.signed and half is not None:
+            return replace(self, allowed=_magnitudes(self.wanted, factor * half))
+        stretched = tuple((self._moved(low, factor), self._moved(high, factor)) for low, high in self.allowed)
+        return replace(self, allowed=stretched)
+
+    def _moved(self, end: Fraction | None, factor: Fraction) -> Fraction | None:
+        return None if end is None else self.wanted + factor * (end - self.wanted)
+
+    def misfit(self, speed: Fraction) -> Fraction:
+        """Return (error / tolerance)^2; 0 for an unlimited tolerance and for an exact requirement."""
+        value = speed if self.signed else abs(speed)
+        half = self.half(value > self.wanted)
+        return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
+
+
+def _around(middle: Fraction, half: Fraction) -> tuple[Fraction, Fraction]:
     return middle - half, middle + half
 
 
-def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
-    """Return the intervals of speeds, of either sense, whose magnitude is within a relative tolerance of `wanted`."""
-    return of_either_sense(wanted * (1 - share), wanted * (1 + share))
-
-
-def of_either_sense(minimum: Fraction, most: Fraction) -> tuple[Interval, ...]:
-    """Return the intervals of speeds, of either sense, whose magnitude is from `minimum` to `most`."""
-    return ((-most, most),) if minimum <= 0 else ((-most, -minimum), (minimum, most))
+def _magnitudes(wanted: Fraction, half: Fraction) -> tuple[Interval, ...]:
+    """Return the intervals of speeds, of either sense, whose magnitude is within `half` of `wanted`."""
+    low, high = _around(wanted, half)
+    return ((-high, high),) if low <= 0 else ((-high, -low), (low, high))
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:

@@ -24,7 +24,7 @@ from geartrain.search.train.output_requirements import (
     find_parts,
     find_requirements,
 )
-from geartrain.search.train.search_passes import NOT_BEGUN, AssignmentOrder, PartSearch, PassResult, PassRunner, size_of
+from geartrain.search.train.search_passes import AssignmentOrder, PartSearch, PassResult, PassRunner, size_of
 from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.train import Train
 
@@ -44,14 +44,14 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
     """Return the pass that counts the solutions, the best assignments, and whether they are proved to be the best."""
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
-        return passed, passed.tally.best, passed.tally.listed and passed.complete
+        return passed, passed.best, passed.listed and passed.complete
     # only the order by error can be narrowed by a tolerance if there are too many solutions to list
     by_error = search.order.by == "error" and not search.order.level
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
-    if passed.tally.listed or not passed.complete:
-        return passed, passed.tally.best, passed.tally.listed and passed.complete
+    if passed.listed or not passed.complete:
+        return passed, passed.best, passed.listed and passed.complete
     narrowed = widened(search)
-    return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete
+    return passed, narrowed.best, by_error and narrowed.listed and narrowed.complete
 
 
 def widened(search: PartSearch) -> PassResult:
@@ -68,15 +68,15 @@ def widened(search: PartSearch) -> PassResult:
         if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
             break
         passed = search.run(share, _list_limit(search))
-        enough = passed.tally.count >= search.order.best
-        if not passed.complete or (enough and passed.tally.listed):
+        enough = passed.count >= search.order.best
+        if not passed.complete or (enough and passed.listed):
             return passed
         if enough:
             long = share
             guess = long / 8
         else:
             short = share
-            guess = share * _growth(search, passed.tally.count)
+            guess = share * _growth(search, passed.count)
         if short and long is not None:
             # bisection of the logarithm, between too few and too many
             guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
@@ -133,7 +133,7 @@ def relaxed_search(search: PartSearch) -> PartSearch:
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
     """Return the rejected assignments of a pass by reason; without a solution also the nearest miss and suggestions."""
     found = tallied(search, passed)
-    if passed.tally.count or not passed.complete:
+    if passed.count or not passed.complete:
         return found
     # the explanation must not cost more than the search
     nearest, advice = _explain(PartSearch(search.part, search.order, search.runner, search.limit / 4))
@@ -196,7 +196,7 @@ def _nearest(search: PartSearch) -> Assignment | None:
     """
     if not search.part.requirements or not size_of(search.domains):
         return None
-    best = widened(relaxed_search(search)).tally.best
+    best = widened(relaxed_search(search)).best
     return search.order.assignment(best[0].teeth) if best else None
 
 
@@ -220,16 +220,16 @@ def _relaxations(search: PartSearch) -> Iterator[str]:
     for name in names:
         # 0: the solutions are counted, not listed
         passed = search.without(rule=name).run(None, 0)
-        if passed.tally.count:
+        if passed.count:
             yield f'without the constraint "{name}" there {_solution_count(passed)}'
     for requirement in search.part.requirements:
         passed = search.without(requirement=requirement).run(None, 0)
-        if passed.tally.count:
+        if passed.count:
             yield f"without the requirement on '{requirement.name}' there {_solution_count(passed)}"
 
 
 def _solution_count(passed: PassResult) -> str:
-    count = passed.tally.count
+    count = passed.count
     minimum = "" if passed.complete else "at least "
     return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
 
@@ -380,7 +380,7 @@ def _found(search: PartSearch) -> PartFindings:
         passed, solutions, ranked = solve(search)
     except KeyboardInterrupt:
         search.runner.stopped = True
-        passed, solutions, ranked = NOT_BEGUN, (), False
+        passed, solutions, ranked = PassResult(stopped=True), (), False
     part = search.part
     return PartFindings(
         tuple(part.domains),
@@ -388,7 +388,7 @@ def _found(search: PartSearch) -> PartFindings:
         tuple(requirement.text for requirement in part.requirements),
         tuple(dict.fromkeys(rule.name for rule in part.rules)),
         part.considered,
-        passed.tally.count,
+        passed.count,
         passed.share,
         passed.complete,
         ranked,
@@ -408,13 +408,13 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
     """Return why the search of a part is not complete or its solutions are not ranked; "" if neither applies."""
-    if passed.tally.stopped:
+    if passed.stopped:
         return "interrupted: the count covers only the finished part"
     if passed.searched < 1:
         share = decimal(Fraction(passed.searched), 2)
         limit = f"{search.limit:.1e}"
         return f"about {passed.steps:.1e} steps, above the limit of {limit}: a random share of {share} was searched"
-    if passed.tally.cut:
+    if passed.cut:
         return f"the limit of {search.limit:.1e} steps was reached"
     if not ranked and search.runner.stopped:
         return "interrupted: all solutions are counted, the best are not listed"
@@ -467,4 +467,4 @@ def _rank(search: PartSearch, assignment: Assignment) -> int | None:
         return 1
     # strict: assignments with an equal error are not counted
     passed = search.run(assignment.error, 0, strict=True)
-    return passed.tally.count + 1 if passed.complete else None
+    return passed.count + 1 if passed.complete else None

@@ -335,12 +335,13 @@ class _Search:
             return "", "all sets turn in the opposite sense: request the other sense, either sense, or other modes"
         if self.nearest is None:
             reason = max(self.removed, key=lambda name: self.removed[name])
-            return (
-                "",
-                f"all sets were rejected before their ratio, most by: {reason}; widen the counts or change the planets",
-            )
-        error = decimal(abs(self.nearest.error), 3)
+            fix = "change the number of planets" if reason in (NO_SPACING, NO_ROOM) else "widen the range of counts"
+            return "", f"all sets were rejected before their ratio was computed, most by: {reason}; {fix}"
         nearest = f"{self.nearest}, error {decimal(self.nearest.error, 3)}"
+        if not Fraction(1, 2) < 1 + self.nearest.error < 2:
+            fix = "search other modes or another kind of set"
+            return nearest, f"this ratio is far from all ratios of these sets: {fix}, or request the reciprocal"
+        error = decimal(abs(self.nearest.error), 3)
         return nearest, f"a tolerance of {error} includes it; a wider range of counts may give a nearer one"
 
 

@@ -15,7 +15,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
@@ -140,6 +140,30 @@ class StageFindings(Tabular, Result):
 
     def __getitem__(self, at: int) -> GearStages:
         return self.solutions[at]
+
+
+def stages_to_train(found: GearStages, internal: int = 0) -> dict[str, Any]:
+    """Return a declaration of a solution as plain data. The numerator wheels drive, so that the exact ratio is output
+    speed divided by input speed.
+
+    internal   number of internal pairs, which are the last pairs; the larger wheel of such a pair is a ring
+    """
+    stages = len(found.pairs)
+    links: dict[str, Any] = {"frame": {}, **{f"arbor {at}": {"wheels": {}} for at in range(1, stages + 2)}}
+    for at, pair in enumerate(found.pairs, 1):
+        for arbor, wheel, teeth in ((at, f"{at}a", pair[0]), (at + 1, f"{at}b", pair[1])):
+            ring = at > stages - internal and teeth == max(pair)
+            links[f"arbor {arbor}"]["wheels"][wheel] = {"teeth": teeth, "internal": True} if ring else teeth
+    arbors = list(links)[1:]
+    speed = found.ratio if (stages - internal) % 2 == 0 else -found.ratio
+    return {
+        "name": f"stages-{found.ratio.numerator}-{found.ratio.denominator}",
+        "links": links,
+        "revolutes": [{"pair": ["frame", arbor], "axis": arbor} for arbor in arbors],
+        "gears": [{"pair": [f"{at}a", f"{at}b"]} for at in range(1, stages + 1)],
+        "inputs": {arbors[0]: 1},
+        "outputs": {arbors[-1]: {"expect": str(speed)}},
+    }
 
 
 def find_stages(

@@ -439,11 +439,11 @@ def test_an_interrupt_keeps_what_was_found_and_a_journal_takes_it_up(
     whole = find_stages(*QUESTION, tolerance=Fraction(1, 10**5))
     real, calls = stages_work.search_segment, []
 
-    def some(task: Any) -> Any:
-        calls.append(task["low"])
+    def some(packed: bytes, task: Any) -> Any:
+        calls.append(task)
         if len(calls) == 25:
             raise KeyboardInterrupt
-        return real(task)
+        return real(packed, task)
 
     monkeypatch.setattr("geartrain.search.ratio.search_segments.search_segment", some)
     with Journal(tmp_path / "journal", {"month": 1}) as journal:

@@ -6,10 +6,12 @@ influence the result.
 
 from __future__ import annotations
 
+import pickle
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from itertools import combinations_with_replacement, pairwise
 from math import ceil, comb, factorial, isqrt, log
 from typing import TYPE_CHECKING, Any
@@ -34,7 +36,6 @@ from geartrain.search.ratio.stage_problem import (
     first_of,
     key_of,
     pairings,
-    stage_problem_of,
 )
 
 if TYPE_CHECKING:
@@ -58,23 +59,25 @@ _MOST = 1e11
 Range = tuple[int, int]
 
 
-def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
+def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
     """Count the solutions of a segment exactly, and return the best of them.
 
-    The task has the keys `question`; `low` and `high`, the half-open range of the denominator products (or of the sums
-    of stages with equal sums); and `near`, the tolerance within which solutions are listed. The result has the keys
-    `count`; `listed`, the number of solutions within `near`; `removed`, the number of pairs of multisets within the
-    tolerance that are not solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator
-    counts].
+    packed    pickled problem, and the tolerance within which solutions are listed
+    segment   half-open range of the denominator products, or of the sums of stages with equal sums
+
+    The result has the keys `count`; `listed`, the number of solutions within the tolerance of the list; `removed`, the
+    number of pairs of multisets within the tolerance that are not solutions, by reason; and `rows`, the best as [rank
+    value, numerator counts, denominator counts].
     """
-    question = stage_problem_of(task["question"])
-    near = replace(question, tolerance=Fraction(task["near"]))
+    question, tolerance = pickle.loads(packed)
+    near = replace(question, tolerance=tolerance)
+    low, high = segment
     if question.of_equal_sums:
-        return _search_sums(question, task["low"], task["high"])
+        return _search_sums(question, low, high)
     judge, count = StageFilter(question), 0
     # every pair of multisets is expanded to all of its pairings
     chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
-    for beneath, top in blocks(question, task["low"], task["high"]):
+    for beneath, top in blocks(question, low, high):
         (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
         first, last = cuts(p, q, *question.edges)
         # several multisets may have the same product
@@ -89,12 +92,7 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
             p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
             for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
                 judge.see(tops[j], beneaths[i], p[j], q[i])
-    return {
-        "count": count if question.loose else judge.count,
-        "listed": judge.count,
-        "removed": judge.removed,
-        "rows": judge.best.plain(),
-    }
+    return judge.outcome() | ({"count": count} if question.loose else {})
 
 
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
@@ -123,12 +121,7 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
             p, q = (row_products(each.astype(question.over.rows.dtype)) for each in (tops, beneaths))
             inside = _are_within(p, q, question)
             judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
-    return {
-        "count": judge.count,
-        "listed": judge.count,
-        "removed": judge.removed,
-        "rows": judge.best.plain(),
-    }
+    return judge.outcome()
 
 
 def _multisets(number: int, size: int) -> Ints:
@@ -201,6 +194,10 @@ class StageFilter:
         if len(at):
             first = first_of(self.question.by, tops[at], beneaths[at], fit)
             self.best.add((first, tops[at], beneaths[at], over[at], under[at]))
+
+    def outcome(self) -> dict[str, Any]:
+        """Return the number of solutions, the rejected pairs by reason, and the best solutions as plain data."""
+        return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": self.best.plain()}
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
         """Return the indices for which `good` is true, and count the remaining indices under `reason`."""
@@ -292,10 +289,9 @@ def _check(question: StageProblem, tolerance: Fraction) -> None:
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
     """Search all segments and merge their results. After a keyboard interrupt return the results obtained so far."""
-    plain = question.plain()
-    tasks = [{"question": plain, "low": low, "high": high, "near": str(near)} for low, high in _segments(question)]
+    work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor
-    results = map(search_segment, tasks) if len(tasks) < 2 else means.run(search_segment, tasks)
+    results = map(work, tasks) if len(tasks) < 2 else means.run(work, tasks)
     count, listed, keys, complete = 0, 0, list[StageRank](), True
     removed = Counter[str]()
     try:

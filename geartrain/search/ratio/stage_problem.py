@@ -6,7 +6,7 @@ The orders are total, and do not depend on the sequence in which solutions are f
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.results import Result
 from geartrain.search.ratio.product_windows import PLAIN, ProductWindows, error_places, multisets, products_of
 
@@ -221,33 +220,6 @@ class StageProblem:
         # one internal mesh is always possible unless all counts are equal, and then the ratio is 1
         ring_alone = self.fit.internal == 1 and not low <= 1 <= high
         return self.fit.free or (ring_alone and replace(self.fit, internal=0).free)
-
-    def plain(self) -> dict[str, Any]:
-        """Return the problem as plain data for JSON."""
-        return {
-            "value": fraction_text(self.value),
-            "stages": self.stages,
-            "top": list(self.top),
-            "beneath": list(self.beneath),
-            "fit": self.fit.to_dict(),
-            "by": self.by,
-            "best": self.best,
-            "tolerance": str(self.tolerance),
-        }
-
-
-def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
-    """Build the problem from the plain data of `StageProblem.plain`."""
-    return StageProblem(
-        Fraction(plain["value"]),
-        plain["stages"],
-        tuple(plain["top"]),
-        tuple(plain["beneath"]),
-        StageConstraints(**plain["fit"]),
-        plain["by"],
-        plain["best"],
-        Fraction(plain["tolerance"]),
-    )
 
 
 # ------------------------------------------------------------ pairings of the counts of two multisets to stages

@@ -47,7 +47,7 @@ def find_item_monomials(
         for rule in constraints
         if not isinstance(rule, PolynomialConstraint)
         for item in items
-        if not set(lists[item].recipe.wheels).isdisjoint(rule.wheels)
+        if any(wheel in rule.wheels for wheel, _ in lists[item].wheels)
     }
     polynomials = [one for one in constraints if isinstance(one, PolynomialConstraint)]
     yield from (((item, 1),) for item in items if item in alone)
@@ -61,9 +61,8 @@ def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[It
     held: list[tuple[int, int]] = []
     largest = [1, 1]
     for item, power in group:
-        own = lists[item]
-        ends = int(own.tops.max()), 1 if own.bottoms is None else int(own.bottoms.max())
-        sizes = [end ** abs(power) for end in (ends if power > 0 else ends[::-1])]
+        size = int(lists[item].values[-1]) ** abs(power)
+        sizes = [size, 1] if power > 0 else [1, size]
         grown = [one * size for one, size in zip(largest, sizes, strict=True)]
         if held and max(grown) >= _LARGEST:
             yield tuple(held)
@@ -116,9 +115,7 @@ class ExactJoin:
             *question.rules,
             *question.polynomial_constraints,
         ]
-        self.wheel_of = {
-            recipe.top[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe.wheels) == 1 and recipe.top
-        }
+        self.wheel_of = {recipe[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe) == 1}
         self._views: dict[int, tuple[ItemMonomial, ...]] = {}
         self._reaches: dict[int, list[tuple[int, list[list[RelaxedInequality]]]]] = {}
         self.cut(slices or {}, budget)
@@ -304,17 +301,17 @@ class ExactJoin:
         """Return the rows for which an equation has an admissible solution for a variable, and the index of the
         solution in the values of the variable.
         """
-        counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
-        tops = self.items[item].tops
+        counts, whole = equation.solve_for(self.question.recipes[item][0][0], self._counts(equation, rows))
+        values = self.items[item].values
         # clipped; a solution above all values fails the comparison below
-        indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
-        found = np.flatnonzero(whole & (tops[indices] == counts) & (indices >= first) & (indices < last))
+        indices = np.minimum(np.searchsorted(values, counts), len(values) - 1)
+        found = np.flatnonzero(whole & (values[indices] == counts) & (indices >= first) & (indices < last))
         return found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
         """Return the tooth counts of those wheels of a constraint that are assigned."""
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
-        return {wheel: rows.top(item) for wheel, item in items.items() if item in rows.columns}
+        return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}
 
     def _holds(self, number: int, rows: PartialAssignments) -> Bools:
         constraint = self.constraints[number]

@@ -64,13 +64,8 @@ class SignPolynomial:
     def rounding(self) -> float:
         """Upper bound of the rounding error of `values`, relative to the sum of the magnitudes of their terms."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
-        # a variable has at most three roundings and each product one; the factor of two covers squares and the bound
-        # itself
+        # each variable and each product has one rounding; the remaining terms cover squares and the bound itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
-
-    def degree(self, item: int) -> int:
-        """Return the highest power of a variable."""
-        return max((dict(monomial).get(item, 0) for _, monomial in self.terms), default=0)
 
     def powers(self, item: int) -> tuple[int, ...]:
         """Return the powers of a variable that occur, ascending."""
@@ -120,13 +115,7 @@ class SignPolynomial:
 
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
         """Return the exact signs of values whose magnitude, relative to the scale, is at most twice `bounds`."""
-        # times all denominators: a bound of the integer computed below
         minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
-        for item in self.items:
-            bottom = rows.bottom(item)
-            if bottom is not None:
-                for _ in range(self.degree(item)):
-                    minimum = minimum * bottom
         found: Signs = np.zeros(rows.size, dtype=np.int8)
         # a factor of two below the range of int64, because the bound itself is rounded
         short = minimum < 2.0**62
@@ -135,18 +124,15 @@ class SignPolynomial:
         return found
 
     def _whole(self, rows: PartialAssignments, wide: bool) -> NDArray[Any]:
-        """Return the values times all denominators as Python integers if `wide`, otherwise modulo 2^64 as int64."""
+        """Return the values as Python integers if `wide`, otherwise modulo 2^64 as int64."""
         dtype: Any = object if wide else np.int64
         total = np.zeros(rows.size, dtype=dtype)
         for coefficient, monomial in self.terms:
             # int64 arrays wrap without a warning; the true magnitude is below 2^63, so the sign is correct
             first = coefficient if wide else (coefficient + (1 << 63)) % (1 << 64) - (1 << 63)
-            term, powers = np.full(rows.size, first, dtype=dtype), dict(monomial)
-            for item in self.items:
-                power, bottom = powers.get(item, 0), rows.bottom(item)
-                term = term * rows.top(item).astype(dtype) ** power
-                if bottom is not None:
-                    term = term * bottom.astype(dtype) ** (self.degree(item) - power)
+            term = np.full(rows.size, first, dtype=dtype)
+            for item, power in monomial:
+                term = term * rows.value(item).astype(dtype) ** power
             total = total + term
         return total
 
@@ -227,7 +213,7 @@ def _guess(polynomial: SignPolynomial, rows: PartialAssignments, item: int) -> I
     # A may be 0: infinite ends, and nan, are sorted behind or before all values
     with np.errstate(divide="ignore", invalid="ignore"):
         end = -B.values(rows, polynomial.scale)[0] / A.values(rows, polynomial.scale)[0]
-    return np.searchsorted(rows.items[item].powers(high - low), end)
+    return np.searchsorted(rows.items[item].x ** (high - low), end)
 
 
 Corners = Mapping[int, tuple[float, float]]

@@ -25,8 +25,8 @@ from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.search.integer_columns import distinct_quotients
 from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
-from geartrain.search.join.product_lists import Domains, Tallies
-from geartrain.search.join.wheel_monomials import IntervalConstraint, quotients
+from geartrain.search.join.product_lists import Domains, Tallies, forecast
+from geartrain.search.join.wheel_monomials import IntervalConstraint
 from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
 from geartrain.search.train.train_findings import Assignment, By
 
@@ -73,8 +73,7 @@ def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []
     while node is not None and (wanted > 1 or not found):
-        recipe = question.recipes[node.item]
-        runs = int(min(max(ceil(wanted), 1), quotients(recipe.top, recipe.bottom, question.domains)))
+        runs = min(max(ceil(wanted), 1), forecast(question.recipes[node.item], question.domains)[0])
         found.append((node.item, runs))
         wanted /= runs
         node = node.children[0] if len(node.children) == 1 and len(found) < 2 else None

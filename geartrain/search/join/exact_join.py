@@ -13,11 +13,7 @@ from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
-from geartrain.search.join.polynomial_constraints import (
-    PolynomialConstraint,
-    RelaxedInequality,
-    possible,
-)
+from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 from geartrain.search.join.wheel_monomials import extent
 
@@ -117,7 +113,6 @@ class ExactJoin:
         ]
         self.wheel_of = {recipe[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe) == 1}
         self._views: dict[int, tuple[ItemMonomial, ...]] = {}
-        self._reaches: dict[int, list[tuple[int, list[list[RelaxedInequality]]]]] = {}
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
@@ -217,8 +212,10 @@ class ExactJoin:
         `removed`.
         """
         at = np.arange(rows.size)
-        for number, reaches in self._prunes(node):
-            hopeful = possible(reaches, rows)
+        for number in node.prunes:
+            constraint = self.constraints[number]
+            assert isinstance(constraint, PolynomialConstraint)
+            hopeful = constraint.possible(rows, self.extents)
             if hopeful.all():
                 continue
             if removed is not None:
@@ -226,19 +223,6 @@ class ExactJoin:
                 removed.charge(number, gone, np.full(len(gone), self.full(node), dtype=self.dtype))
             at, rows = at[hopeful], rows.pick(hopeful)
         return at, rows
-
-    def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
-        """Return the constraints that can prune rows at a node, relaxed over the variables of its subtree."""
-        if id(node) not in self._reaches:
-            found = []
-            below = set(node.below())
-            for number in node.prunes:
-                constraint = self.constraints[number]
-                assert isinstance(constraint, PolynomialConstraint)
-                corners = {item: self.extents[item] for item in constraint.items if item in below}
-                found.append((number, constraint.reaches(corners)))
-            self._reaches[id(node)] = found
-        return self._reaches[id(node)]
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
         """Count the admissible values of a last variable with one constraint from its windows, without a row for each

@@ -14,10 +14,10 @@ from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
 from geartrain.search.join.polynomial_constraints import (
+    Extents,
     PolynomialConstraint,
     PolynomialInequality,
     SignPolynomial,
-    possible,
 )
 from geartrain.search.join.product_lists import Domains, Factors, PartialAssignments, forecast, maximum
 
@@ -127,7 +127,7 @@ def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[Factors], domains: Domains
 ) -> list[PolynomialConstraint]:
     """Convert interval constraints to polynomial constraints in variables."""
-    extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
+    extents = [extent(recipe, domains) for recipe in recipes]
     constraints = []
     for one in requested:
         function = one.function
@@ -136,7 +136,7 @@ def find_polynomial_constraints(
         polynomials = [(term[0], monomial) for term, monomial in zip(terms, monomials, strict=True)]
         N = SignPolynomial.of(polynomials[: len(function.numerator)])
         D = SignPolynomial.of(polynomials[len(function.numerator) :])
-        cases = _feasible(list(_cases(N, D, one)), extremes)
+        cases = _feasible(list(_cases(N, D, one)), extents)
         constraints.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
     return constraints
 
@@ -184,12 +184,12 @@ def _cases(
 
 
 def _feasible(
-    cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
+    cases: Sequence[tuple[PolynomialInequality, ...]], extents: Extents
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
     """Return the cases that some tooth counts can satisfy; the first case if there are none.
 
     One case is kept so that the constraint still depends on its variables.
     """
     nothing = PartialAssignments((), {}, 1)
-    kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
+    kept = [case for case in cases if PolynomialConstraint("", (case,)).possible(nothing, extents)[0]]
     return tuple(kept or cases[:1])

@@ -286,48 +286,35 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
         hopes.append(min(fresh))
     # lower bound of the wheels of the pairs from each index on
     rest = [sum(hopes[at:]) for at in range(len(edges) + 1)]
-    return _Search(edges, options, rest).run()
+    used: Counter[tuple[int, int]] = Counter()
+    best: tuple[int, Meshes] = 2 * len(edges) + 1, ()
+    steps = 0
 
-
-class _Search:
-    """Branch and bound over the pairs in the order of the tree, with the wheels in use on each arbor."""
-
-    def __init__(self, edges: Sequence[Edge], options: list[list[tuple[int, int]]], rest: list[int]) -> None:
-        self.edges, self.options, self.rest = edges, options, rest
-        self.used: Counter[tuple[int, int]] = Counter()
-        self.taken: list[tuple[int, int]] = []
-        self.best: tuple[int, Meshes] = (2 * len(edges) + 1, ())
-        self.steps = 0
-
-    def run(self) -> tuple[int, Meshes, bool]:
-        self._descend(0, 0)
-        return *self.best, self.steps <= _MOST_STEPS
-
-    def _descend(self, at: int, wheels: int) -> None:
-        if at == len(self.edges):
-            if wheels < self.best[0]:
-                self.best = (wheels, tuple(self.taken))
+    def descend(at: int, wheels: int, taken: Meshes) -> None:
+        """Assign counts to the pairs from index `at` on, with `wheels` wheels in use."""
+        nonlocal best, steps
+        if at == len(edges):
+            best = min(best, (wheels, taken), key=lambda found: found[0])
             return
-        parent, child = self.edges[at][:2]
+        parent, child = edges[at][:2]
         # choices that share most wheels first, so that good bounds are found early
         ranked = sorted(
-            (int(not self.used[parent, driver]) + int(not self.used[child, driven]), driver + driven, driver, driven)
-            for driver, driven in self.options[at]
+            (int(not used[parent, driver]) + int(not used[child, driven]), driver + driven, driver, driven)
+            for driver, driven in options[at]
         )
-        for fresh, _, driver, driven in ranked:
-            self.steps += 1
-            if self.steps > _MOST_STEPS and self.best[1]:
+        for fresh, _, *pair in ranked:
+            steps += 1
+            if steps > _MOST_STEPS and best[1]:
                 return
             # the remaining pairs need at least `rest` further wheels
-            if wheels + fresh + self.rest[at + 1] >= self.best[0]:
-                continue
-            for wheel in ((parent, driver), (child, driven)):
-                self.used[wheel] += 1
-            self.taken.append((driver, driven))
-            self._descend(at + 1, wheels + fresh)
-            self.taken.pop()
-            for wheel in ((parent, driver), (child, driven)):
-                self.used[wheel] -= 1
+            if wheels + fresh + rest[at + 1] < best[0]:
+                own = (parent, pair[0]), (child, pair[1])
+                used.update(own)
+                descend(at + 1, wheels + fresh, (*taken, (pair[0], pair[1])))
+                used.subtract(own)
+
+    descend(0, 0, ())
+    return *best, steps <= _MOST_STEPS
 
 
 # ----------------------------------------------------------------------------------------------------------- all trees

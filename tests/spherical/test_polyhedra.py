@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter, deque
-from collections.abc import Sequence
+from collections import Counter
 from fractions import Fraction
 from itertools import product
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt
 
+import networkx as nx
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -26,21 +26,12 @@ FAMILIES = [
 ]
 
 
-def angles(configuration: Configuration, *kinds: str) -> set[float]:
-    """Angles (deg) of the meshes between two kinds, to 12 digits after the point."""
-    return {
-        round(degrees(configuration.angle(i, j)), 12)
-        for i, j in configuration.meshes
-        if not kinds or sorted(kinds) == sorted((configuration.kinds[i], configuration.kinds[j]))
-    }
-
-
 def angle(configuration: Configuration, *kinds: str) -> float:
-    """The angle (deg) of all meshes between two kinds."""
+    """The angle (deg) of all meshes, or of those between two kinds."""
     found = [
         configuration.angle(i, j)
         for i, j in configuration.meshes
-        if sorted(kinds) == sorted((configuration.kinds[i], configuration.kinds[j]))
+        if not kinds or sorted(kinds) == sorted((configuration.kinds[i], configuration.kinds[j]))
     ]
     assert max(found) - min(found) < 1e-13
     return degrees(found[0])
@@ -232,7 +223,7 @@ def test_an_arrangement_has_its_gears_and_meshes(name: str, gears: str, count: i
 
 def test_gears_on_faces_and_vertices_are_those_on_the_faces_of_the_rectified_solid() -> None:
     incident = from_polyhedron("icosahedron", "faces+vertices")
-    assert angles(incident) == {round(degrees(atan(3 - sqrt(5))), 12)}
+    assert angle(incident) == pytest.approx(degrees(atan(3 - sqrt(5))), abs=1e-12)
     assert Counter(incident.kinds) == {"3": 20, "v": 12}
 
 
@@ -300,7 +291,7 @@ def test_a_gear_may_lose_contacts_and_stays_regular() -> None:
 def test_without_its_meshes_of_hexagons_a_buckyball_is_an_icosidodecahedron() -> None:
     found = from_polyhedron("buckyball", drop=["6~6"])
     assert len(found.meshes) == 60
-    assert angles(found) == {round(degrees(atan(3 - sqrt(5))), 12)}
+    assert angle(found) == pytest.approx(degrees(atan(3 - sqrt(5))), abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -438,27 +429,6 @@ def test_the_movable_duals_have_identical_gears(name: str, cone: float) -> None:
     assert angle(from_polyhedron(name), "3", "3") / 2 == pytest.approx(cone, abs=6e-13)
 
 
-def colours(count: int, meshes: Sequence[tuple[int, int]]) -> list[int] | None:
-    """A colour 1 or -1 for each gear, neighbours apart, breadth first; None where there is none."""
-    mates: list[list[int]] = [[] for _ in range(count)]
-    for i, j in meshes:
-        mates[i].append(j)
-        mates[j].append(i)
-    colour = [0] * count
-    for start in range(count):
-        queue = deque([start] if not colour[start] else [])
-        colour[start] = colour[start] or 1
-        while queue:
-            gear = queue.popleft()
-            for mate in mates[gear]:
-                if colour[mate] == colour[gear]:
-                    return None
-                if not colour[mate]:
-                    colour[mate] = -colour[gear]
-                    queue.append(mate)
-    return colour
-
-
 @pytest.mark.parametrize("name", ["tetrahedron", "cube", "3-prism", "truncated tetrahedron", "3-bipyramid"])
 def test_no_smaller_drop_frees_a_small_set(name: str) -> None:
     # by trying all ways to colour the gears: a mesh between two of one colour must go
@@ -567,11 +537,11 @@ def test_speeds_about_outward_axes_alternate_with_the_colour(
 ) -> None:
     found = from_polyhedron(name, gears, teeth=teeth)  # type: ignore[arg-type]
     answer = GearTrain.declare(to_train(found)).solve()
-    colour = colours(len(found.names), found.meshes)
     assert answer.verdict.kind == "determined"
-    assert colour is not None
-    z = [found.teeth[kind] for kind in found.kinds]
-    assert [answer[gear] for gear in found.names] == [Fraction(c * z[0], n) for c, n in zip(colour, z, strict=True)]
+    colour = nx.bipartite.color(nx.Graph(found.meshes))
+    for at, (gear, kind) in enumerate(zip(found.names, found.kinds, strict=True)):
+        sense = 1 if colour[at] == colour[0] else -1
+        assert answer[gear] == Fraction(sense * found.teeth[found.kinds[0]], found.teeth[kind])
 
 
 def test_a_train_on_a_solid_counts_its_redundant_meshes() -> None:

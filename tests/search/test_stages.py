@@ -179,27 +179,6 @@ def test_pieces_and_blocks_of_any_size_give_the_same(
         assert listed(requested(value, stages, top, beneath, best=3, fit=fit)) == listed(nearest)
 
 
-@pytest.mark.parametrize("by", ORDERS)
-@pytest.mark.parametrize(
-    "fit",
-    [
-        StageConstraints(),
-        StageConstraints(hunting=True),
-        StageConstraints(reverted=True),
-        StageConstraints(different=True),
-        StageConstraints(internal=1),
-        StageConstraints(reverted=True, internal=1),
-        StageConstraints(hunting=True, reverted=True),
-    ],
-    ids=["free", "hunting", "reverted", "different", "ring", "reverted ring", "hunting reverted"],
-)
-def test_two_stages_of_twenty_counts_agree_with_all_combinations(by: str, fit: StageConstraints) -> None:
-    top, beneath, tolerance = tuple(range(30, 50)), tuple(range(12, 24)), Fraction(1, 500)
-    expected = every_solution(Fraction(5), 2, top, beneath, tolerance, fit, by)
-    found = find_stages(TargetRatio(Fraction(5)), 2, top, beneath, tolerance=tolerance, by=by, fit=fit, best=15)
-    assert (found.count, listed(found)) == (len(expected), [key[4:] for key in expected[:15]])
-
-
 def test_five_stages_agree_with_all_combinations() -> None:
     top, beneath, value = (20, 21, 37), (11, 12, 17, 19), Fraction("12.3456")
     expected = every_solution(value, 5, top, beneath, None, StageConstraints(), "error")

@@ -193,7 +193,7 @@ class StageFilter:
         self.count += len(at)
         if len(at):
             first = first_of(self.question.by, tops[at], beneaths[at], fit)
-            self.best.add((first, tops[at], beneaths[at], over[at], under[at]))
+            self.best.add(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
 
     def outcome(self) -> dict[str, Any]:
         """Return the number of solutions, the rejected pairs by reason, and the best solutions as plain data."""

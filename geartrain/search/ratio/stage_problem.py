@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools
 
     Ints = NDArray[Any]
-    RankedRows = tuple[Ints, Ints, Ints, Ints, Ints]
 
 
 Set = tuple[int, ...]
@@ -338,26 +337,20 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints
     return np.zeros(len(tops), dtype=np.int64)
 
 
-def cut(rows: RankedRows, best: int, value: Fraction) -> RankedRows:
-    """Return the first `best` rows in their exact order."""
-    first, _, _, over, under = rows
-    if len(first) > best:
+def cut(rows: Ints, best: int, value: Fraction) -> Ints:
+    """Return the first `best` rows of `BestStages` in their exact order."""
+    if len(rows) > best:
         # errors in floats select slightly too many rows, which are then compared as Fractions
+        first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
         error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
         last = np.lexsort((error, first))[best - 1]
         near = error <= error[last] + _MARGIN * (1 + error[last])
-        at = np.flatnonzero((first < first[last]) | ((first == first[last]) & near))
-        rows = _rows_at(rows, at)
-    first, top, beneath, over, under = rows
-    sizes = np.maximum(top[:, -1], beneath[:, -1]), top.sum(axis=1) + beneath.sum(axis=1)
+        rows = rows[(first < first[last]) | ((first == first[last]) & near)]
+    first, over, under, *counts = rows.T
+    sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
     # lexsort takes its last key first
-    order = np.lexsort((*[*top.T, *beneath.T][::-1], *sizes, error_places(over, under, value), first))
-    return _rows_at(rows, order[:best])
-
-
-def _rows_at(rows: RankedRows, at: Ints) -> RankedRows:
-    first, top, beneath, over, under = (column[at] for column in rows)
-    return first, top, beneath, over, under
+    order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, value), first))
+    return rows[order[:best]]
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
@@ -369,26 +362,26 @@ def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fracti
 class BestStages:
     """List of the n best of all rows that are added, in bounded memory.
 
-    Rows are columns: primary criterion of the order, smaller is better, shape (n,); counts of numerator and
-    denominator, ascending in each row, shape (n, k) each; and their products, shape (n,) each.
+    The columns of a row are: primary criterion of the order, smaller is better; products of numerator and denominator;
+    counts of numerator and denominator, each ascending.
     """
 
     def __init__(self, best: int, value: Fraction) -> None:
         self.best, self.value = best, value
-        self._parts: list[RankedRows] = []
+        self._parts: list[Ints] = []
 
-    def add(self, rows: RankedRows) -> None:
+    def add(self, rows: Ints) -> None:
         """Add candidate rows to the list."""
         self._parts.append(rows)
         # several times the list length is stored between two sorts, which amortises their cost
-        if sum(len(part[0]) for part in self._parts) > max(4 * self.best, 1 << 17):
+        if sum(map(len, self._parts)) > max(4 * self.best, 1 << 17):
             self._parts = [self._settled()]
 
     def plain(self) -> list[list[Any]]:
         """Return the n best rows in order as plain data: criterion, numerator counts, denominator counts."""
-        first, top, beneath, *_ = self._settled() if self._parts else ([],) * 3
-        return [list(row) for row in zip(*(np.asarray(each).tolist() for each in (first, top, beneath)), strict=True)]
+        rows = self._settled().tolist() if self._parts else []
+        stages = (len(rows[0]) - 3) // 2 if rows else 0
+        return [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]
 
-    def _settled(self) -> RankedRows:
-        first, top, beneath, over, under = (np.concatenate(columns) for columns in zip(*self._parts, strict=True))
-        return cut((first, top, beneath, over, under), self.best, self.value)
+    def _settled(self) -> Ints:
+        return cut(np.concatenate(self._parts), self.best, self.value)

@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from itertools import combinations_with_replacement, pairwise
-from math import ceil, comb, factorial, isqrt, log
+from itertools import combinations_with_replacement
+from math import comb, factorial, isqrt, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
 
 BLOCK = 1 << 21
-"""Maximum number of products of one side in memory."""
+"""Maximum number of products of one side in a segment, which bounds the memory."""
 PER_ROW = 3
 """Minimum number of products per row of the tables in a block, because each row costs a binary search."""
 CHUNK = 1 << 19
@@ -63,35 +63,35 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
     """Count the solutions of a segment exactly, and return the best of them.
 
     packed    pickled problem, and the tolerance within which solutions are listed
-    segment   half-open range of the denominator products, or of the sums of stages with equal sums
+    segment   half-open ranges of the denominator products and of the numerator products (four numbers), or half-open
+              range of the sums of stages with equal sums (two numbers)
 
     The result has the keys `count`; `listed`, the number of solutions within the tolerance of the list; `removed`, the
     number of pairs of multisets within the tolerance that are not solutions, by reason; and `rows`, the best as [rank
     value, numerator counts, denominator counts].
     """
     question, tolerance = pickle.loads(packed)
-    near = replace(question, tolerance=tolerance)
-    low, high = segment
     if question.of_equal_sums:
-        return _search_sums(question, low, high)
-    judge, count = StageFilter(question), 0
-    # every pair of multisets is expanded to all of its pairings
-    chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
-    for beneath, top in blocks(question, low, high):
-        (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
-        first, last = cuts(p, q, *question.edges)
-        # several multisets may have the same product
-        count += int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
-        if near.tolerance < question.tolerance:
-            first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
-        used = last > first
-        if used.any():
-            # products within some window: number of windows opened minus number closed so far
-            opened, closed = (np.bincount(ends, minlength=len(p) + 1) for ends in (first, last))
-            q, beneaths = question.under.members(*beneath, q[used])
-            p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
-            for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
-                judge.see(tops[j], beneaths[i], p[j], q[i])
+        return _search_sums(question, *segment)
+    beneath, top = segment[:2], segment[2:]
+    near = replace(question, tolerance=tolerance)
+    judge = StageFilter(question)
+    (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
+    first, last = cuts(p, q, *question.edges)
+    # several multisets may have the same product
+    count = int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
+    if near.tolerance < question.tolerance:
+        first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
+    used = last > first
+    if used.any():
+        # products within some window: number of windows opened minus number closed so far
+        opened, closed = (np.bincount(ends, minlength=len(p) + 1) for ends in (first, last))
+        q, beneaths = question.under.members(*beneath, q[used])
+        p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
+        # every pair of multisets is expanded to all of its pairings
+        chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
+        for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
+            judge.see(tops[j], beneaths[i], p[j], q[i])
     return judge.outcome() | ({"count": count} if question.loose else {})
 
 
@@ -138,22 +138,6 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
     for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
         inside[at] = abs(Fraction(int(over[at]), int(under[at])) / value - 1) <= question.tolerance
     return inside
-
-
-def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
-    """Yield pairs of a range of denominator products and a range of numerator products. Together they contain
-    every pair of products within the tolerance once.
-    """
-    most = _block(question)
-    for beneath in pieces(question.under, *question.beneath_within(low, high), most):
-        for top in pieces(question.over, *question.tops_for(*beneath), most):
-            yield beneath, top
-
-
-def _block(question: StageProblem) -> int:
-    """Return the maximum number of products of one side in a block: `BLOCK`, or more if the tables have many rows."""
-    numbers = max(len(question.top), len(question.beneath))
-    return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
@@ -306,8 +290,8 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
     return SweepOutcome(question.tolerance, count, listed, removed, keys, complete)
 
 
-def _segments(question: StageProblem) -> list[Range]:
-    """Divide the denominator products into segments of about two blocks of products, counting both sides.
+def _segments(question: StageProblem) -> list[Sequence[int]]:
+    """Divide the search into segments, which together contain every pair of products within the tolerance once.
 
     Stages with equal sums are divided by their sum: eight sums in a segment for four or more stages, which are
     slow, otherwise all sums in one segment.
@@ -316,11 +300,13 @@ def _segments(question: StageProblem) -> list[Range]:
     if question.of_equal_sums:
         low, high = question.top[0] + question.beneath[0], question.top[-1] + question.beneath[-1] + 1
         return [(at, min(at + 8, high)) for at in range(low, high, 8)] if size > 3 else [(low, high)]
-    low, high = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
-    if not question.reachable or low >= high:
+    if not question.reachable:
         return []
-    products = multisets(len(question.top), size) + multisets(len(question.beneath), size)
-    number = ceil(products / (2 * _block(question)))
-    # equal steps of the logarithm contain about equal numbers of products
-    inner = {int(low * (high / low) ** (at / number)) for at in range(1, number)}
-    return list(pairwise(sorted({low, high, *inner})))
+    # more products if the tables have many rows
+    most = max(BLOCK, PER_ROW * multisets(max(len(question.top), len(question.beneath)), (size + 1) // 2))
+    whole = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
+    return [
+        (*beneath, *top)
+        for beneath in pieces(question.under, *whole, most)
+        for top in pieces(question.over, *question.tops_for(*beneath), most)
+    ]

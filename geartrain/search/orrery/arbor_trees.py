@@ -209,8 +209,6 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 class ReachablePeriods:
     """Targets that two gear pairs in series can drive from one arbor, for each of m intermediate arbors."""
 
-    requested: int
-    """Bit mask of the targets that were searched for."""
     first: Ints
     """Index of the ratio of the pair to the intermediate arbor, shape (m,)."""
     next: Ints
@@ -241,7 +239,7 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
     first = np.flatnonzero((found >= 0).any(axis=0))
     further = found[:, first].T.astype(np.int64)
     sets = ((further >= 0) << np.arange(len(targets.periods))).sum(axis=1)
-    return ReachablePeriods(requested, first, further, sets)
+    return ReachablePeriods(first, further, sets)
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:

@@ -22,7 +22,6 @@ from geartrain.search.orrery.arbor_trees import (
     PairRatios,
     PeriodTargets,
     ReachablePeriods,
-    TreeArbor,
     TreeEnumeration,
     edges,
     fewest_wheels,
@@ -33,10 +32,9 @@ from geartrain.search.orrery.arbor_trees import (
 )
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Ints
+    from geartrain.numerics.arrays import Floats, Ints
 
 
-_KEPT_ENTRIES = 3 * 10**7  # maximum size of the cache of reaches: 240 MB of int64
 _TRIED = 20  # number of moves of each gain that are evaluated exactly
 _ALIKE = 3  # trees with the same targets and periods that are selected before others
 _Key = frozenset[tuple[int, int, int]]
@@ -470,13 +468,10 @@ class BeamSearch:
         self, table: PairRatios, targets: PeriodTargets, tell: Callable[[int, int], None] | None = None
     ) -> None:
         self.table, self.targets, self.tell = table, targets, tell
-        self._reaches: dict[tuple[int, int], ReachablePeriods] = {}
-        self._entries = 0
-        plain = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
-        self._bulk = plain
+        self._bulk = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
         self._windows = np.array(targets.logs).T
         # stable sort: ties are ordered by ratio, on every machine
-        self._plainest = np.argsort(plain, kind="stable")
+        self._plainest = np.argsort(self._bulk, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
         """Yield complete trees as they are found.
@@ -514,25 +509,11 @@ class BeamSearch:
         bulk = sum(math.log(arbor.driven * arbor.driver) for arbor in tree)
         return PartialTree(tree, left, wheels, bulk)
 
-    def _reach(self, arbor: TreeArbor, left: int) -> ReachablePeriods:
-        """Return the moves from an arbor to the remaining targets. They are cached by the period of the arbor."""
-        known = self._reaches.pop((arbor.n, arbor.d), None)
-        if known is not None and left & ~known.requested:
-            self._entries -= known.next.size
-            known = None
-        if known is None:
-            known = reach(self.table, self.targets, arbor.log, left)
-            self._entries += known.next.size
-            while self._reaches and self._entries > _KEPT_ENTRIES:
-                self._entries -= self._reaches.pop(next(iter(self._reaches))).next.size
-        self._reaches[arbor.n, arbor.d] = known  # the most recently used entry is last
-        return known
-
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
         """Yield the best extensions of a partial tree: one arbor with its targets, and further targets driven from
         these arbors.
         """
-        reaches = [self._reach(arbor, part.left) for arbor in part.tree]
+        reaches = [reach(self.table, self.targets, arbor.log, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
         # separately for each gain: moves with more targets need more wheels, and would always be ranked lower
         for gain in np.unique(rows[:, 0]):
@@ -559,30 +540,23 @@ class BeamSearch:
                         yield child
                         yield from self._direct(child, parent)
 
-    def _moves(
-        self, part: PartialTree, parent: int, known: ReachablePeriods
-    ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    def _moves(self, part: PartialTree, parent: int, known: ReachablePeriods) -> Floats:
         """Return a table of moves, shape (moves, 5): targets gained, wheels needed, `bulk`, driving arbor, row in
         `known`.
         """
-        sets = known.sets & part.left
-        rows = np.flatnonzero(sets)
-        gained = np.bitwise_count(sets[rows]).astype(np.int64)
-        first = known.first[rows]
+        gained, first = np.bitwise_count(known.sets).astype(np.int64), known.first
         # two wheels per pair, minus those that can be shared
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()
-        for target in range(len(self.targets.periods)):
-            if not part.left >> target & 1:
-                continue
-            further = known.next[rows, target]
+        for further in known.next.T:
             good = further >= 0
             mine, own = first[good], further[good]
             wheels[good] -= self._joint(
                 self.table.driven[mine], self.table.driver[mine], self.table.driver[own], self.table.driven[own]
             )
             bulk[good] += self._bulk[own]
-        return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows]).astype(np.float64)
+        rows = np.arange(len(first))
+        return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows])
 
     def _sharing(self, tree: ArborTree, parent: int, ways: Ints) -> Ints:
         """Return 1 for each ratio whose pair can use a wheel that is already on the driving arbor, otherwise 0."""
@@ -613,7 +587,7 @@ class BeamSearch:
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
         for target, further in enumerate(known.next[at]):
-            if further < 0 or not left >> target & 1:
+            if further < 0:
                 continue
             new = grown(tree, target, extra, *self.table.terms(int(further)))
             if self.targets.meets(target, new.period):
@@ -634,6 +608,4 @@ def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
         shown = frozenset((arbor.target, arbor.n, arbor.d) for arbor in part.tree if arbor.target >= 0)
         alike[shown] += 1
         (kept if alike[shown] <= _ALIKE else spare).append(part)
-    kept = (kept[:width] + spare)[:width]
-    # trees that share arbors are neighbours, so that the reaches of these arbors are still cached
-    return sorted(kept, key=lambda part: [(arbor.n, arbor.d) for arbor in part.tree])
+    return (kept[:width] + spare)[:width]

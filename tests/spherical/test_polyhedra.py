@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from fractions import Fraction
 from itertools import product
-from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt
+from math import acos, asin, atan, degrees, pi, radians, sqrt
 
 import networkx as nx
 import numpy as np
@@ -15,7 +15,16 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.spherical import Configuration, from_polyhedron, polyhedron, solid, solid_names, survey, to_train
+from geartrain.spherical import (
+    Configuration,
+    from_polyhedron,
+    polyhedron,
+    size_gears,
+    solid,
+    solid_names,
+    survey,
+    to_train,
+)
 from geartrain.spherical.polyhedron_gears import SURVEYED, regular
 from geartrain.train.yaml_nodes import as_yaml
 
@@ -441,20 +450,6 @@ def test_no_smaller_drop_frees_a_small_set(name: str) -> None:
 # places that follow from the teeth ------------------------------------------------------------------------------------
 
 
-def cones(configuration: Configuration, *kinds: str) -> tuple[float, float]:
-    """Half-angles (deg) of the pitch cones of a mesh: rho_i = atan2(sin S, cos S + z_j/z_i)."""
-    angle_ = radians(angle(configuration, *kinds))
-    z_i, z_j = (configuration.teeth[kind] for kind in kinds)
-    first = np.arctan2(sin(angle_), cos(angle_) + z_j / z_i)
-    return degrees(first), degrees(angle_ - first)
-
-
-def pitches(configuration: Configuration) -> list[float]:
-    """sin(rho)/z of every kind of mesh."""
-    kinds = {tuple(sorted((configuration.kinds[i], configuration.kinds[j]))) for i, j in configuration.meshes}
-    return [sin(radians(cones(configuration, *pair)[0])) / configuration.teeth[pair[0]] for pair in kinds]
-
-
 @settings(max_examples=40, deadline=None)
 @given(
     st.sampled_from([("cuboctahedron", "4"), ("icosidodecahedron", "5")]),
@@ -481,16 +476,6 @@ def test_idlers_stand_in_the_middle_while_their_teeth_are_not_known() -> None:
     assert angle(found, "3", "e") == pytest.approx(half, abs=1e-13)
 
 
-@pytest.mark.parametrize("n", range(4, 13))
-def test_equal_gears_of_an_antiprism_stand_at_the_closed_latitude(n: int) -> None:
-    found = from_polyhedron(f"{n}-antiprism", teeth=12, exact=True)
-    k = cos(pi / n)
-    assert max(axis[2] for axis in found.axes[2:]) == pytest.approx(k / (1 + k), abs=1e-13)
-    # contacts of a side at theta = pi - pi/n from each other: known exactly
-    assert found.regular[-1] > 0
-    assert 4 * n % found.regular[-1] == 0
-
-
 def test_a_set_with_one_kind_of_mesh_is_exact_where_it_stands() -> None:
     still = from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12})
     moved = from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12}, exact=True)
@@ -514,7 +499,7 @@ def test_where_no_place_gives_one_pitch_it_is_refused(name: str, gears: str, tee
 
 def test_exact_places_ask_nothing_of_gears_and_meshes_that_are_left_out() -> None:
     found = from_polyhedron("buckyball", drop=["6~6"], teeth={5: 20, 6: 12}, exact=True)
-    assert len(pitches(found)) == 1
+    assert size_gears(found).exact
     assert from_polyhedron("rhombicuboctahedron", drop=["3"], teeth={4: 12}, exact=True).teeth == {"4a": 12, "4b": 12}
 
 

@@ -260,7 +260,6 @@ class PartSearch:
     removed_first: tuple[tuple[str, int], ...] = field(init=False)
     domains: Domains = field(init=False)
     rules: tuple[CountConstraint, ...] = field(init=False)
-    _sample: SelectivitySample | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         """Apply the constraints on single wheels to their counts."""
@@ -273,13 +272,6 @@ class PartSearch:
                 domains = narrowed  # later constraints are counted on what is left
         self.removed_first, self.domains = tuple(alone), domains
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
-
-    @property
-    def sample(self) -> SelectivitySample:
-        """Random sample of assignments, used to estimate probabilities."""
-        if self._sample is None:
-            self._sample = SelectivitySample.of(self.domains)
-        return self._sample
 
     def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
         """Return the search without the constraints of this name, or without this requirement on an output."""
@@ -297,8 +289,9 @@ class PartSearch:
 
     def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
         """Estimate the fraction of assignments that satisfies each constraint and each requirement."""
-        probabilities = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
-        return probabilities | {one.name: self.sample.of_demand(one) for one in requested}
+        sample = SelectivitySample.of(self.domains)
+        probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
+        return probabilities | {one.name: sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """Run one pass: count all solutions, and list the best if there are at most `most`.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import ceil, floor, prod
+from math import ceil, floor
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.bounded_polynomials import WholeTerm
@@ -35,7 +35,7 @@ _LISTED = 100_000
 """Maximum number of assignments that are enumerated to find the best by error. If there are more, the tolerance is
 reduced.
 """
-_TRIES = 40  # maximum number of passes with different tolerances
+_FIRST = Fraction(1, 10**6)  # first tolerance, which is changed by factors of ten
 _MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
 _WIDEST = Fraction(10**6)
 
@@ -61,25 +61,22 @@ def widened(search: PartSearch) -> PassResult:
     If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
     enumerate within its limit.
     """
-    guess, short = _initial_tolerance(search), Fraction(0)
+    share, short = _FIRST, Fraction(0)
     long: Fraction | None = None  # a tolerance that includes too many to list
-    for _ in range(_TRIES):
-        share = _rounded(guess)
-        if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
-            break
+    while _MINIMUM <= share <= _WIDEST and (long is None or short < share < long):
         passed = search.run(share, _list_limit(search))
         enough = passed.count >= search.order.best
         if not passed.complete or (enough and passed.listed):
             return passed
         if enough:
             long = share
-            guess = long / 8
         else:
             short = share
-            guess = share * _growth(search, passed.count)
         if short and long is not None:
-            # bisection of the logarithm, between too few and too many
-            guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
+            # bisection of the logarithm, between too few and too many; two digits are easy to print
+            share = Fraction(f"{10 ** ((log10(short) + log10(long)) / 2):.1e}")
+        else:
+            share = share / 10 if enough else share * 10
     if long is None:
         return search.run(None, search.limit / 8)
     return search.run(long if short else Fraction(0), search.limit / 8)
@@ -87,33 +84,6 @@ def widened(search: PartSearch) -> PassResult:
 
 def _list_limit(search: PartSearch) -> int:
     return max(_LISTED, 4 * search.order.best)
-
-
-def _count_inexact(search: PartSearch) -> int:
-    """Return the number of outputs whose error is not necessarily 0."""
-    return sum(not requirement.exact for requirement in search.part.requirements)
-
-
-def _initial_tolerance(search: PartSearch) -> Fraction:
-    """Estimate the relative tolerance that includes about three times the requested number of assignments."""
-    trial = Fraction(1, 1000)
-    # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
-    hits = size_of(search.domains) * prod(search.probabilities(search.requested(trial)).values())
-    # 1e-300: a forecast may underflow to 0 in float64
-    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_count_inexact(search), 1))
-    return Fraction(min(max(guess, 1e-12), 1.0))
-
-
-def _growth(search: PartSearch, count: int) -> Fraction:
-    """Return the factor by which to increase the tolerance if only `count` assignments were found."""
-    # nothing found: the maximum step
-    missing = 3 * search.order.best / count if count else 1e9
-    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_count_inexact(search), 1)))))
-
-
-def _rounded(share: Fraction) -> Fraction:
-    """Round a tolerance to two significant digits, so that it is easy to print."""
-    return Fraction(f"{float(share):.1e}")
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:

@@ -277,8 +277,10 @@ def equal_pitch(
 ) -> Floats:
     """Return the axes moved such that every mesh has the same pitch and all symmetries are kept, shape (gears, 3).
 
-    `movable` has the gears that may move, as complete orbits. Pitches are equal within 1e-13. Raises `GearTrainError`
-    if no solution is found near the given axes.
+    movable   indices of the gears that may move, as complete orbits
+
+    Logarithms of the pitches are equal within 1e-13. Raise `GearTrainError` if no solution is found near the given
+    axes.
     """
     z = np.asarray(teeth, dtype=float)
     found = movement.symmetrised(equalise_pitch(axes, meshes, z, movable)[0])
@@ -292,7 +294,7 @@ def equal_pitch(
 
 
 def _refused(kinds: int, free: int, left: float) -> GearTrainError:
-    why = f"{kinds} kinds of mesh must have one pitch, and the symmetries leave {free} positions free"
+    why = f"{kinds} kinds of mesh must have one pitch, and the symmetries leave {free} free parameters of the axes"
     return GearTrainError(
         Problem(
             "no axes with one pitch for all meshes were found near the solid's own axes",

@@ -234,14 +234,6 @@ def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[
     return [np.array(teeth, dtype=np.int64) for teeth in best]
 
 
-def kabsch_aligned(axes: Floats, onto: Floats) -> Floats:
-    """Return the axes rotated to match other axes as closely as possible (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
-    U, _, V = np.linalg.svd(axes.T @ onto)
-    # the nearest orthogonal matrix may be a reflection: the direction of its minimum singular value is then reversed
-    flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(U @ V)))])
-    return np.asarray(axes @ U @ flip @ V, dtype=float)
-
-
 def from_graph(
     graph: nx.Graph[Any] | Edges,
     minimum_teeth: int = 12,
@@ -329,8 +321,10 @@ def _answer(
     corners: LoopCorners,
 ) -> GraphSet:
     labels = tuple(str(name) for name in names)
-    # a common rotation is removed, so that displacements are meaningful
-    axes = kabsch_aligned(fit[0], packing.axes[: len(names)])
+    from scipy.spatial.transform import Rotation
+
+    # a common rotation is removed, so that displacements are meaningful (Kabsch's algorithm)
+    axes = Rotation.align_vectors(packing.axes[: len(names)], fit[0])[0].apply(fit[0])
     chosen = dict(zip(labels, z.tolist(), strict=True))
     title = f"{len(names)} gears on a planar graph"
     configuration = Configuration(labels, axes, meshes, labels, (0,) * len(names), chosen, title)

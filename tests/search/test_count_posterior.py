@@ -505,7 +505,7 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
         ({"most": 0}, "most is 0"),
         ({"samples": 0}, "samples is 0"),
         ({"method": "guess"}, "'guess' is not a method"),
-        ({"scale": Fraction(-1)}, "tolerances negative"),
+        ({"scale": Fraction(-1)}, "tolerance factor -1"),
         ({"tolerance": Fraction(-1)}, "must not be negative"),
         ({"method": "exact", "limit": 1}, "the exact method needs more than 1 steps"),
     ],

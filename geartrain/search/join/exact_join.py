@@ -95,7 +95,7 @@ class RefusalCounts:
 
 
 class ExactJoin:
-    """Exact join by bucket elimination (Dechter 1999), with the lists of a problem.
+    """Exact join of a problem by bucket elimination (Dechter 1999).
 
     slices   part of the work
     budget   maximum number of steps, beyond which `BudgetSpentError` is raised
@@ -186,8 +186,8 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
-        """Return the distinct rows as seen by the constraints of a node and its subtree, and the index of each row
-        among them.
+        """Return the rows that the constraints of a node and its subtree can distinguish, and the index of each
+        original row among them; None if the rows are unchanged.
         """
         if id(node) not in self._views:
             reached = [self.constraints[number] for number in node.reach]
@@ -242,8 +242,8 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the rows extended by the variable of a node that satisfy its constraints, with the indices of their
-        original rows.
+        """Yield the extensions of the rows by values of the variable of a node that satisfy the constraints of the
+        node, block by block, each with the indices of its original rows.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable

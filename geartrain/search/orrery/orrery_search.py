@@ -1,4 +1,4 @@
-"""Search for a gear train that shows several periods from one arbor with few wheels, sharing arbors and wheels."""
+"""Search for a gear train with few wheels that drives pointers of several periods from one arbor."""
 
 from __future__ import annotations
 
@@ -36,25 +36,23 @@ if TYPE_CHECKING:
 
 
 _TRIED = 20  # number of moves of each gain that are evaluated exactly
-_ALIKE = 3  # trees with the same targets and periods that are selected before others
+_ALIKE = 3  # number of trees with the same targets and periods that are selected before other trees
 _Key = frozenset[tuple[int, int, int]]
 _WALKABLE = 2 * 10**5  # maximum number of steps of an enumeration by default
-_SEEDS_A_PART = 4  # initial additional arbors for each tree of the beam
+_SEEDS_A_PART = 4  # initial intermediate arbors for each tree of the beam
 
 Tell = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery, with its period, its sense of rotation, its wheels, and whether it shows a requested
-    period.
-    """
+    """Arbor of an orrery: period, sense of rotation, wheels, and whether it carries a pointer."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the period that the arbor shows, or `arbor 1`, `arbor 2` and so on. The caller names the first
-    arbor.
+    """Name of the requested period of the arbor, or `arbor 1`, `arbor 2` and so on for intermediate arbors. The caller
+    names the first arbor.
     """
     period: Fraction
     """Period [revolutions of the first arbor], exact and positive."""
@@ -63,7 +61,7 @@ class OrreryArbor(Result):
     wheels: tuple[int, ...]
     """Distinct tooth counts of the wheels of the arbor, ascending."""
     shows: bool
-    """True if the arbor shows a requested period."""
+    """True if the arbor carries a pointer, which turns with a requested period."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +80,7 @@ class OrreryPair(Result):
 
 @dataclass(frozen=True, slots=True)
 class Orrery(Tabular, Result):
-    """Tree of gear pairs whose arbors show all requested periods.
+    """Tree of gear pairs that drives a pointer for each requested period.
 
     See Also
     --------
@@ -235,8 +233,8 @@ def find_orrery(
         Maximum width of the beam. Each search has four times the width of the previous search, up to this value; the
         time increases nearly in proportion.
     walk : int, optional
-        Maximum number of arbors without a period in the trees that are enumerated. By default 1, or more if the
-        enumeration is fast.
+        Maximum number of intermediate arbors, which carry no pointer, in the trees that are enumerated. By default 1,
+        or more if the enumeration is fast.
     seconds : float, optional
         Time after which the search stops with the best orrery so far [s].
     tell : callable, optional
@@ -284,7 +282,7 @@ class _TimeUpError(Exception):
 
 
 class _OrrerySearch:
-    """State of a search: the best tree so far, and the proved bounds."""
+    """State of a search: the best tree so far, and the lower bounds proved so far."""
 
     def __init__(self, table: PairRatios, targets: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
         self.table, self.targets, self.tell = table, targets, tell
@@ -312,9 +310,9 @@ class _OrrerySearch:
         return "proved" if self.proved else "effort"
 
     def _walks(self, walk: int | None) -> Iterator[int]:
-        """Yield the numbers of additional arbors for which trees are enumerated.
+        """Yield the numbers of intermediate arbors for which trees are enumerated.
 
-        Each additional arbor multiplies the work by the number of ratios times the number of arbors.
+        Each intermediate arbor multiplies the work by the number of ratios times the number of arbors.
         """
         extra, steps = 0, 1
         while extra <= (1 if walk is None else walk) or (walk is None and steps <= _WALKABLE):
@@ -358,9 +356,9 @@ class _OrrerySearch:
     def minimum_wheels(self) -> int:
         """Proved lower bound of the number of wheels.
 
-        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period
-        has two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not
-        enumerated have more additional arbors than the enumerated trees.
+        Every arbor has a wheel. In a tree with the minimum number of wheels every intermediate arbor has two, because
+        with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated have more
+        intermediate arbors than the enumerated trees.
         """
         unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
@@ -452,7 +450,7 @@ class PartialTree:
 
     @property
     def key(self) -> _Key:
-        """Key to detect duplicates, equal for trees whose arbors show the same targets with the same periods."""
+        """Key to detect duplicates, equal for trees whose arbors have the same targets and periods."""
         return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
@@ -476,11 +474,11 @@ class BeamSearch:
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
         """Yield complete trees as they are found.
 
-        seeds   number of additional arbors, driven from the first arbor, that are further initial trees
+        seeds   number of further initial trees, each with one intermediate arbor driven from the first arbor
         """
         size = len(self.targets.periods)
         root = PartialTree((FIRST,), self.targets.everything, 0, 0.0)
-        # initial arbors without a period lead to targets that two pairs from the first arbor cannot reach
+        # initial intermediate arbors lead to targets that two pairs from the first arbor cannot reach
         chosen = [root, *self._direct(root, 0), *self._seed_trees(root, seeds)]
         levels: list[dict[_Key, PartialTree]] = [{} for _ in range(size)]
         for shown in range(size):
@@ -496,7 +494,7 @@ class BeamSearch:
                 chosen = _best(levels[shown + 1], width)
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Yield trees with an additional arbor whose period is much nearer to the targets, simplest ratios first."""
+        """Yield trees with an intermediate arbor whose period is much nearer to the targets, simplest ratios first."""
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         # ratios of at least the cube root of the largest ratio
@@ -598,8 +596,7 @@ class BeamSearch:
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
     """Return the `width` best partial trees.
 
-    Only the best few of all trees that show the same targets with the same periods are selected before other
-    trees.
+    Of all trees with the same targets and periods, only the best few are selected before other trees.
     """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []

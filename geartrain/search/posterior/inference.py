@@ -51,7 +51,7 @@ _SINGLE_OUTPUT_STEPS = 200_000  # maximum steps for a single output: a fraction 
 _DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
 METHODS: tuple[Method, ...] = ("exact", "sample")
 _NO_PARTIAL_RESULT = (
-    "interrupted: the exact method has no partial result, so the figures are estimated from {} combinations drawn at "
+    "interrupted: the exact method has no partial result, so the values are estimated from {} combinations drawn at "
     "random; the method `sample` draws any number of them"
 )
 _LONG = 1 << 62  # products of total weights below this: every sum of weights is exact in int64

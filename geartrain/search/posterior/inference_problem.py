@@ -178,8 +178,8 @@ def _check(
     if scale < 0:
         raise QuestionError(
             Problem(
-                f"the factor {scale} of tolerances is negative",
-                "a negative factor would make tolerances negative",
+                f"the tolerance factor {scale} is negative",
+                "tolerances are multiplied by it and cannot be negative",
                 "give a factor >= 0",
             )
         )

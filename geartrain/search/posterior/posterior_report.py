@@ -73,7 +73,7 @@ def _summary(found: ToothCountPosterior) -> Iterator[str]:
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."
     if found.cut:
-        yield "Interrupted: the figures cover only the combinations drawn so far."
+        yield "Interrupted: the values cover only the combinations drawn so far."
     if found.turning.value != 1:
         yield f"The prior probability that the train turns is {found.turning}."
     share = f"prior probability {found.evidence}"

@@ -138,7 +138,7 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bo
     }
     effective = trials or 0.0
     few = (
-        f"the figures are estimated from only {effective:.3g} combinations that fit: increase --samples, "
+        f"the values are estimated from only {effective:.3g} combinations that fit: increase --samples, "
         "raise --limit to use the exact method, or narrow the ranges of counts"
     )
     return PosteriorSummary(

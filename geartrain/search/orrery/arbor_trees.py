@@ -1,7 +1,7 @@
 """Trees of arbors with requested periods: minimum number of wheels, and enumeration up to a size.
 
 A table contains the distinct ratios of two wheels. The number of wheels of a tree is minimised by branch and bound over
-the multiples of its ratios. Trees are enumerated up to a number of intermediate arbors, which are arbors without a requested period.
+the multiples of its ratios. Trees are enumerated up to a number of intermediate arbors, which have no requested period.
 """
 
 from __future__ import annotations

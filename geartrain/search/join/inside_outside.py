@@ -55,10 +55,8 @@ class RecordedNode:
     """Index in `values` of the value that each transition assigns."""
     values: ProductStep
     """Values of the variable that occur, as the last step of their products."""
-    misfit: Floats | None
-    """Misfit that each transition adds by graded constraints that are complete at this node; None without
-    such constraints.
-    """
+    misfit: Floats
+    """Misfit that each transition adds by graded constraints that are complete at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]
     """Child nodes, each with the index of the row to which each transition leads."""
 
@@ -96,25 +94,22 @@ class _Recorder:
             leads = np.zeros(distinct.size, dtype=np.bool_)
             leads[below.parents] = True
             kept = leads[onward]
-            parents, grown, misfit = parents[kept], grown.pick(kept), None if misfit is None else misfit[kept]
+            parents, grown, misfit = parents[kept], grown.pick(kept), misfit[kept]
             children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
         live, places = np.unique(grown.columns[node.item], return_inverse=True)
         values = self.join.items[node.item].last_step(live)
         self.join.spend(sum(len(step.choices) for step in values.chain()))
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
-    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats | None:
-        """Return the misfit of the graded constraints that are complete at a node; None without such
-        constraints.
-        """
-        found: Floats | None = None
+    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats:
+        """Return the misfit of the graded constraints that are complete at a node."""
+        found = np.zeros(rows.size)
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)
             if number >= 0 and demand in self.misfits:
                 constraint = self.join.constraints[number]
                 assert isinstance(constraint, PolynomialConstraint)
-                own = self.misfits[demand](constraint.value(rows))
-                found = own if found is None else found + own
+                found = found + self.misfits[demand](constraint.value(rows))
         return found
 
 
@@ -154,7 +149,7 @@ class AssignmentSums:
         A row of a node continues with a value of its variable and a row of each child, and a value with its factors.
         """
         if isinstance(table, RecordedNode):
-            grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)
+            grade = np.exp(-table.misfit / 2) if self.graded else 1
             return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
         own = weights[table.wheel]
         facts = ((table.wheel, len(own), table.choices),)
@@ -209,7 +204,7 @@ class BestFirst:
         self._ahead.append(np.full(node.size, np.inf))
         self._below.append(())
         self._below[at] = tuple(self._add(child) for child, _ in node.children)
-        minimum = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
+        minimum = node.misfit.copy()
         for number, (_, to) in zip(self._below[at], node.children, strict=True):
             # children are independent given the row, so the sum of their minima is exact
             minimum += self._ahead[number][to]
@@ -232,7 +227,7 @@ class BestFirst:
             node = self._nodes[number]
             first, last = np.searchsorted(node.parents, [row, row + 1])
             for at in range(int(first), int(last)):
-                so_far = spent + (0.0 if node.misfit is None else float(node.misfit[at]))
+                so_far = spent + float(node.misfit[at])
                 below = zip(self._below[number], node.children, strict=True)
                 then = (*((child, int(to[at])) for child, (_, to) in below), *later)
                 ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)

@@ -23,6 +23,7 @@ from geartrain.search.posterior.inference_problem import (
     ToothCountPrior,
     build_inference_problem,
     find_priors,
+    observation_constraint,
 )
 from geartrain.search.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
 from geartrain.search.posterior.posterior_summary import (
@@ -254,7 +255,7 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
     found = {}
     for witness in question.witnesses:
         # other wheels do not change the evidence of this output
-        uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.formula.wheels}
+        uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.function.wheels}
         one = replace(question, uncertainties=uncertainties, witnesses=(witness,), conditions=())
         try:
             found[witness.name] = evidence_of(one, _SINGLE_OUTPUT_STEPS)
@@ -321,7 +322,10 @@ def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
     """
     uncertainties = question.moved
     domains = {wheel: uncertainty.counts for wheel, uncertainty in uncertainties.items()}
-    requested = [*(one.constraint(question.soft, graded) for one in question.witnesses), *question.conditions]
+    requested = [
+        *(observation_constraint(one, question.soft, graded) for one in question.witnesses),
+        *question.conditions,
+    ]
     sample = SelectivitySample.of(domains)
     weights = {wheel: uncertainty.weights for wheel, uncertainty in uncertainties.items()}
     return find_join_problem(domains, requested, (), {one.name: sample.of_demand(one) for one in requested}, weights)

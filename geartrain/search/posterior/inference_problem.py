@@ -13,12 +13,11 @@ from geartrain.kinematics.formulas import Formula, find_formulas
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Result
 from geartrain.search.join.product_lists import Domains
-from geartrain.search.join.wheel_monomials import Interval, IntervalConstraint
+from geartrain.search.join.wheel_monomials import IntervalConstraint
 from geartrain.search.train.output_requirements import (
-    SpeedRequirement,
+    OutputRequirement,
     find_output_requirements,
     find_turning_conditions,
-    meet,
 )
 from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
@@ -31,7 +30,6 @@ exp(-12.5).
 """
 MOST_COUNTS = 10**5
 """Maximum number of possible counts of one wheel."""
-_LINE: Interval = (None, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +40,7 @@ class InferenceProblem:
     """Name of the train."""
     uncertainties: Mapping[str, ToothCountPrior]
     """Prior of the tooth count of each wheel, in the order of declaration."""
-    witnesses: tuple[ObservedOutput, ...]
+    witnesses: tuple[OutputRequirement, ...]
     """Observed outputs that depend on an uncertain count."""
     outputs: Mapping[str, Formula]
     """Speed of each output that depends on an uncertain count, as a function of the counts."""
@@ -67,7 +65,7 @@ class InferenceProblem:
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
         """Priors of the wheels that an observed output or a condition depends on, in the order of declaration."""
-        functions = [witness.formula for witness in self.witnesses] + [one.function for one in self.conditions]
+        functions = [witness.function for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
         return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}
 
@@ -112,7 +110,7 @@ def build_inference_problem(
     domains = {uncertainty.wheel: uncertainty.counts for uncertainty in uncertainties}
     found = [(one, find_formulas(train, one, domains)) for one in states]
     _check_outputs(train, states, outputs)
-    witnesses: list[ObservedOutput] = []
+    witnesses: list[OutputRequirement] = []
     moved: set[str] = set()
     known: set[str] = set()
     shown: dict[str, Formula] = {}
@@ -135,8 +133,8 @@ def build_inference_problem(
                 if demand.allowed is not None and not demand.approached
                 if against in ("all", "targets" if demand.target else "figures")
             )
-            witness = ObservedOutput(prefix + requirement.name, formula, claims)
-            if witness.claims and formula.wheels:
+            witness = OutputRequirement(prefix + requirement.name, formula, claims)
+            if witness.demands and formula.wheels:
                 witnesses.append(witness)
                 known.add(requirement.name)
             else:
@@ -147,14 +145,14 @@ def build_inference_problem(
     return InferenceProblem(train.name, by_wheel, tuple(witnesses), shown, tuple(conditions), tuple(remarks), soft)
 
 
-def _remarks(witness: ObservedOutput) -> Iterator[str]:
+def _remarks(witness: OutputRequirement) -> Iterator[str]:
     """Yield a remark on an output without a tolerance, or with a speed that depends on no uncertain count and
     violates its observations.
     """
-    if not witness.claims:
+    if not witness.demands:
         yield f"'{witness.name}' is not used: none of its observations has a tolerance"
-    elif not witness.fits(witness.formula.constant):
-        yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy: {witness.text}"
+    elif not witness.fits(witness.function.value({})):
+        yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy {witness.text}"
 
 
 def _check(
@@ -337,46 +335,12 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
 # --------------------------------------------------------------------- observations: known speeds with their tolerances
 
 
-@dataclass(frozen=True, slots=True)
-class ObservedOutput:
-    """Output with its speed as a function of uncertain tooth counts, and with observations of this speed as
-    evidence.
+def observation_constraint(witness: OutputRequirement, soft: bool, graded: bool) -> IntervalConstraint:
+    """Return the interval constraint of the observations of an output for a join.
+
+    It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
+    then. With `soft` the intervals are those of `FAR` tolerances. With `graded` the join also returns the misfit of the
+    output.
     """
-
-    name: str
-    """Name of the output, or "state: output" if several states are used at once."""
-    formula: Formula
-    """Speed as a function of one or more uncertain counts."""
-    claims: tuple[SpeedRequirement, ...]
-    """Observations of its speed, at least one, all of which must be satisfied."""
-
-    @property
-    def text(self) -> str:
-        """Descriptions of the observations, as one string."""
-        return "; ".join(claim.label for claim in self.claims)
-
-    def fits(self, speed: Fraction | None) -> bool:
-        """Return whether a speed satisfies every observation; False if the speed is undetermined (None)."""
-        return speed is not None and all(claim.met(speed) for claim in self.claims)
-
-    def misfit(self, speed: Fraction) -> Fraction:
-        """Return the sum of (error / tolerance)^2 over the observations."""
-        return sum((claim.misfit(speed) for claim in self.claims), Fraction(0))
-
-    def requested(self, soft: bool) -> IntervalConstraint | None:
-        """Return the interval constraint of all observations; None if it has no bounds.
-
-        soft   True for the wider intervals of `FAR` tolerances
-        """
-        common: tuple[Interval, ...] = (_LINE,)
-        for claim in self.claims:
-            common = meet(common, (claim.scaled(FAR) if soft else claim).allowed or (_LINE,))
-        return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
-
-    def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
-        """Return the interval constraint of this output for a join.
-
-        It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
-        then. With `graded` the join also returns the misfit of the output.
-        """
-        return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
+    common = (witness.scaled(FAR) if soft else witness).requested(None)
+    return replace(common or IntervalConstraint(witness.name, witness.function, ((None, None),)), graded=graded)

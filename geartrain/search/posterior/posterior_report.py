@@ -106,7 +106,10 @@ def _sections(found: ToothCountPosterior) -> Iterator[Section]:
 
 
 def _known(found: ToothCountPosterior) -> Section:
-    rows = [(one.name, one.text, str(found.alone.get(one.name, "-"))) for one in found.witnesses]
+    rows = [
+        (one.name, "; ".join(each.label for each in one.demands), str(found.alone.get(one.name, "-")))
+        for one in found.witnesses
+    ]
     line = "Evidence of each output by itself: the prior mean of its likelihood."
     return Section("Observations", [line], [Table(("output", "observed", "evidence"), rows)])
 

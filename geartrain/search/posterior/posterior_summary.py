@@ -78,10 +78,10 @@ def _combination(
     errors: dict[str, Fraction] = {}
     misfit = Fraction(0)
     for witness in question.witnesses:
-        speed = witness.formula.value(ordered)
+        speed = witness.function.value(ordered)
         assert speed is not None, "what fits has a speed"
         speeds[witness.name] = speed
-        claim = max(witness.claims, key=lambda one: one.misfit(speed))
+        claim = max(witness.demands, key=lambda one: one.misfit(speed))
         errors[witness.name] = claim.error(speed)
         misfit += witness.misfit(speed)
     changed = tuple(wheel for wheel, count in ordered.items() if count != question.uncertainties[wheel].declared)
@@ -222,7 +222,7 @@ def correlations_of(
 ) -> dict[tuple[str, str], float]:
     """Return the correlations from covariances, only for wheels that an output or a condition connects."""
     scopes = [
-        *(one.formula.wheels for one in question.witnesses),
+        *(one.function.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
     ]
     group = {wheel: at for at, wheels in enumerate(joined_groups(marginals, scopes)) for wheel in wheels}

@@ -22,8 +22,8 @@ from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.join.wheel_monomials import IntervalConstraint, is_within
-from geartrain.search.posterior.inference_problem import InferenceProblem, ObservedOutput, ToothCountPrior
-from geartrain.search.train.output_requirements import SpeedRequirement
+from geartrain.search.posterior.inference_problem import InferenceProblem, ToothCountPrior, observation_constraint
+from geartrain.search.train.output_requirements import OutputRequirement, SpeedRequirement
 
 KEPT = 2000
 """Maximum number of best combinations that a task returns; further ties are omitted."""
@@ -43,8 +43,8 @@ class LikelihoodBatch:
         self.domains = {wheel: uncertainty.counts for wheel, uncertainty in question.moved.items()}
         self.wheels = tuple(self.domains)
         # formulas of few wheels first: they are cheap, and rows that they reject need no further evaluation
-        ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
-        self._outputs = [(misfit_of(one), one.constraint(question.soft, graded=False)) for one in ordered]
+        ordered = sorted(question.witnesses, key=lambda one: len(one.function.wheels))
+        self._outputs = [(misfit_of(one), observation_constraint(one, question.soft, graded=False)) for one in ordered]
 
     def turns(self, counts: Mapping[str, Ints]) -> Bools:
         """Return whether the train turns, for each combination, given as counts of equal length for each wheel."""
@@ -230,9 +230,9 @@ class _Scale:
         return found
 
 
-def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
+def misfit_of(witness: OutputRequirement) -> Callable[[Floats], Floats]:
     """Return a function from speeds of an output to their misfits, sums of (error / tolerance)^2, up to rounding."""
-    scales = [_Scale.of(claim) for claim in witness.claims if not claim.exact]
+    scales = [_Scale.of(claim) for claim in witness.demands if not claim.exact]
 
     def misfit(speeds: Floats) -> Floats:
         return sum((scale.misfit(speeds) for scale in scales), np.zeros(len(speeds)))

@@ -187,8 +187,19 @@ class OutputRequirement:
         """Return a speed with its error according to the graded requirement for which the absolute error is largest."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
-        met = all(demand.met(speed) for demand in self.demands)
-        return ReachedSpeed(speed, worst.label, worst.error(speed), met)
+        return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
+
+    def scaled(self, factor: Fraction) -> OutputRequirement:
+        """Return the output with all tolerances multiplied by a factor."""
+        return replace(self, demands=tuple(demand.scaled(factor) for demand in self.demands))
+
+    def fits(self, speed: Fraction | None) -> bool:
+        """Return whether a speed satisfies all requirements; False if the speed is undetermined (None)."""
+        return speed is not None and all(demand.met(speed) for demand in self.demands)
+
+    def misfit(self, speed: Fraction) -> Fraction:
+        """Return the sum of (error / tolerance)^2 over the requirements."""
+        return sum((demand.misfit(speed) for demand in self.demands), Fraction(0))
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:

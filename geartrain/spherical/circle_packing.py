@@ -220,16 +220,8 @@ def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
     """
     plane = PlanarPacking(gears, regions)
     u, residuals = plane.radii()
-    vectors = plane.layout(u)
-    vectors = _centred(vectors, plane.meshes)
-    packing = _polished(vectors, gears, plane, residuals)
-    # rounding in the refinement shifts the centre by as much, so centring and refinement are repeated once
-    both = np.concatenate([packing.axes, packing.region_axes]), np.concatenate([packing.cones, packing.region_cones])
-    return _polished(_upright(_centred(_vectors(*both), plane.meshes), plane.meshes[0]), gears, plane, residuals)
-
-
-def _vectors(axes: Floats, cones: Floats) -> Floats:
-    return np.concatenate([axes, np.cos(cones)[:, None]], axis=1) / np.sin(cones)[:, None]
+    vectors = _upright(_centred(plane.layout(u), plane.meshes), plane.meshes[0])
+    return _polished(vectors, gears, plane, residuals)
 
 
 def _circles(vectors: Floats) -> tuple[Floats, Floats]:

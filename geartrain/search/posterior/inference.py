@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
@@ -39,7 +40,6 @@ from geartrain.search.posterior.sampled_posterior import (
     LikelihoodBatch,
     PosteriorTally,
     misfit_of,
-    packed,
     plain_number,
     sample_task,
 )
@@ -241,7 +241,7 @@ def _sampled(question: InferenceProblem, most: int, samples: int, seed: int, mea
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
     tally, cut = PosteriorTally(LikelihoodBatch(question), most), False
-    work = partial(sample_task, packed(question, most))
+    work = partial(sample_task, pickle.dumps((question, most)))
     try:
         for result in means.run(work, tasks):
             tally.join(result)

@@ -74,13 +74,8 @@ class InferenceProblem:
         """Number of combinations of possible tooth counts."""
         return prod(len(uncertainty.counts) for uncertainty in self.uncertainties.values())
 
-    @property
-    def total(self) -> int:
-        """Sum of the integer weights of all combinations."""
-        return prod(uncertainty.total for uncertainty in self.uncertainties.values())
-
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """Return the integer prior weight of a combination; divided by `total` it is the prior probability."""
+        """Return the integer prior weight of a combination, which is proportional to its prior probability."""
         return prod(self.uncertainties[wheel].weight(count) for wheel, count in teeth.items())
 
 

@@ -157,11 +157,6 @@ def origin_of(uncertainty: ToothCountPrior) -> int:
     return uncertainty.counts[uncertainty.weights.index(max(uncertainty.weights))]
 
 
-def packed(question: InferenceProblem, most: int) -> bytes:
-    """Return the data that all tasks share, pickled."""
-    return pickle.dumps((question, most))
-
-
 @lru_cache(maxsize=1)
 def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
     question, most = pickle.loads(shared)
@@ -171,6 +166,7 @@ def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
 def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     """Draw combinations from their prior, and return the sums over them.
 
+    shared  pickled inference problem, and number of combinations to list
     task   random seed, number of the block, number of combinations
     """
     batch, most = _unpacked(shared)

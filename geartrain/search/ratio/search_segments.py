@@ -105,7 +105,8 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
     judge, size = StageFilter(question), question.stages
     first, last = map(float, question.edges)
     for total in range(low, high):
-        stages = np.array(question.stages_of(total), dtype=np.int64).reshape(-1, 2)
+        pairs = [(count, total - count) for count in question.top if total - count in question.beneath]
+        stages = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         ratios = stages[:, 0] / stages[:, 1]
         lower, upper = (_multisets(len(stages), part) for part in (size // 2, size - size // 2))
         below = ratios[lower].prod(axis=1)

@@ -191,11 +191,6 @@ class StageProblem:
         sums = Counter(a + b for a in self.top for b in self.beneath)
         return sum(multisets(stages, self.stages) for stages in sums.values())
 
-    def stages_of(self, total: int) -> list[tuple[int, int]]:
-        """Return all stages (numerator count, denominator count) with a given sum of counts."""
-        beneath = set(self.beneath)
-        return [(count, total - count) for count in self.top if total - count in beneath]
-
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
         """Return the part of the range [low, high) of denominator products in which a numerator product can match."""
         first, last = self.edges

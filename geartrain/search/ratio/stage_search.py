@@ -363,11 +363,6 @@ def _question_error(what: str, why: str, fix: str) -> QuestionError:
 # ------------------------------------- explanation of short results: nearest miss and constraints to relax
 
 
-def tolerance_text(tolerance: Fraction) -> str:
-    """Format a tolerance with three or four significant digits, rounded up."""
-    return decimal(rounded_up(tolerance), 6)
-
-
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
     """Return the number of rejected pairs of multisets by reason. With the solutions they add up to `considered`."""
     removed = {f"count above {question.fit.largest}": considered - question.considered}
@@ -417,7 +412,7 @@ def in_words(key: StageRank, value: Fraction) -> str:
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
     """Yield suggestions of constraints to relax, the most certain to help first."""
     if miss.keys and miss.complete:
-        yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
+        yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():
         if reason not in (OUTSIDE, f"count above {question.fit.largest}"):
             yield f"relax the constraint that rejected {number} candidates within the tolerance ({reason})"

@@ -363,7 +363,6 @@ def _solid_with_proof(configuration: Configuration) -> str:
         return ""
     if counts == (62, 120):
         return "rhombicosidodecahedron"
-    # the twisted cap keeps only one of the three rings of squares, so not every face has an opposite face
-    # faces opposite each other
+    # with the twisted cap of J37, not every face has an opposite face
     across = np.abs(separations(configuration.axes) - pi) < 1e-9
     return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"

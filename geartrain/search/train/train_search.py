@@ -9,13 +9,11 @@ from fractions import Fraction
 from math import ceil, floor
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.numerics.bounded_polynomials import WholeTerm
 from geartrain.numerics.exact import decimal, log10
 from geartrain.numerics.work import Journal
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import CountConstraint
-from geartrain.search.join.wheel_monomials import Interval
 from geartrain.search.search_outcome import Shortfall
 from geartrain.search.train.output_requirements import (
     OutputRequirement,
@@ -120,7 +118,7 @@ def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
 
 def _explain(search: PartSearch) -> tuple[str, str]:
     """Return the nearest miss and suggestions of constraints to relax, as text."""
-    wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(requirement)]
+    wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(search, requirement)]
     if wrong:
         names = ", ".join(f"'{requirement.name}'" for requirement in wrong)
         return f"{names} turn in the opposite sense for all counts", "change the required sign, or add an idler"
@@ -135,28 +133,12 @@ def _explain(search: PartSearch) -> tuple[str, str]:
     return nearest, advice + (f"; {others}" if others else "")
 
 
-def _has_wrong_sense(requirement: OutputRequirement) -> bool:
-    """Return whether no tooth counts give the required sense of rotation."""
-    requested = requirement.requested(None)
-    senses = [_sense(terms) for terms in (requirement.function.numerator, requirement.function.denominator)]
-    if requested is None or not all(senses):
-        return False
-    lasting = senses[0] * senses[1]  # sign of the speed for all counts
-    return bool(requested.intervals) and all(_is_opposite(interval, lasting) for interval in requested.intervals)
-
-
-def _is_opposite(interval: Interval, sense: int) -> bool:
-    """Return whether an interval has only speeds of the sense opposite to `sense`."""
-    low, high = interval
-    # an interval that ends at 0 includes rest, so it is not only of the opposite sense
-    near, far = (high, low) if sense > 0 else (low, high)
-    return near is not None and near * sense <= 0 and far != 0
-
-
-def _sense(terms: Sequence[WholeTerm]) -> int:
-    """Return the common sign of all terms, 1 or -1; 0 if they have different signs."""
-    signs = {term[0] > 0 for term in terms}
-    return (1 if signs.pop() else -1) if len(signs) == 1 else 0
+def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool:
+    """Return whether no tooth counts give the required sense of rotation of an output."""
+    loose = replace(requirement, demands=tuple(demand.loosened() for demand in requirement.demands))
+    part = replace(search.part, requirements=(loose,), conditions=(), rules=())
+    passed = PartSearch(part, replace(search.order, requirements=(loose,)), search.runner, search.limit).run(None, 0)
+    return passed.complete and not passed.count
 
 
 def _nearest(search: PartSearch) -> Assignment | None:

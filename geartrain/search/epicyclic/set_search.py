@@ -272,8 +272,14 @@ class _Search:
         if not inside.any():
             return
         columns, errors = _select(columns, inside), errors[inside]
-        first = self._first(columns, errors)
-        for row in np.flatnonzero(first <= self._worst(first)):
+        stack = np.stack(list(columns.values()))
+        first = {"error": errors, "total": stack.sum(axis=0), "largest": stack.max(axis=0)}[self.by]
+        # the n-th best so far, and the n-th best of this block, are bounds of the n-th best of all
+        bounds = [float(self.found[-1][0][0])] if len(self.found) == self.best else []
+        if len(first) > self.best:
+            bounds.append(float(np.partition(first, self.best - 1)[self.best - 1]))
+        worst = min(bounds, default=np.inf)
+        for row in np.flatnonzero(first <= worst + _MARGIN * (1 + worst)):
             found = self._set(columns, int(row), mode)
             self.found.append((set_rank(found, self.by, at), found))
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
@@ -287,21 +293,6 @@ class _Search:
         for row in np.flatnonzero(np.abs(errors - limit) <= margin):
             inside[row] = abs(self._set(columns, int(row), mode).error) <= self.tolerance
         return inside
-
-    def _first(self, columns: Columns, errors: Floats) -> Floats:
-        """Return the primary sort criterion of each set: error, sum of counts, or largest count."""
-        if self.by == "error":
-            return errors
-        stack = np.stack(list(columns.values()))
-        return np.asarray(stack.sum(axis=0) if self.by == "total" else stack.max(axis=0), dtype=np.float64)
-
-    def _worst(self, first: Floats) -> float:
-        """Return an upper bound of the primary sort criterion of the best sets."""
-        worst = np.inf if len(self.found) < self.best else float(self.found[-1][0][0])
-        if len(first) > self.best:
-            # the n-th best of this block is a bound for the n-th best of all
-            worst = min(worst, float(np.partition(first, self.best - 1)[self.best - 1]))
-        return worst + _MARGIN * (1 + worst) if np.isfinite(worst) else np.inf
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
         """Build the result for one set with its exact ratio and error."""

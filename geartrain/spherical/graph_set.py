@@ -92,7 +92,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
-        raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "remove this mesh")
+        raise _refused(f"{alone[0]} meshes with itself", "a mesh joins two different gears", "remove this mesh")
     # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]

@@ -197,7 +197,7 @@ class Polyhedron(Shown):
 
     @property
     def size(self) -> float:
-        """Distance of the farthest vertex from the origin."""
+        """Distance of the farthest vertex from the origin, in the unit of the vertices."""
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:

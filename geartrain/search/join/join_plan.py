@@ -80,6 +80,7 @@ class JoinProblem:
     domains: Domains
     """Admissible tooth counts of each wheel, ascending."""
     requested: tuple[IntervalConstraint, ...]
+    """Constraints on the values of functions of tooth counts."""
     rules: tuple[CountConstraint, ...]
     """Constraints on tooth counts. All constraints are numbered in the order `rules`, `requested`."""
     late: tuple[CountConstraint, ...]

@@ -92,6 +92,7 @@ def find_wheel_monomials(
 
 def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
     """Return definitions of variables for the monomials: numerators and denominators are separate variables."""
+    # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
     return tuple(
         group
         for monomial in monomials

@@ -421,7 +421,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
         Problem(
             f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
             f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
-            "increase the tolerance, the number of extra arbors or the beam width, or allow more tooth counts",
+            "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts",
         )
     )
 

@@ -28,13 +28,13 @@ _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 class SpeedRequirement:
     """One requirement on the speed of an output.
 
-    label      description, such as "period 583.92 d" or "expect 2/7"
-    wanted     requested speed in the unit of the train; positive if only the magnitude is required
-    signed     False if only the magnitude is required
-    allowed    admissible speeds, closed disjoint intervals; None for all
-    graded     True if the error of the output is computed from this requirement
-    approached True if no tolerance is given, so the error is minimised
-    target     True for an astronomical target, False for an expected or published value
+    label       description, such as "period 583.92 d" or "expect 2/7"
+    wanted      requested speed in the unit of the train; positive if only the magnitude is required
+    signed      False if only the magnitude is required
+    allowed     closed disjoint intervals of admissible speeds, in the unit of the train; None if all are admissible
+    graded      True if the error of the output is computed from this requirement
+    approached  True if no tolerance is given, so that the error is minimised
+    target      True for a target, False for an expected or published value
     """
 
     label: str
@@ -92,8 +92,8 @@ class SpeedRequirement:
         return self.allowed is not None and all(low == high for low, high in self.allowed)
 
     def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above or below the requested speed; None if it is unlimited, or if the requested speed
-        is not admissible.
+        """Return the tolerance above or below the requested speed, in the unit of the train; None if it is unlimited,
+        or if the requested speed is not admissible.
         """
         around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]
         # a magnitude has equal tolerances, even if its interval extends to negative speeds

@@ -66,7 +66,7 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
 
 
 def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
-    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping.
+    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping, with J the derivative of `error`.
 
     For `damping` towards 0 it tends to the minimum-norm solution of J x = -error.
     """
@@ -83,7 +83,9 @@ def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
 
 @dataclass(frozen=True)
 class LoopCorners:
-    """Contacts of the gears in loops as parallel arrays: gear, next and previous gear, sign, and index of the loop."""
+    """Contacts of the gears in loops as arrays of equal length: gear, next and previous gear, sense of rotation, and
+    index of the loop. `count` is the number of loops.
+    """
 
     gear: Ints
     following: Ints
@@ -94,7 +96,7 @@ class LoopCorners:
 
 
 def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
-    """Return the corners of loops of gears; `side` is 1 or -1 for each gear, and opposite for meshing gears."""
+    """Return the corners of loops of gears; `side` is the sense of rotation of each gear, 1 or -1."""
     rows = [
         (gear, loop[(k + 1) % len(loop)], loop[k - 1], side[gear], at)
         for at, loop in enumerate(loops)
@@ -167,7 +169,9 @@ def equalise_pitch(
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Return the predicted standard deviation of ln lambda after the first step of `fit_phases`."""
+    """Return the standard deviation of the logarithm of the pitch that is predicted after the first step of
+    `fit_phases`.
+    """
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
     logs, A = pitch_rows(axes, meshes, z)
@@ -204,7 +208,8 @@ def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) 
 def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
     """Return the step of a least squares problem with equality constraints, by one sparse Karush-Kuhn-Tucker system.
 
-    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s.
+    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s. Here `error` are
+    the closing errors of the loops, `logs` the logarithms of the pitches, and J and A their derivatives.
     """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu

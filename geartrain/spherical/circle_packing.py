@@ -71,7 +71,9 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the regions around each gear and the gears around each region, counterclockwise, as node numbers."""
+        """Return the regions around each gear and the gears around each region, counterclockwise, as numbers of nodes:
+        gears first, then regions.
+        """
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -94,10 +96,10 @@ class PlanarPacking:
         )
 
     def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
-        """Return the logarithms of all radii by Newton's method on a convex function; inf for the four circles through
-        infinity.
+        """Return the logarithms of all radii, and the maximum residual after each step [rad], by Newton's method on a
+        convex function. The four circles through infinity have the logarithm inf.
 
-        on_step   function called after each step; the maximum residual of each step [rad] is returned too
+        on_step   function called after each step
         """
         from scipy.sparse import coo_array
         from scipy.sparse.linalg import splu

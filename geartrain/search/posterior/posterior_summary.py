@@ -104,7 +104,9 @@ def _probability(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best candidates, computed by either method."""
+    """Evidence, posteriors, correlations and best candidates, computed by either method; the fields are those of
+    `ToothCountPosterior`.
+    """
 
     examined: int
     evidence: CountProbability

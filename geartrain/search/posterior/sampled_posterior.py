@@ -141,7 +141,7 @@ class PosteriorTally:
 
 
 def _with_ties(misfits: Sequence[float] | Floats, most: int) -> int:
-    """Return the number of the first `most` of some ascending misfits together with all ties of the last."""
+    """Return how many of some ascending misfits are among the first `most`, or tied with the last of these."""
     if len(misfits) < most:
         return len(misfits)
     return int(np.searchsorted(misfits, misfits[most - 1] * TIE, side="right"))

@@ -208,8 +208,8 @@ def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) 
 def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
     """Return the step of a least squares problem with equality constraints, by one sparse Karush-Kuhn-Tucker system.
 
-    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s. Here `error` are
-    the closing errors of the loops, `logs` the logarithms of the pitches, and J and A their derivatives.
+    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s. The vector
+    `error` has the closing errors of the loops, `logs` the logarithms of the pitches; J and A are their derivatives.
     """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu

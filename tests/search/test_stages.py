@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from itertools import combinations, combinations_with_replacement, permutations
 from math import comb, gcd, prod
@@ -392,23 +391,16 @@ QUESTION = (TargetRatio(Fraction("13.36838")), 3, range(12, 61), range(12, 61))
 
 
 @pytest.mark.parametrize("by", ["error", "total", "hunting"])
-def test_any_number_of_workers_gives_the_same(monkeypatch: pytest.MonkeyPatch, by: str) -> None:
+def test_processes_give_the_same(monkeypatch: pytest.MonkeyPatch, by: str) -> None:
     alone = find_stages(*QUESTION, tolerance=Fraction(1, 10**5), by=by)
     cut_into(monkeypatch, 500)
     told: list[tuple[int, int]] = []
-    with ThreadPoolExecutor(2) as executor:
+    with open_executor(2) as executor:
         both = find_stages(
             *QUESTION, tolerance=Fraction(1, 10**5), by=by, executor=executor, tell=lambda *n: told.append(n)
         )
     assert both == alone
     assert told[-1][0] == told[-1][1] > 5
-
-
-def test_processes_give_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    alone = find_stages(*QUESTION)
-    cut_into(monkeypatch, 500)
-    with open_executor(2) as executor:
-        assert listed(find_stages(*QUESTION, executor=executor)) == listed(alone)
 
 
 def test_an_interrupt_keeps_what_was_found_and_a_journal_takes_it_up(

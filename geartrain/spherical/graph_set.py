@@ -145,15 +145,6 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
     return QuestionError(Problem(f"the graph cannot be packed: {what}", why, fix))
 
 
-def turning_senses(found: nx.Graph[Any], names: Sequence[Hashable]) -> Ints:
-    """Return the sense of rotation of each gear, +1 or -1, by a two-colouring of the graph."""
-    import networkx as nx
-
-    # meshing gears turn in opposite senses, so a two-colouring gives the senses
-    colours = nx.bipartite.color(found)
-    return np.array([1 if colours[name] else -1 for name in names], dtype=np.int64)
-
-
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
     """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` for a non-planar
     graph.
@@ -287,13 +278,18 @@ def from_graph(
     >>> found.exact, set(found.configuration.teeth.values())
     (('pitch', 'phases'), {12})
     """
+    import networkx as nx
+
     if aim not in ("pitch", "phases"):
         raise QuestionError(
             Problem(f"the aim {aim!r} is unknown", "the aim is 'pitch' or 'phases'", "pass aim='pitch'")
         )
     named = checked_graph(graph)
     names = list(named)
-    gears, regions, side = len(names), regions_of(named), turning_senses(named, names)
+    gears, regions = len(names), regions_of(named)
+    # meshing gears turn in opposite senses, so a two-colouring gives the senses
+    colours = nx.bipartite.color(named)
+    side = np.array([1 if colours[name] else -1 for name in names], dtype=np.int64)
     packing = pack_circles(*with_region_circles(gears, regions, names))
     axes, cones = packing.axes[:gears], packing.cones[:gears]
     meshes = tuple(mesh for mesh in packing.meshes if mesh[1] < gears)

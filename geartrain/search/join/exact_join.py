@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -78,20 +78,8 @@ class BudgetSpentError(Exception):
     """Signal that a join has exceeded its maximum number of steps."""
 
 
-@dataclass
-class RefusalCounts:
-    """Number of assignments that each constraint rejects, for each row."""
-
-    size: int
-    dtype: Any
-    by: dict[int, Tallies] = field(default_factory=dict)
-
-    def charge(self, constraint: int, rows: Ints, numbers: Tallies) -> None:
-        """Add numbers of rejected assignments to the given rows of a constraint. Rows may be repeated."""
-        if constraint not in self.by:
-            self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
-        # `+=` would add only one number to a repeated row
-        np.add.at(self.by[constraint], rows, numbers)
+RefusalCounts = dict[int, Tallies]
+"""Number of assignments that each constraint rejects, for each row."""
 
 
 class ExactJoin:
@@ -134,19 +122,19 @@ class ExactJoin:
             self._full[id(node)] = total
         return self._full[id(node)]
 
-    def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
+    def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
         """Return the number of accepted assignments below each row, and the numbers that each constraint rejects."""
         total = np.zeros(rows.size, dtype=self.dtype)
-        removed = RefusalCounts(rows.size, self.dtype)
+        removed: RefusalCounts = defaultdict(lambda: np.zeros(rows.size, dtype=self.dtype))
         at, alive = self.pruned(node, rows, removed)
         # a last variable with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._count_windows(node, at, alive, removed)
-            return total, removed.by
+            return total, removed
         for parents, grown in self.grown(node, alive, at, removed):
             counts = self._count_below(node, parents, grown, removed)
             np.add.at(total, parents, counts)
-        return total, removed.by
+        return total, removed
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
         """Yield all assignments that extend the rows by the variables of some nodes and their subtrees, block
@@ -220,7 +208,7 @@ class ExactJoin:
                 continue
             if removed is not None:
                 gone = at[~hopeful]
-                removed.charge(number, gone, np.full(len(gone), self.full(node), dtype=self.dtype))
+                np.add.at(removed[number], gone, np.full(len(gone), self.full(node), dtype=self.dtype))
             at, rows = at[hopeful], rows.pick(hopeful)
         return at, rows
 
@@ -236,7 +224,7 @@ class ExactJoin:
             start, end = (np.clip(one, *self._run(node.item)) for one in window)
             # cases exclude each other, so their windows do not overlap
             total += item.sums[end] - item.sums[start]
-        removed.charge(node.guide, at, self.full(node) - total)
+        np.add.at(removed[node.guide], at, self.full(node) - total)
         return total
 
     def grown(
@@ -247,18 +235,19 @@ class ExactJoin:
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
-        # all assignments are charged here; those that the guide accepts are subtracted below
+        # all assignments are charged here; those that the guide accepts are subtracted below. `np.add.at`, because `+=`
+        # would add only one number to a repeated row
         if node.guide >= 0 and removed is not None:
-            removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
+            np.add.at(removed[node.guide], at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
             grown = rows.plus(parents, node.item, indices)
             self.spend(grown.size)
             if node.guide >= 0 and removed is not None:
-                removed.charge(node.guide, at[parents], times[indices] * -below)
+                np.add.at(removed[node.guide], at[parents], times[indices] * -below)
             for number in node.checks:
                 met = self._holds(number, grown)
                 if removed is not None:
-                    removed.charge(number, at[parents[~met]], times[indices[~met]] * below)
+                    np.add.at(removed[number], at[parents[~met]], times[indices[~met]] * below)
                 parents, indices, grown = parents[met], indices[met], grown.pick(met)
             if grown.size:
                 yield at[parents], grown
@@ -317,7 +306,7 @@ class ExactJoin:
             found, gone = self.count(child, distinct)
             for number, numbers in gone.items():
                 spread_out = numbers if which is None else numbers[which]
-                removed.charge(number, parents[alive], counts[alive] * spread_out * later)
+                np.add.at(removed[number], parents[alive], counts[alive] * spread_out * later)
             counts[alive] = counts[alive] * (found if which is None else found[which])
             # rows without solutions in one child need no other child
             alive = alive[counts[alive] > 0]

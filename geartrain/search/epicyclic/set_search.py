@@ -154,6 +154,7 @@ def find_sets(
     # a float clearance becomes a simple fraction
     minimum = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
+    # an explicit sense takes precedence over the sign of a parsed ratio
     search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
     for number, columns in blocks(kind, bounds, planets, minimum if spaced else None, slack):
         search.considered += number * len(chosen)

@@ -272,6 +272,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
     most   number of combinations to list
     """
+    # other wheels keep their prior
     uncertainties = question.moved
     root, steps = _recorded(question, limit)
     sums = AssignmentSums(root, question.soft)
@@ -349,6 +350,7 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
     """Return the number of combinations that satisfy all observations, including the counts of independent wheels."""
+    # with equal weights the total weight is a number of combinations
     alike = {
         w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()
     }

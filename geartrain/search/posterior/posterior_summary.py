@@ -47,6 +47,7 @@ def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[
     """Return the first `most` entries of an ascending list and all ties of the last entry, and False if ties were
     omitted, else True.
     """
+    # misfits in floats: entries that may be tied with the last are later sorted exactly
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
@@ -207,7 +208,7 @@ def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> d
         return {}
     wheels = tally.batch.wheels
     means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
-    # sums of products are relative to these origins
+    # E[(x - a)(y - b)] - (E[x] - a)(E[y] - b) loses fewer digits than E[xy] - E[x] E[y] if a and b are probable counts
     off = [means[wheel] - origin_of(question.uncertainties[wheel]) for wheel in wheels]
     found = {}
     for i, first in enumerate(wheels):

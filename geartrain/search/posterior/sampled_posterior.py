@@ -181,6 +181,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
         places.append(draw.choice(len(probabilities), size, p=probabilities / probabilities.sum()))
         steps.append(np.array(one.counts, dtype=np.float64) - origin_of(one))
     counts = {wheel: np.array(batch.domains[wheel])[at] for wheel, at in zip(batch.wheels, places, strict=True)}
+    # combinations outside the observations have the likelihood 0 and enter only the number of examined combinations
     met, misfit = batch.judged(counts)
     fit = np.flatnonzero(met)
     # ascending, so that the best are first

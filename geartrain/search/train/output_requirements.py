@@ -240,6 +240,7 @@ def _demands(
 ) -> Iterator[SpeedRequirement]:
     requested = [target for target in output.targets if target.tolerance is not None]
     figures = output.expect is not None or output.published is not None
+    # a target without a tolerance is only used if nothing else is required, or if a common tolerance is given
     if not requested and output.targets and (tolerance is not None or not figures):
         requested = [output.targets[0]]
     if output.expect is not None:
@@ -346,6 +347,7 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
         chosen = wheel in free if not isinstance(free, str) else teeth.search is not None or free == "uncertain"
+        # the train cannot be solved without the count of a wheel, so wheels without a count are always varied
         counts = tuple(_counts(train, wheel, link, teeth)) if chosen or teeth.value is None else ()
         if counts:
             found[wheel] = counts

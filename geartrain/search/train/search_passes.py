@@ -153,7 +153,7 @@ def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, C
     count = 0
     for rows in join.stream((question.plan,), join.start()):
         for columns in join.wheels(rows):
-            # late constraints are not part of the join
+            # late constraints are not part of the join, because their wheels would have to be separate variables
             for rule in question.late:
                 met = rule.holds(columns)
                 removed[rule.name] += int((~met).sum())

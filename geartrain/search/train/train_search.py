@@ -45,6 +45,7 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
         return passed, passed.best, passed.listed and passed.complete
     # only the order by error can be narrowed by a tolerance if there are too many solutions to list
     by_error = search.order.by == "error" and not search.order.level
+    # an assignment that is listed costs several times as much as a step of the count
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.listed or not passed.complete:
         return passed, passed.best, passed.listed and passed.complete
@@ -75,6 +76,7 @@ def widened(search: PartSearch) -> PassResult:
             share = Fraction(f"{10 ** ((log10(short) + log10(long)) / 2):.1e}")
         else:
             share = share / 10 if enough else share * 10
+    # the errors of too many assignments are equal, or there are fewer assignments than requested
     if long is None:
         return search.run(None, search.limit / 8)
     return search.run(long if short else Fraction(0), search.limit / 8)

@@ -76,9 +76,10 @@ def widened(search: PartSearch) -> PassResult:
             share = Fraction(f"{10 ** ((log10(short) + log10(long)) / 2):.1e}")
         else:
             share = share / 10 if enough else share * 10
-    # the errors of too many assignments are equal, or there are fewer assignments than requested
+    # there are fewer assignments than requested
     if long is None:
         return search.run(None, search.limit / 8)
+    # too many assignments have equal errors
     return search.run(long if short else Fraction(0), search.limit / 8)
 
 

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.search.reconstruct.train_topology import AddedWheels, CountLimit, Dials, Quotients
+from geartrain.search.reconstruct.train_topology import AddedKind, AddedWheels, Dials, Quotients
 from geartrain.search.weighted_alternatives import draw_index, sums_by
 
 # Number of choices of added tooth counts with a given quotient of products. For drivers y and driven wheels x, prod y /
@@ -214,11 +214,12 @@ class AddedCounts:
         minimum, maximum = self.range
         return int(self._count(added.groups, alike) * (maximum - minimum + 1) ** added.idle) if alike is not None else 0
 
-    def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
+    def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[AddedKind, ...]) -> int:
         """Count the assignments if some wheels have a smaller maximum count because they mesh with a ring."""
         if not limits:
             return self.count(added, wanted)
         limit, others = limits[0], limits[1:]
+        assert limit.most is not None
         allowed, left = range(self.range[0], limit.most + 1), added.without(limit)
         if not limit.dials:
             return len(allowed) * self.count_limited(left, wanted, others)
@@ -361,29 +362,18 @@ _FEW = 2000
 """Maximum number of choices that are enumerated. Below it, enumeration is faster than counting for each tooth count."""
 
 
-class AddedKind(NamedTuple):
-    """Kind of added wheels, which have the same effect on the speeds of dials and are interchangeable."""
-
-    dials: Dials
-    """Dials whose speed the wheels change; empty for wheels that change no speed."""
-    drives: bool
-    """True for driving wheels on the path to these dials, False for driven wheels."""
-    most: int | None = None
-    """Maximum tooth count in a mesh with a ring; None if only the general limit applies."""
-
-
 class OpenCounts(NamedTuple):
     """Added wheels without tooth counts, the quotients required of them, and the limits set by rings, sorted."""
 
     added: AddedWheels
     wanted: Wanted
-    limits: tuple[CountLimit, ...] = ()
+    limits: tuple[AddedKind, ...] = ()
 
     def kinds(self) -> Iterator[tuple[AddedKind, int]]:
         """Yield each kind of added wheels with the number of wheels."""
         limited = {kind: self.limits.count(kind) for kind in self.limits}
         for kind, number in limited.items():
-            yield AddedKind(*kind), number
+            yield kind, number
         groups = [(dials, True, drivers) for dials, drivers, _ in self.added.groups]
         groups += [(dials, False, driven) for dials, _, driven in self.added.groups]
         for dials, drives, number in [*groups, ((), False, self.added.idle)]:
@@ -397,8 +387,8 @@ class OpenCounts(NamedTuple):
         """
         limits = list(self.limits)
         if kind.most is not None:
-            limits.remove(CountLimit(kind.dials, kind.drives, kind.most))
-        added = self.added.without(CountLimit(kind.dials, kind.drives, count))
+            limits.remove(kind)
+        added = self.added.without(kind)
         if not kind.dials:
             return OpenCounts(added, self.wanted, tuple(limits))
         quotient = Fraction(count) if kind.drives else Fraction(1, count)

@@ -14,8 +14,7 @@ from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Key, Result
-from geartrain.search.reconstruct.arbor_orders import AddedPlace, NamedMesh
-from geartrain.search.reconstruct.candidate_names import NamedArbor
+from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, topology_prior
@@ -239,7 +238,7 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
     for teeth in {wheel.teeth for wheel in wheels if wheel.added}:
         yield Fact("needed", str(teeth)), YES
     for mesh in train.meshes():
-        yield from _mesh_facts(NamedMesh(*mesh))
+        yield from _mesh_facts(*mesh)
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
@@ -276,19 +275,19 @@ MOST_SUMMED = 20_000_000
 
 
 def sum_facts(
-    weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, dials: Sequence[str]
+    weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, evidence: Train
 ) -> FactTally:
     """Sum the facts of all trains of some topologies, each given with the prior weight of one of its trains."""
-    trains, sums = TopologyTrains(problem, dials), FactTally(problem)
+    trains, sums = TopologyTrains(problem), FactTally(problem)
     lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
-        parts = [part for part in trains.parts(topology) if part.choices and part.orders.total]
-        number = sum(part.choices * part.orders.total for part in parts)
+        parts = [part for part in trains.parts(topology) if part.choices]
+        number = sum(part.trains for part in parts)
         sums.add_trains(weight, number)
         for fact, answer in _topology_facts(topology, lost, doubtful):
             sums.add(fact, answer, weight, number)
         for part in parts:
-            for fact, answer, own in _part_facts(part, trains):
+            for fact, answer, own in _part_facts(evidence, topology, part, trains):
                 sums.add(fact, answer, weight, own)
     return sums
 
@@ -305,21 +304,23 @@ def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> I
             yield Fact("count", wheel.name), str(wheel.teeth)
 
 
-def _part_facts(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
+def _part_facts(
+    evidence: Train, topology: Topology, part: OrderPart, trains: TopologyTrains
+) -> Iterator[tuple[Fact, str, int]]:
     """Yield the facts that are true of some trains of a part, with the number of these trains."""
-    for fact_key, orders in part.orders.marginals.items():
-        if isinstance(fact_key, NamedMesh):
-            for fact, answer in _mesh_facts(fact_key):
-                yield fact, answer, int(orders) * part.choices
-        elif isinstance(fact_key, AddedPlace):
-            for count, choices in trains.counts.of_kind(part.open, fact_key.kind).items():
-                yield Fact("added", fact_key.name), str(count), int(orders) * choices
+    for order in part.orders:
+        named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
+        for mesh in named.meshes():
+            for fact, answer in _mesh_facts(*mesh):
+                yield fact, answer, part.choices
+        for wheel in (wheel for arbor in named.arbors() for wheel in arbor.wheels() if wheel.added):
+            for count, choices in trains.counts.of_kind(part.open, kinds[wheel.teeth]).items():
+                yield Fact("added", wheel.name), str(count), choices
     for count, choices in trains.counts.with_any(part.open).items():
-        yield Fact("needed", str(count)), YES, int(part.orders.total) * choices
+        yield Fact("needed", str(count)), YES, len(part.orders) * choices
 
 
-def _mesh_facts(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
-    driving, wheel, arbor = mesh
+def _mesh_facts(driving: NamedArbor, wheel: NamedWheel, arbor: NamedArbor) -> Iterator[tuple[Fact, str]]:
     assert arbor.driven is not None
     yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
     if not (wheel.added or arbor.driven.added):
@@ -486,7 +487,7 @@ def find_facts(
     tally = None
     if found.topologies and sum(each.solutions for each in found.topologies) <= MOST_SUMMED:
         every = ((each.topology, topology_prior(each.topology, problem)) for each in found.topologies)
-        tally = sum_facts(every, problem, tuple(evidence.outputs))
+        tally = sum_facts(every, problem, evidence)
     facts = ExplainedFacts(weighed, problem, tally)
     marginals = facts.marginals()
     differ = {fact.subject for fact in marginals if fact.kind == "count" and len(fact.answers) > 1}

@@ -263,8 +263,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
     listed = () if request.counts_only else found.candidates[: request.best]
-    dials = tuple(evidence.outputs)
-    drawn = draw_candidates(found, problem, dials, request.sample, request.seed) if request.sample else ()
+    drawn = draw_candidates(found, problem, request.sample, request.seed) if request.sample else ()
     return ReconstructionAnswer(
         evidence.name,
         problem,

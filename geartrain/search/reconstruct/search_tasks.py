@@ -20,7 +20,7 @@ from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, ar
 from geartrain.search.reconstruct.path_choice import PathChoice
 from geartrain.search.reconstruct.path_lists import PathList
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.quotient_keys import QuotientKeys
+from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import (
     Arbor,
     PlacedWheel,
@@ -129,10 +129,10 @@ class TopologySearch:
     """
 
     def __init__(self, problem: ReconstructionProblem) -> None:
-        keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
+        tables = QuotientTables(problem.additions.minimum, problem.additions.maximum)
         dials = sorted(problem.dials, key=lambda dial: dial.name)
-        self.paths = {dial.name: PathList(dial, problem, keys) for dial in dials}
-        self._choice, self._trees = PathChoice(problem, self.paths, keys), PathTrees(problem, self.paths)
+        self.paths = {dial.name: PathList(dial, problem, tables) for dial in dials}
+        self._choice, self._trees = PathChoice(problem, self.paths, tables), PathTrees(problem, self.paths)
         self._trains = TopologyTrains(problem)
 
     def counted(self, task: TopologyTask) -> Iterator[CountedTopology]:

@@ -8,7 +8,6 @@ of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90 s.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -358,10 +357,6 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
 # interchangeable, so each of them has a given count equally often.
 
 
-_FEW = 2000
-"""Maximum number of choices that are enumerated. Below it, enumeration is faster than counting for each tooth count."""
-
-
 class OpenCounts(NamedTuple):
     """Added wheels without tooth counts, the quotients required of them, and the limits set by rings, sorted."""
 
@@ -395,20 +390,12 @@ class OpenCounts(NamedTuple):
         return OpenCounts(added, divided(self.wanted, kind.dials, quotient), tuple(limits))
 
 
-class _FewChoices(NamedTuple):
-    """Number of enumerated choices in which a wheel of a kind, or any wheel, has each tooth count."""
-
-    of_kind: dict[AddedKind, Counter[int]]
-    with_any: Counter[int]
-
-
 class AddedCountSums:
     """Sums over all choices of tooth counts of added wheels, cached."""
 
     def __init__(self, counts: AddedCounts) -> None:
         self._counts = counts
         self.of_kind = lru_cache(maxsize=1 << 16)(self._of_kind)
-        self._listed = lru_cache(maxsize=1 << 12)(self._list)
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
     def total(self, requested: OpenCounts) -> int:
@@ -417,9 +404,6 @@ class AddedCountSums:
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
         """Return for each tooth count the number of choices in which a given wheel of a kind has it, without zeros."""
-        few = self._few(requested)
-        if few is not None:
-            return few.of_kind[kind]
         minimum, maximum = self._counts.range
         most = maximum if kind.most is None else min(kind.most, maximum)
         found = ((count, self.total(requested.with_one(kind, count))) for count in range(minimum, most + 1))
@@ -427,9 +411,6 @@ class AddedCountSums:
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
         """Return for each tooth count the number of choices in which some wheel has it, by inclusion-exclusion."""
-        few = self._few(requested)
-        if few is not None:
-            return few.with_any
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
@@ -452,21 +433,6 @@ class AddedCountSums:
             total = self.total(left)
             if not total:
                 break
-        return found
-
-    def _few(self, requested: OpenCounts) -> _FewChoices | None:
-        """Return the sums over enumerated choices if there are few of them; None otherwise."""
-        if requested.limits or self.total(requested) > _FEW:
-            return None
-        return self._listed(requested)
-
-    def _list(self, requested: OpenCounts) -> _FewChoices:
-        found, kinds = _FewChoices(defaultdict(Counter), Counter()), [kind for kind, _ in requested.kinds()]
-        for counts, idle in self._counts.assignments(requested.added, requested.wanted):
-            wheels = {kind: counts[kind.dials][not kind.drives] if kind.dials else idle for kind in kinds}
-            for kind, own in wheels.items():
-                found.of_kind[kind][own[0]] += 1  # by symmetry the first wheel represents all of its kind
-            found.with_any.update({count for own in wheels.values() for count in own})
         return found
 
     def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:

@@ -28,7 +28,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingWheel,
     find_unreachable,
 )
-from geartrain.search.reconstruct.spur_tree import DrivenArbor, walk_meshes
+from geartrain.search.reconstruct.spur_tree import DrivenArbor, candidate_arbor, walk_meshes
 from geartrain.train import Train
 
 Rule = Literal[
@@ -377,10 +377,11 @@ class _TrainReading:
             while link in driven and link not in kept:
                 kept.add(link)
                 link = driven[link].parent
-        arbor = self._arbor(self._source, kept)
+        leading = {link: mesh for link, mesh in driven.items() if link in kept}
+        arbor = candidate_arbor(self._source, leading, self._names, shown, self._placed)
         wheels = [name for link in kept for name in (driven[link].driving, driven[link].driven)]
         counts = {name: self._teeth(name) for name in self.train.wheels if name in wheels}
-        added = {name: teeth for name, teeth in counts.items() if self._survivor(name) is None}
+        added = {name: teeth for name, teeth in counts.items() if name not in self._survivors}
         return KnownTrain(self.train.name, arbor, added, tuple(self._notes()))
 
     # names
@@ -437,9 +438,6 @@ class _TrainReading:
             for wheel in arbor.wheels
             if wheel.name in self._matches and self._link(self._matches[wheel.name]) == self._links.get(arbor.name)
         }
-
-    def _survivor(self, wheel: str) -> str | None:
-        return self._survivors.get(wheel)
 
     def _notes(self) -> Iterator[str]:
         for name, own in self._matches.items():
@@ -517,24 +515,8 @@ class _TrainReading:
             found[link] = found[mesh.parent] * (ratio if inside else -ratio)
         return found
 
-    # the candidate
-
-    def _arbor(self, link: str, kept: set[str]) -> Arbor:
-        own = self._driven[link].driven if link in self._driven else None
-        below: dict[str, list[Arbor]] = {}
-        for child in self._driven:
-            if child in kept and self._driven[child].parent == link:
-                below.setdefault(self._driven[child].driving, []).append(self._arbor(child, kept))
-        return Arbor(
-            self._names.get(link),
-            None if own is None else self._placed(own),
-            tuple(sorted(name for name, at in self._shown.items() if at == link)),
-            tuple((self._placed(wheel), tuple(children)) for wheel, children in below.items() if wheel != own),
-            () if own is None else tuple(below.get(own, ())),
-        )
-
     def _placed(self, wheel: str) -> PlacedWheel:
-        return PlacedWheel(self._survivor(wheel), self._teeth(wheel))
+        return PlacedWheel(self._survivors.get(wheel), self._teeth(wheel))
 
 
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:

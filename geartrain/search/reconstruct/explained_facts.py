@@ -18,7 +18,7 @@ from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, topology_prior
-from geartrain.search.reconstruct.search_tasks import OrderPart, TopologyTrains
+from geartrain.search.reconstruct.search_tasks import TopologyTrains
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.search.reconstruct.train_topology import Topology
 from geartrain.search.weighted_alternatives import entropy
@@ -224,21 +224,33 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
 
     Tooth counts of surviving wheels are facts only for wheels in `doubtful`, pointers only for dials in `lost`.
     """
-    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
+    yield from _order_facts(train, doubtful, lost)
+    added = _added_wheels(train)
+    yield from ((Fact("added", wheel.name), str(wheel.teeth)) for wheel in added)
+    yield from ((Fact("needed", str(teeth)), YES) for teeth in {wheel.teeth for wheel in added})
+
+
+def _order_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
+    """Yield the facts that do not depend on the tooth counts of added wheels."""
     for arbor in train.arbors():
         for dial in lost.intersection(arbor.dials):
             yield Fact("pointer", dial), AN_ADDED_ARBOR if arbor.added else arbor.name
-    for wheel in wheels:
-        if wheel.added:
-            yield Fact("added", wheel.name), str(wheel.teeth)
-        else:
-            yield Fact("used", wheel.name), YES
-        if wheel.name in doubtful:
-            yield Fact("count", wheel.name), str(wheel.teeth)
-    for teeth in {wheel.teeth for wheel in wheels if wheel.added}:
-        yield Fact("needed", str(teeth)), YES
-    for mesh in train.meshes():
-        yield from _mesh_facts(*mesh)
+        for wheel in arbor.wheels():
+            if not wheel.added:
+                yield Fact("used", wheel.name), YES
+            if wheel.name in doubtful:
+                yield Fact("count", wheel.name), str(wheel.teeth)
+    for driving, wheel, arbor in train.meshes():
+        assert arbor.driven is not None
+        yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
+        if not (wheel.added or arbor.driven.added):
+            yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
+        if not arbor.added:
+            yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
+
+
+def _added_wheels(train: NamedArbor) -> list[NamedWheel]:
+    return [wheel for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added]
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
@@ -281,52 +293,20 @@ def sum_facts(
     trains, sums = TopologyTrains(problem), FactTally(problem)
     lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
-        parts = [part for part in trains.parts(topology) if part.choices]
-        number = sum(part.trains for part in parts)
-        sums.add_trains(weight, number)
-        for fact, answer in _topology_facts(topology, lost, doubtful):
-            sums.add(fact, answer, weight, number)
-        for part in parts:
-            for fact, answer, own in _part_facts(evidence, topology, part, trains):
-                sums.add(fact, answer, weight, own)
+        for part in trains.parts(topology):
+            if not part.choices:
+                continue
+            sums.add_trains(weight, part.trains)
+            for order in part.orders:
+                named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
+                for fact, answer in _order_facts(named, doubtful, lost):
+                    sums.add(fact, answer, weight, part.choices)
+                for wheel in _added_wheels(named):
+                    for count, choices in trains.counts.of_kind(part.open, kinds[wheel.teeth]).items():
+                        sums.add(Fact("added", wheel.name), str(count), weight, choices)
+            for count, choices in trains.counts.with_any(part.open).items():
+                sums.add(Fact("needed", str(count)), YES, weight, len(part.orders) * choices)
     return sums
-
-
-def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
-    """Yield the facts that are true of every train of a topology."""
-    for branching in topology.branchings:
-        for dial in lost.intersection(branching.here):
-            yield Fact("pointer", dial), branching.name or AN_ADDED_ARBOR
-    for wheel in topology.used:
-        assert wheel.name is not None
-        yield Fact("used", wheel.name), YES
-        if wheel.name in doubtful:
-            yield Fact("count", wheel.name), str(wheel.teeth)
-
-
-def _part_facts(
-    evidence: Train, topology: Topology, part: OrderPart, trains: TopologyTrains
-) -> Iterator[tuple[Fact, str, int]]:
-    """Yield the facts that are true of some trains of a part, with the number of these trains."""
-    for order in part.orders:
-        named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
-        for mesh in named.meshes():
-            for fact, answer in _mesh_facts(*mesh):
-                yield fact, answer, part.choices
-        for wheel in (wheel for arbor in named.arbors() for wheel in arbor.wheels() if wheel.added):
-            for count, choices in trains.counts.of_kind(part.open, kinds[wheel.teeth]).items():
-                yield Fact("added", wheel.name), str(count), choices
-    for count, choices in trains.counts.with_any(part.open).items():
-        yield Fact("needed", str(count)), YES, len(part.orders) * choices
-
-
-def _mesh_facts(driving: NamedArbor, wheel: NamedWheel, arbor: NamedArbor) -> Iterator[tuple[Fact, str]]:
-    assert arbor.driven is not None
-    yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
-    if not (wheel.added or arbor.driven.added):
-        yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
-    if not arbor.added:
-        yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
 
 
 # ------------------------------------------------------------------------------------------------------ the family tree

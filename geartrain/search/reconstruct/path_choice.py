@@ -13,8 +13,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, lru_cache, reduce
-from itertools import combinations, pairwise, permutations, product
+from functools import lru_cache, reduce
+from itertools import pairwise, permutations
 from operator import or_
 
 import numpy as np
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from geartrain.numerics.arrays import Bools
 from geartrain.search.reconstruct.path_lists import PathList, Rows, seen_clusters
-from geartrain.search.reconstruct.quotient_tables import FEW, QuotientTables
+from geartrain.search.reconstruct.quotient_tables import ROUNDING, QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
 
@@ -49,14 +49,9 @@ def open_tours(distances: tuple[tuple[int, ...], ...]) -> tuple[tuple[int, int, 
 # Columns of a path list that are compared with a path to another dial, as arrays for speed.
 
 
-_NEVER = 100
-"""Distance between two paths that differ by a prime larger than every tooth count, so that they are incompatible."""
-
-
 class PathColumns:
     """Columns of a path list for fast comparison of many paths with a path to another dial.
 
-    powers         large prime -> its power in the quotient of the added wheels, for each row
     codes          code of the pass, 0 if the arbor is avoided, shape (arbors, rows)
     driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
     driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
@@ -72,7 +67,6 @@ class PathColumns:
         number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
         # one row per arbor, because an arbor is compared for many paths at once
         self.codes = np.ascontiguousarray(paths.codes.T)
-        self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
@@ -115,18 +109,6 @@ class PathColumns:
             if not at:
                 good &= ~left | (both == 0)
         return good & (parted <= 1)
-
-    def differing_primes(self, rows: Rows, other: PathColumns, row: int) -> NDArray[np.int8]:
-        """Return a lower bound of the number of wheels with a large prime that only one of two paths has."""
-        found = np.zeros(len(rows), dtype=np.int16)
-        if not (self.paths.dial.is_exact and other.paths.dial.is_exact):
-            return found.astype(np.int8)
-        for prime in self.powers.keys() | other.powers.keys():
-            own = self.powers[prime][rows] if prime in self.powers else np.int8(0)
-            theirs = other.powers[prime][row] if prime in other.powers else np.int8(0)
-            differ = np.abs(own - theirs)
-            found += differ if prime <= self.paths.problem.additions.maximum else differ * np.int16(_NEVER)
-        return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int) -> Bools:
         """Return for each path whether the path that ends at an arbor of the other path, if any, is a part of the
@@ -188,39 +170,11 @@ class PathChoice:
         `parts`.
         """
         self._added = added
-        lists = {
-            dial: _Compatible(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
-            for dial, rows in self._with_partners(added).items()
-        }
+        lists = {}
+        for dial, paths in self.lists.items():
+            rows = np.flatnonzero(paths.wheels <= added)
+            lists[dial] = _Compatible(rows, {_INPUT: paths.wheels[rows].astype(np.int8)})
         yield from self._extended(_Chosen(), lists, _RoundRobin(part, parts))
-
-    @cache  # noqa: B019 -- lives as long as the lists
-    def _with_partners(self, added: int) -> dict[str, Rows]:
-        """Return the paths of each dial whose quotient is compatible with some path of each other dial."""
-        found = {
-            dial: [np.flatnonzero(paths.wheels == wheels) for wheels in range(added + 1)]
-            for dial, paths in self.lists.items()
-        }
-        for one, other in combinations(self.lists, 2):
-            if self.lists[one].dial.is_exact and self.lists[other].dial.is_exact:
-                found[one], found[other] = self._partners(one, found[one], other, found[other], added)
-        return {dial: np.sort(np.concatenate(groups)) for dial, groups in found.items()}
-
-    def _partners(
-        self, one: str, groups: list[Rows], other: str, others: list[Rows], added: int
-    ) -> tuple[list[Rows], list[Rows]]:
-        some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
-        for own, another in product(range(added + 1), repeat=2):
-            # s shared wheels give own + another - s <= added, and own + another - 2 s wheels on one path only
-            far = 2 * added - own - another + self._idlers
-            quotients = self.lists[one].bounds[0][groups[own]], self.lists[other].bounds[0][others[another]]
-            first, second = self.tables.agreeing(*quotients, far)
-            some[own] |= first
-            more[another] |= second
-        return (
-            [rows[good] for rows, good in zip(groups, some, strict=True)],
-            [rows[good] for rows, good in zip(others, more, strict=True)],
-        )
 
     def _extended(self, chosen: _Chosen, lists: dict[str, _Compatible], share: _RoundRobin | None) -> Iterator[Choice]:
         """Yield all choices that extend the chosen paths by paths to the other dials.
@@ -263,6 +217,7 @@ class PathChoice:
         ends = (_INPUT, *[*chosen.paths, dial][-_MOST_ENDS:])
         far = {**chosen.far, EndPair((_INPUT, dial)): int(self.lists[dial].wheels[row])}
         for other, near in sorted(lists.items(), key=lambda each: len(each[1].rows)):
+            near = near.kept(self._may_agree(dial, row, other, near.rows))
             near = near.kept(self._columns[other].fit(near.rows, self._columns[dial], row))
             for path in chosen.paths.items():
                 near = near.kept(self._fork(path, (dial, row), other, near.rows))
@@ -284,16 +239,21 @@ class PathChoice:
         on_first, on_second, apart = (first & third) == in_all, (second & third) == in_all, (first & second) == in_all
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
+    def _may_agree(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
+        """Return whether each path has room for added wheels of its own besides a chosen path, or the same quotient."""
+        first, second = self.lists[end], self.lists[dial]
+        (low, high), (minimum, maximum) = first.bounds, second.bounds
+        room = 2 * self._added + self._idlers - first.wheels[row] - second.wheels[rows]
+        same = (minimum[rows] <= high[row] * (1 + ROUNDING)) & (maximum[rows] >= low[row] * (1 - ROUNDING))
+        return np.asarray(same | (room > 0))
+
     def _apart(self, end: str, row: int, dial: str, rows: Rows) -> NDArray[np.int8]:
         """Return a lower bound of the distance of each path from a chosen path."""
         first, second = self.lists[end], self.lists[dial]
         own, wheels = int(first.wheels[row]), second.wheels[rows]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
-        fewest = self._columns[dial].differing_primes(rows, self._columns[end], row)
-        near = fewest <= FEW
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
-            quotients = minimum[rows[near]] / high[row], maximum[rows[near]] / low[row]
-        fewest[near] = np.maximum(fewest[near], self.tables.fewest(quotients))
+            fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
         # shared wheels are on both paths, so the distance has the parity of the sum
         far = fewest + (wheels + own - fewest) % 2
         if self._idlers:  # the count of an added idler at which paths separate affects only one of them

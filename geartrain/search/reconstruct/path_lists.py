@@ -264,7 +264,6 @@ class PathList:
     compounds, idlers    numbers of added arbors before the last
     wheels, new          numbers of added wheels and of added arbors
     bounds               minimum and maximum quotient of the added wheels, up to rounding
-    powers               power of each large prime of `primes` in that quotient, shape (rows, primes)
     """
 
     def __init__(
@@ -289,7 +288,6 @@ class PathList:
         self.compounds = np.array([plan.compounds for plan in plans], dtype=np.int64)[taken]
         self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
         self.wheels = growth.added[rows] + self.ends_new + 2 * self.compounds + self.idlers
-        self.powers = growth.powers[rows]
         self.new = self.compounds + self.idlers + self.ends_new
         self.bounds = self._bounds(growth.ratio[rows], self._turned(self.codes, self.new))
 

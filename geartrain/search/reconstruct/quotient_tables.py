@@ -16,15 +16,14 @@ from geartrain.numerics.arrays import Bools, Floats
 Bounds = tuple[Floats, Floats]
 """Arrays of the minimum and the maximum of each quotient, equal if the quotient is exact."""
 
-FEW = 2
+_FEW = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
 _LONGEST = 12_000_000
 """Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
-_MOST_COMPARED = 6_000_000
-"""Maximum number of pairs of quotients that are compared at once. For more pairs, every number is accepted."""
 _SCARCE = 500
 """Number of quotients below which a table of three wheels costs more than trying each count of one wheel."""
-_ROUNDING = 1e-12  # relative rounding error of a quotient
+ROUNDING = 1e-12
+"""Relative rounding error of a quotient."""
 
 
 class QuotientTables:
@@ -49,31 +48,11 @@ class QuotientTables:
         return _contain(self._table(drivers, driven), bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
-        """Return a lower bound, at most `FEW` + 1, of the number of added wheels with a quotient in each range."""
-        found = np.full(bounds[0].shape, FEW + 1, dtype=np.int8)
-        for wheels in range(FEW, -1, -1):
+        """Return a lower bound, at most `_FEW` + 1, of the number of added wheels with a quotient in each range."""
+        found = np.full(bounds[0].shape, _FEW + 1, dtype=np.int8)
+        for wheels in range(_FEW, -1, -1):
             found[_contain(self._few(wheels), bounds)] = wheels
         return found
-
-    def agreeing(self, one: Floats, other: Floats, wheels: int) -> tuple[Bools, Bools]:
-        """Return for each number of each array whether its ratio to a number of the other array is a quotient of at
-        most `wheels` added counts, without false negatives.
-        """
-        if wheels < 0 or not len(one) or not len(other):
-            return np.zeros(len(one), dtype=bool), np.zeros(len(other), dtype=bool)
-        few = self._few(wheels) if wheels <= FEW else None
-        short, long = sorted((len(one), len(other)))
-        if few is None or short * min(len(few), long) > _MOST_COMPARED:
-            return np.ones(len(one), dtype=bool), np.ones(len(other), dtype=bool)
-        if long <= len(few):
-            pairs = _contain(few, (one[:, None] / other, one[:, None] / other))
-            return np.asarray(pairs.any(axis=1)), np.asarray(pairs.any(axis=0))
-        if len(one) > len(other):
-            more, some = self.agreeing(other, one, wheels)
-            return some, more
-        reached = np.multiply.outer(one, few)  # the set of quotients is closed under inversion
-        found = _contain(np.sort(other), (reached, reached)).any(axis=1)
-        return np.asarray(found), _contain(np.sort(reached, axis=None), (other, other))
 
     @cache  # noqa: B019 -- lives as long as the search
     def _few(self, wheels: int) -> Floats | None:
@@ -108,9 +87,9 @@ def _contain(table: Floats | None, bounds: Bounds) -> Bools:
     low, high = bounds
     if table is None:
         return np.ones(low.shape, dtype=bool)
-    at = np.searchsorted(table, low * (1 - _ROUNDING))
+    at = np.searchsorted(table, low * (1 - ROUNDING))
     at[at == len(table)] = 0  # the smallest entry is then below the range
-    return np.asarray((table[at] >= low * (1 - _ROUNDING)) & (table[at] <= high * (1 + _ROUNDING)))
+    return np.asarray((table[at] >= low * (1 - ROUNDING)) & (table[at] <= high * (1 + ROUNDING)))
 
 
 @lru_cache(maxsize=1 << 16)

@@ -15,7 +15,7 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
 - `quotient_tables`: sorted tables of quotients of added counts
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
-- `path_choice`: backtracking over dials, pruned by bit masks and a lower bound (shortest tour)
+- `path_choice`: backtracking over dials, pruned by bit masks and tables of quotients
 - `path_trees`: recursive enumeration of the topologies that have one given path per dial
 - `added_counts`: choices of added counts by variable elimination and tables of products; their sums and random draws
 - `candidate_names`: canonical names of arbors and wheels

@@ -1,50 +1,25 @@
 """Backtracking search for one path to every dial, such that all of them are paths of one train.
 
-Bit masks represent shared arbors and wheels, and the length of the shortest tour of the dials is the lower bound that
-prunes branches.
+Bit masks represent shared arbors and wheels. After each choice only paths of the other dials remain that are compatible
+with all chosen ones, and the dial with the fewest paths is next.
 
-The distance between two dials is the number of added wheels on exactly one of their paths; the distance of a dial from
-the input is the number on its path. A tour around the tree passes each added wheel twice, so not all distances can be
-large. After each choice only paths of the other dials remain that are compatible with all chosen ones, and the dial
-with the fewest paths is next.
+The distance between two dials is the number of added wheels on exactly one of their paths. A table of quotients gives a
+lower bound of it, and thus of the number of added wheels on both paths.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import lru_cache, reduce
-from itertools import pairwise, permutations
+from collections.abc import Iterator, Mapping
+from functools import reduce
 from operator import or_
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geartrain.numerics.arrays import Bools
 from geartrain.search.reconstruct.path_lists import PathList, Rows, seen_clusters
 from geartrain.search.reconstruct.quotient_tables import ROUNDING, QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
-
-# Tours of the ends of a train, from the input past the dials and back: each added wheel is passed twice.
-
-
-EndPair = frozenset[str]
-"""Names of two ends of paths. An end is a dial or the input."""
-
-
-@lru_cache(maxsize=1 << 16)
-def open_tours(distances: tuple[tuple[int, ...], ...]) -> tuple[tuple[int, int, int], ...]:
-    """Return each pair of ends, with the minimum length of a tour from one to the other through all ends, from the
-    distance matrix of the ends.
-    """
-    found: dict[tuple[int, int], int] = {}
-    for order in permutations(range(len(distances))):
-        length = sum(distances[one][two] for one, two in pairwise(order))
-        pair = order[0], order[-1]
-        found[pair] = min(length, found.get(pair, length))
-    return tuple((*pair, length) for pair, length in found.items() if pair[0] <= pair[1])
-
 
 # Columns of a path list that are compared with a path to another dial, as arrays for speed.
 
@@ -145,10 +120,6 @@ def _bits(each: ArborPass, number: dict[str, int]) -> int:
 Choice = dict[str, int]
 """Row of the path list of each dial."""
 
-_INPUT = ""
-"""Name of the input as an end of all paths."""
-_MOST_ENDS = 6
-"""Maximum number of dials in tours, which are tried in all orders. Further dials are ignored."""
 _EVEN_SHARES = 50
 """Minimum number of paths that are distributed in turn over the parts of a search."""
 
@@ -170,60 +141,50 @@ class PathChoice:
         `parts`.
         """
         self._added = added
-        lists = {}
-        for dial, paths in self.lists.items():
-            rows = np.flatnonzero(paths.wheels <= added)
-            lists[dial] = _Compatible(rows, {_INPUT: paths.wheels[rows].astype(np.int8)})
-        yield from self._extended(_Chosen(), lists, _RoundRobin(part, parts))
+        lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
+        yield from self._extended({}, lists, _RoundRobin(part, parts))
 
-    def _extended(self, chosen: _Chosen, lists: dict[str, _Compatible], share: _RoundRobin | None) -> Iterator[Choice]:
+    def _extended(self, chosen: Choice, lists: dict[str, Rows], share: _RoundRobin | None) -> Iterator[Choice]:
         """Yield all choices that extend the chosen paths by paths to the other dials.
 
         share   distribution of the next paths over the parts of the search; None if an earlier path was distributed
         """
-        used = (int(self._columns[dial].used[row]) for dial, row in chosen.paths.items())
-        missing = self._must & ~reduce(or_, used, 0)
+        missing = self._must & ~reduce(or_, (int(self._columns[dial].used[row]) for dial, row in chosen.items()), 0)
         # a part that must be used is on no remaining path
-        if missing & ~reduce(or_, (self._reach(each, near) for each, near in lists.items()), 0):
+        if missing & ~reduce(or_, (self._reach(dial, rows) for dial, rows in lists.items()), 0):
             return
-        dial = min(lists, key=lambda each: len(lists[each].rows))  # most constrained dial first
-        near = lists[dial]
+        dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
+        rows = lists[dial]
         others = {other: some for other, some in lists.items() if other != dial}
         if not others:
-            near = near.kept(np.int64(missing) & ~self._columns[dial].used[near.rows] == 0)
+            rows = rows[np.int64(missing) & ~self._columns[dial].used[rows] == 0]
         # few paths are not distributed evenly; the paths to the next dial are distributed then
-        own = share if not others or len(near.rows) >= _EVEN_SHARES else None
-        for at, row in enumerate(near.rows.tolist()):
+        own = share if not others or len(rows) >= _EVEN_SHARES else None
+        for row in rows.tolist():
             if own is not None and not own.is_own():
                 continue
-            paths = {**chosen.paths, dial: row}
             if not others:
-                yield paths
+                yield {**chosen, dial: row}
             elif (kept := self._fitting(dial, row, others, chosen)) is not None:
-                far = {EndPair((end, dial)): int(each[at]) for end, each in near.far.items()}
-                yield from self._extended(_Chosen(paths, {**chosen.far, **far}), kept, None if own else share)
+                yield from self._extended({**chosen, dial: row}, kept, None if own else share)
 
-    def _reach(self, dial: str, near: _Compatible) -> int:
+    def _reach(self, dial: str, rows: Rows) -> int:
         """Return the bit mask of the arbors and wheels that some of the paths use."""
-        return int(np.bitwise_or.reduce(self._columns[dial].used[near.rows]))
+        return int(np.bitwise_or.reduce(self._columns[dial].used[rows]))
 
-    def _fitting(
-        self, dial: str, row: int, lists: Mapping[str, _Compatible], chosen: _Chosen
-    ) -> dict[str, _Compatible] | None:
+    def _fitting(self, dial: str, row: int, lists: Mapping[str, Rows], chosen: Choice) -> dict[str, Rows] | None:
         """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has
         none.
         """
         kept = {}
-        ends = (_INPUT, *[*chosen.paths, dial][-_MOST_ENDS:])
-        far = {**chosen.far, EndPair((_INPUT, dial)): int(self.lists[dial].wheels[row])}
-        for other, near in sorted(lists.items(), key=lambda each: len(each[1].rows)):
-            near = near.kept(self._may_agree(dial, row, other, near.rows))
-            near = near.kept(self._columns[other].fit(near.rows, self._columns[dial], row))
-            for path in chosen.paths.items():
-                near = near.kept(self._fork(path, (dial, row), other, near.rows))
-            near = near.also(dial, self._apart(dial, row, other, near.rows))
-            kept[other] = near.kept(self._closes(ends, far, near))
-            if not len(kept[other].rows):
+        for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
+            # cheap tests first
+            rows = rows[self._may_agree(dial, row, other, rows)]
+            rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
+            for path in chosen.items():
+                rows = rows[self._fork(path, (dial, row), other, rows)]
+            kept[other] = rows = rows[self._is_near(dial, row, other, rows)]
+            if not len(rows):
                 return None
         return kept
 
@@ -247,52 +208,19 @@ class PathChoice:
         same = (minimum[rows] <= high[row] * (1 + ROUNDING)) & (maximum[rows] >= low[row] * (1 - ROUNDING))
         return np.asarray(same | (room > 0))
 
-    def _apart(self, end: str, row: int, dial: str, rows: Rows) -> NDArray[np.int8]:
-        """Return a lower bound of the distance of each path from a chosen path."""
+    def _is_near(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
+        """Return whether each path and a chosen path may have so few added wheels together that a train has both."""
         first, second = self.lists[end], self.lists[dial]
-        own, wheels = int(first.wheels[row]), second.wheels[rows]
+        whole = first.wheels[row] + second.wheels[rows]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
             fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
         # shared wheels are on both paths, so the distance has the parity of the sum
-        far = fewest + (wheels + own - fewest) % 2
+        far = fewest + (whole - fewest) % 2
         if self._idlers:  # the count of an added idler at which paths separate affects only one of them
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
-        return np.asarray(far, dtype=np.int8)
-
-    def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Compatible) -> Bools:
-        """Return for each path whether a tour of some ends and its own end is short enough."""
-        distances = tuple(tuple(far.get(EndPair((one, two)), 0) for two in ends) for one in ends)
-        good = np.zeros(len(near.rows), dtype=bool)
-        for one, two, rest in open_tours(distances):
-            good |= near.far[ends[one]].astype(np.int16) + near.far[ends[two]] + rest <= 2 * self._added
-        return good
-
-
-@dataclass(frozen=True)
-class _Chosen:
-    """Chosen path of each dial, and lower bounds of the distance of each pair of ends."""
-
-    paths: Mapping[str, int] = field(default_factory=dict)
-    far: Mapping[EndPair, int] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class _Compatible:
-    """Paths to a dial that are compatible with all chosen paths, with lower bounds of their distances from each
-    end.
-    """
-
-    rows: Rows
-    far: Mapping[str, NDArray[np.int8]]
-
-    def kept(self, good: Bools) -> _Compatible:
-        return _Compatible(self.rows[good], {end: each[good] for end, each in self.far.items()})
-
-    def also(self, end: str, far: NDArray[np.int8]) -> _Compatible:
-        """Return the paths with their distances from one more end."""
-        return _Compatible(self.rows, {**self.far, end: far})
+        return np.asarray(whole + far <= 2 * self._added)
 
 
 class _RoundRobin:

@@ -16,7 +16,7 @@ from operator import or_
 import numpy as np
 
 from geartrain.numerics.arrays import Bools
-from geartrain.search.reconstruct.path_lists import PathList, Rows, seen_clusters
+from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.quotient_tables import ROUNDING, QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass
@@ -37,7 +37,6 @@ class PathColumns:
 
     def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
         self.paths = paths
-        self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
         number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
         # one row per arbor, because an arbor is compared for many paths at once
@@ -67,11 +66,8 @@ class PathColumns:
         Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
         by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
-        mine, theirs = self.paths.arbors[rows], other.paths.arbors[row]
-        both: Rows = np.asarray(mine & theirs)
+        both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)
-        for cluster in self._clusters:  # all paths to a component pass through its topmost arbor
-            good &= (both & cluster != 0) | (mine & cluster == 0) | (theirs & cluster == 0)
         parted = np.zeros(len(rows), dtype=np.int8)
         for at in np.flatnonzero(other.codes[:, row]).tolist():
             codes = self.codes[at][rows]

@@ -80,13 +80,7 @@ def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[Brok
 
     The result is empty if and only if the candidate explains the dials.
 
-    Parameters
-    ----------
-    candidate : Arbor
-        Candidate from its input arbor. Its surviving arbors and wheels have the names of the problem, and it shows no
-        other dials.
-    problem : ReconstructionProblem
-        Reconstruction problem.
+    candidate   input arbor; surviving arbors and wheels have the names of the problem, and there are no other dials
     """
     return (
         *_dial_rules(candidate, problem),
@@ -343,22 +337,13 @@ class KnownTrain:
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:
-    """Read a train as a candidate, with the names of a problem.
+    """Read a train as a candidate of a problem whose arbors turn in the frame.
 
-    Parameters
-    ----------
-    train : Train
-        Known train.
-    problem : ReconstructionProblem
-        Reconstruction problem whose arbors turn in the frame.
-    same : mapping of str to str, optional
-        Name in the problem of wheels and outputs that the train names differently. Other parts must have equal names,
-        except for capitals.
+    same   name in the problem of wheels and outputs that the train names differently; other parts must have equal
+           names, except for capitals
 
-    Raises
-    ------
-    QuestionError
-        If the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel is not known.
+    Raise `QuestionError` if the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel
+    is not known.
     """
     return _TrainReading(train, problem, same or {}).known()
 

@@ -162,15 +162,9 @@ class FactTally:
 class ExplainedFacts:
     """Marginals of all facts, and groups of facts that partition the trains in the same way.
 
-    Parameters
-    ----------
-    weighed : WeighedTrains
-        All trains, or the best.
-    problem : ReconstructionProblem
-        Reconstruction problem.
-    tally : FactTally, optional
-        Sums over all trains, if known. Facts are then equivalent if they partition `weighed` in the same way and have
-        equal sums.
+    weighed   all trains, or the best
+    tally     sums over all trains, if known; facts are then equivalent if they partition `weighed` in the same way and
+              have equal sums
     """
 
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:

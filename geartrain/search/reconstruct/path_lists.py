@@ -68,15 +68,8 @@ def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str
 class SeenMeshes:
     """Compatibility of the passes of a path through different arbors, from the known meshes.
 
-    Parameters
-    ----------
-    passes : sequence
-        Passes of each arbor, the input first.
-
-    Attributes
-    ----------
-    order : tuple of int
-        Indices of the arbors. Arbors of one component are adjacent, and components with many passes come first.
+    passes   passes of each arbor, the input first
+    order    indices of the arbors; arbors of one component are adjacent, and components with many passes come first
     """
 
     def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:

@@ -195,7 +195,9 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 
 
 Group = tuple[Dials, int, int]
+"""Dials whose speed a group of added wheels changes, and its numbers of driving and of driven wheels."""
 Wanted = tuple[tuple[str, Quotients], ...]
+"""Required bounds of the quotient of all added wheels on the path to each dial."""
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 """Tooth counts of the driving and of the driven wheels of each group of dials."""
 

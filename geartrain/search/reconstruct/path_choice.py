@@ -106,6 +106,7 @@ def all_to_use(problem: ReconstructionProblem) -> int:
 
 
 def _bits(each: ArborPass, number: dict[str, int]) -> int:
+    """Return the bit mask of the surviving wheels of a pass, by their numbers from 1."""
     found = 0
     for wheel in (each.driven, each.driver):
         if wheel is not None and wheel.name in number:
@@ -174,7 +175,7 @@ class PathChoice:
         """
         kept = {}
         for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
-            # cheap tests first
+            # the cheapest test first, because it excludes most paths
             rows = rows[self._may_agree(dial, row, other, rows)]
             rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
             for path in chosen.items():
@@ -197,7 +198,7 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _may_agree(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
-        """Return whether each path has room for added wheels of its own besides a chosen path, or the same quotient."""
+        """Return whether each path has the quotient of a chosen path, or added wheels may be on one of the two only."""
         first, second = self.lists[end], self.lists[dial]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         room = 2 * self._added + self._idlers - first.wheels[row] - second.wheels[rows]
@@ -205,7 +206,9 @@ class PathChoice:
         return np.asarray(same | (room > 0))
 
     def _is_near(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
-        """Return whether each path and a chosen path may have so few added wheels together that a train has both."""
+        """Return whether a train may have each path and a chosen path, by a lower bound of their number of added
+        wheels.
+        """
         first, second = self.lists[end], self.lists[dial]
         whole = first.wheels[row] + second.wheels[rows]
         (low, high), (minimum, maximum) = first.bounds, second.bounds

@@ -354,7 +354,7 @@ def _findings(
         return CandidateFindings(assumptions=dropped)
     if found.complete and not any(count.solutions for count in found.counts):
         missing = None
-        with run.part("reasons why nothing fits") as execution:
+        with run.part("reasons why no train explains the evidence") as execution:
             missing = explain_missing(problem, execution)
         return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, found, dropped)

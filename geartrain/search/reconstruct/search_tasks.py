@@ -46,13 +46,15 @@ _LONGEST = 100 * _YEAR
 _GOLDEN = (5**0.5 - 1) / 2
 """Golden ratio conjugate. The fractional parts of its multiples are evenly distributed, and select the timed parts."""
 
-# The trains of a topology as a product of orders and choices of tooth counts: marginals and random draws. Orders and
-# counts are independent unless rings limit counts in some orders. Orders are then partitioned by these limits, and are
-# independent of the counts in each part.
+# The trains of a topology as products of orders of arbors and choices of tooth counts. Orders and counts are
+# independent unless rings limit the counts in some orders. The orders are therefore partitioned by these limits.
 
 
 class OrderPart(NamedTuple):
-    """Orders of one topology that all have the same choices of added tooth counts: each with each choice is a train."""
+    """Orders of the arbors of a topology that have the same choices of added tooth counts.
+
+    Each order with each choice is one train.
+    """
 
     open: OpenCounts
     choices: int

@@ -298,7 +298,7 @@ def _check_input(train: Train) -> None:
 
 @dataclass
 class _Base:
-    """Joined links and meshes that turn on the frame or on one carrier."""
+    """Arbors that turn on the frame or on one carrier: links that form one arbor, and meshes."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Links that couplings join to each link, including the link, in the order of the train."""
@@ -307,6 +307,8 @@ class _Base:
 
 
 class _Parts:
+    """Search for the parts of a train. `loop` describes the last loop of meshes, which excludes a part."""
+
     def __init__(self, train: Train) -> None:
         self.train, self.loop = train, ""
         self._solved = GearTrain(train)

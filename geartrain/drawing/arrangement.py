@@ -83,10 +83,7 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
 
 
 def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
-    """Return the sequence with one item at its best position, and the sum of distances within pairs.
-
-    The sequence is unchanged unless another position is better.
-    """
+    """Return the sequence with an item at its best position, if that is better, and the sum of distances."""
     rest = [other for other in sequence if other != item]
     found = sequence
     for position in range(len(sequence)):
@@ -148,9 +145,7 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths of shortest paths between items (n, n), by the Floyd-Warshall algorithm; 0 between separate
-    components.
-    """
+    """Return the lengths of shortest paths between items (n, n) (Floyd-Warshall); 0 between components."""
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -244,9 +239,7 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Positions of callouts in two columns next to a picture: the y of each callout on the left and on the right, and
-    the inner edges of the columns [in].
-    """
+    """Callouts in columns left and right of a picture, each with its y, and the columns' inner edges [in]."""
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -335,10 +328,7 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
 
 
 def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
-    """Return the callouts from bottom to top in the order of minimum total line length (linear assignment).
-
-    If all callouts had equal heights, no two lines of this order would cross.
-    """
+    """Return callouts from bottom to top in the order of minimum total line length (linear assignment)."""
     if not callouts:
         return []
     heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))

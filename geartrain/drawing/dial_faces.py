@@ -51,10 +51,7 @@ class PointerReading:
     error: float
     """Contribution of the starting angle, teeth and pins to the reading [turns], clockwise as read positive."""
     reach: float = 1.0
-    """Length of the hand divided by the radius of its scale.
-
-    The `outline` of the hand has points (x, half the width), both relative to this length.
-    """
+    """Length of the hand over its scale's radius; `outline` has points (x, half the width), over this length."""
     outline: Sequence[tuple[float, float]] = ()
 
     @property
@@ -133,10 +130,7 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn.
-
-    Raise `QuestionError` for an unknown output, without any face, or for more than 60 faces.
-    """
+    """Return the faces to draw; raise `QuestionError` for unknown outputs, no face, or more than 60 faces."""
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
@@ -230,9 +224,7 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn of the
-    spiral.
-    """
+    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn."""
     if reading.turned is None:
         return
     scale = face.scale

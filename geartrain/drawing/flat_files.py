@@ -80,10 +80,7 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as a DXF R2010 string, with its title as a custom property.
-
-    Raise `MissingExtraError` if ezdxf is not installed.
-    """
+    """Return a drawing as a DXF R2010 string, its title as a property; raise `MissingExtraError` without ezdxf."""
     try:
         from ezdxf import units
         from ezdxf.enums import TextEntityAlignment

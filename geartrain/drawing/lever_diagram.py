@@ -33,9 +33,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if
-    undetermined).
-    """
+    """Point of a lever: abscissa, members, closed brakes and clutches of each, and speed (None if unknown)."""
 
     x: Fraction
     links: list[str]
@@ -113,10 +111,7 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the panels in rows of at most the page width.
-
-    The number of rows is the minimum, and the longest row is as short as possible.
-    """
+    """Return the panels in rows of at most the page width: as few as possible, the longest as short as possible."""
     rows = len(_packed_rows(wide, _PAGE))
     ends = range(len(wide))
     # the width of the longest row is the width of some run of panels, so only these widths are tried
@@ -158,10 +153,7 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state: its name, its closed elements, and its verdict if it has no speeds.
-
-    The heading of the first state also names the unit of all speeds.
-    """
+    """Return a state's heading: name, closed elements, verdict without speeds, and first the unit of speeds."""
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
@@ -202,10 +194,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever from left to right, with speeds about the carrier's reference direction.
-
-    The carrier and the members at its abscissa are separate points.
-    """
+    """Return a lever's points in order, the carrier apart, with speeds about the carrier's reference direction."""
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
@@ -232,10 +221,7 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Write the names and speeds of members above a panel, and their abscissae below it.
-
-    They are moved apart where vertical lines are close together.
-    """
+    """Write names and speeds above a panel and abscissae below it, moved apart where lines are close."""
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)
     assert figure is not None

@@ -183,10 +183,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel. Minimum and maximum of one quantity share a panel.
-
-    If columns with a default panel are among them, all other columns are omitted.
-    """
+    """Return the columns by panel, extremes of a quantity in one; other columns only without default panels."""
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
         stem, _, end = name.rpartition("_")

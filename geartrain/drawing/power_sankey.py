@@ -158,10 +158,7 @@ def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegm
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """Draw a strip of a band from its first column to its last.
-
-    The strip has a notch where power enters the train and a tip where power leaves it.
-    """
+    """Draw a strip of a band over all columns, with a notch where power enters and a tip where it leaves."""
     upper: list[tuple[float, float]] = []
     codes: list[int] = []
     for piece in band:

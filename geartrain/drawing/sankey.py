@@ -83,9 +83,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Return band, with the distances from its source and its target at which it turns, and the top of its lane
-    [in].
-    """
+    """Return band, with its turning distances from source and target, and the top of its lane [in]."""
 
     piece: BandSegment
     right: float
@@ -145,10 +143,7 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of the column centres [in].
-
-    They leave space for names and return bands, and are spread to the minimum width.
-    """
+    """Return abscissae of column centres [in] with space for names and return bands, over the minimum width."""
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -180,10 +175,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return losses by node, and the streams between nodes.
-
-    A bearing that is fed by only one shaft becomes a loss of that shaft.
-    """
+    """Return losses by node, and the streams; a bearing fed by only one shaft becomes a loss of that shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -199,10 +191,7 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return forward streams and return streams.
-
-    In each loop one stream of purely circulating power is a return stream, so that the forward streams have no loop.
-    """
+    """Return forward streams without loops, and one purely circulating stream of each loop as a return stream."""
     ahead = [stream for stream in streams if stream.circling < stream.power]
     back: list[PowerStream] = []
     for stream in _depth_first(streams):
@@ -243,10 +232,7 @@ def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the column of each node, which is after the columns of all nodes that feed it (longest path).
-
-    Outputs are in the last column.
-    """
+    """Return each node's column, after the columns of all nodes that feed it (longest path); outputs are last."""
     columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
     moved = True
     while moved:
@@ -360,9 +346,7 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of the neighbours of a spot on one side, weighted by band width; without any, its own
-    position.
-    """
+    """Return the mean position of a spot's neighbours on one side, weighted by width; its own without any."""
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
         return places[spot]
@@ -418,10 +402,7 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top [in] at which a spot's bands are level, and the weight of that top.
-
-    Bands that pass a column have the maximum weight.
-    """
+    """Return the top [in] at which a spot's bands are level, and its weight, largest for bands that pass a column."""
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:
@@ -434,10 +415,7 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
-    """Return the tops of a column without overlap that minimise the weighted squared distances to the wanted tops.
-
-    The method is isotonic regression.
-    """
+    """Return a column's separated tops nearest to the wanted tops by weighted least squares (isotonic regression)."""
     import numpy as np
     from scipy.optimize import isotonic_regression
 
@@ -448,10 +426,7 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set the tops of bands at both ends in place.
-
-    Bands are in the order of the spots at their other ends, with return bands uppermost.
-    """
+    """Set both ends of bands in place, in the order of the spots at their other ends, return bands uppermost."""
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

@@ -163,11 +163,7 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels. Within links and within wheels, labels with the fewest positions are placed
-        first.
-
-        A label without a free position is written at its best position.
-        """
+        """Place and write all labels, those with few positions first, and without a free one at the best position."""
         links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
         for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
             x, y, _, _ = self.room.place(each.places) or each.places[0]
@@ -199,9 +195,7 @@ class StickMesh:
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, with the link on the lower row first; `wheels` are the wheels of these links (for a coupling, the links
-    again).
-    """
+    """Links, with the link on the lower row first; `wheels` are their wheels, or for a coupling the links again."""
     wheels: tuple[str, str]
     ring: str
     x: float
@@ -365,10 +359,7 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """Return the lower wheel's share of the height between two axes.
-
-    It is proportional to the tooth count of the wheel, within limits in which the labels of both wheels fit.
-    """
+    """Return the lower wheel's share of the height between two axes, by tooth count, so that both labels fit."""
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
     return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
@@ -545,9 +536,7 @@ class _Drawing:
             )
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw the mark of teeth at the end of a wheel: level, slanted if bevel or contrate, long and dashed for a
-        worm.
-        """
+        """Draw the mark of teeth at a wheel's end: level, slanted for bevel or contrate, long and dashed for a worm."""
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -205,10 +205,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column of a group in which a mesh hides no other mesh, and add the mesh to `taken` in place.
-
-    A ring also takes the next column.
-    """
+    """Return the first column where a mesh hides no other, and add it to `taken`; a ring takes two columns."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

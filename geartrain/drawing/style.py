@@ -138,9 +138,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield all texts of an artist, except the texts of hidden axes, whose ticks would be created only for this
-    query.
-    """
+    """Yield an artist's texts, except those of hidden axes, whose ticks would be created only for this query."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child

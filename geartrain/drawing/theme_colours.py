@@ -184,10 +184,7 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill for a colour.
-
-    It is None if the colour is not a mixture of the shade and fill of the light theme.
-    """
+    """Return the theme's mixture of shade and fill for a colour; None if it is not such a mixture."""
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
     share = float((rgb - shade) @ along / (along @ along))
@@ -206,10 +203,7 @@ def _named(theme: Theme) -> Sequence[str]:
 
 
 def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
-    """Return a colour with the same relative lightness between the theme's paper and ink as between white and black.
-
-    The hue is kept, except in print, which has none.
-    """
+    """Return a colour of equal lightness between the theme's paper and ink, in print without its hue."""
     paper, ink = (_oklab(_rgb_of(each)) for each in (theme.paper, theme.ink))
     light, *hue = _oklab(rgb)
     # the Oklab lightness is 0 for black and 1 for white

@@ -80,10 +80,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose of two wheels, with the driving tooth pair at alpha_1 and alpha_2 [rad] in one phase.
-
-    The angles of all other teeth follow from the pitch.
-    """
+    """Pose of two wheels with the driving tooth pair at alpha_1 and alpha_2 [rad]; the pitch gives all others."""
 
     sizes: TriangularSizes
     phase: str
@@ -94,9 +91,7 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return tooth count, tip radius and root radius of a wheel, and the angle of its tooth in the driving pair
-        [rad].
-        """
+        """Return a wheel's tooth count, tip and root radius, and the angle of its tooth in the driving pair [rad]."""
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -108,10 +103,7 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius about a wheel's centre and an angle [rad] from the line of centres.
-
-        Positive angles are on the entry side.
-        """
+        """Return points (..., 2) at a radius and an angle from the line of centres [rad], positive at the entry."""
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
@@ -323,10 +315,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in a wheel's sense of rotation, with the wheel's name, inside its body on the entry side.
-
-    A driven wheel at rest has no arrow.
-    """
+    """Draw an arrow in a wheel's sense, with its name, inside its body; a driven wheel at rest has no arrow."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1

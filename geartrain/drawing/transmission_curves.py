@@ -226,10 +226,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits that contain the real path, and the ideal path where it is near the real path.
-
-    They are 0 and 1 without finite values of the real path.
-    """
+    """Return axis limits around the real path and the ideal path near it; 0 and 1 without finite values."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -258,10 +255,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact, with tau before and after it.
-
-    Before the impact the last tooth pair separates; after it the next tooth pair drives.
-    """
+    """Draw each impact with tau before it, when a tooth pair separates, and after it, when the next one drives."""
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -294,9 +288,7 @@ def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values that are far enough from each
-    other.
-    """
+    """Return ticks for the instant centre between two speed ratios: round values that do not crowd."""
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -309,10 +301,7 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis with the instant centre divided by the centre distance.
-
-    It is tau/(1 + tau), or tau/|1 - tau| for a pair with a ring.
-    """
+    """Draw a second axis with the instant centre over the centre distance, tau/(1 + tau), or tau/|1 - tau|."""
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -470,9 +459,7 @@ def _places(path: PathOfContact) -> Floats:
 
 
 def _flat(points: Floats) -> Floats:
-    """Return x and y relative to the pitch point (..., 2); on the sphere, as viewed from outside above the pitch
-    point.
-    """
+    """Return x and y from the pitch point (..., 2); on the sphere, as viewed from outside above that point."""
     return points[..., :2]
 
 

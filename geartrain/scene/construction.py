@@ -114,9 +114,7 @@ class _Mounting:
         return [circuit for circuit in self.stage.train.circuits if circuit.id in self.meetings]
 
     def spread(self, first: Circuit) -> None:
-        """Place all wheels that meshes connect with a pair, by breadth-first search, except wheels that are already
-        placed.
-        """
+        """Place the wheels that meshes connect with a pair, by breadth-first search, unless already placed."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -151,9 +149,7 @@ class _Mounting:
         self._note_phase(circuit, at)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the distance by which a driver's tooth is ahead of the phase of its transmission function [pitches,
-        -1/2 to 1/2].
-        """
+        """Return how far a driver's tooth is ahead of its transmission function's phase [pitches, -1/2 to 1/2]."""
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
@@ -309,9 +305,7 @@ def _original(wheel: str, own: dict[str, str], link: str) -> str:
 
 
 def _parent(train: Train) -> str:
-    """Return the name with which a declaration can extend the train: the shipped train, or else the file that was
-    read.
-    """
+    """Return the name with which a declaration can extend the train: the shipped train, or the file read."""
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]

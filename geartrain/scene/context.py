@@ -27,9 +27,7 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """Train in one state, with its layout and the indices of its bodies and wheels, as the input of all parts of a
-    scene.
-    """
+    """Train in one state with its layout, as the input of all parts of a scene, with indices of bodies and wheels."""
 
     train: GearTrain
     answer: Answer
@@ -75,10 +73,7 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link divided by the speed of the driving link.
-
-        It is None if the speed is not determined, or if no link is driven.
-        """
+        """Return a link's exact speed over that of the driving link; None if undetermined or if none is driven."""
         found = self.speed(link)
         if found is None or self.driving_link is None:
             return None
@@ -103,9 +98,7 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared parallel
-        axis.
-        """
+        """Return the unit direction of an axis, reversed if opposite to z or to the first declared parallel axis."""
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):
@@ -117,9 +110,7 @@ class SceneContext:
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the driving link in one time unit of the input (one minute for `100 rpm`); 1 if no link
-        is driven.
-        """
+        """Turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if none is driven."""
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration

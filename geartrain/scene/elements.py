@@ -109,15 +109,11 @@ class SceneBody(Shown):
     direction: Vector
     """Unit vector along the link's axis, in the reference direction of all axes that are parallel to it."""
     sense: int
-    """-1 if the declared axis points against `direction`, so that the speed about `direction` has the opposite sign;
-    else 1.
-    """
+    """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; else 1."""
     speed: str | None
     """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined."""
     shown: str | None
-    """Speed of the link at the declared inputs, in the train's unit: exact if the inputs are exact; None if not
-    determined.
-    """
+    """Speed of the link at the declared inputs, in the train's unit, exact if they are; None if undetermined."""
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
@@ -153,9 +149,7 @@ class ToothProfile(Shown):
     height above the pitch cone, along the back cone.
     """
     hole: bool = False
-    """True if the profile is a closed curve, such as the pin of a lantern pinion. Its points then go once around
-    the curve.
-    """
+    """True if the profile is a closed curve, such as a lantern pinion's pin, whose points go once around it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,9 +206,7 @@ class SceneWheel(Shown):
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the meshes of the wheel; None if the losses are not known, for
-    example without declared loads.
-    """
+    """Fraction of the input power that is lost at the wheel's meshes; None if unknown, as without loads."""
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""
     holes: Sequence[Sequence[float]] = ()
@@ -250,9 +242,7 @@ class ScenePair(Shown):
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
-    """Exact speed ratio of the pair's fundamental circuit: (w_i - w_k) / (w_j - w_k), equation (4) of
-    docs/theory.md.
-    """
+    """Exact speed ratio of the pair's circuit: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
     form: str
     """Tooth form of the pair; empty if its real teeth are not known."""
     text: str

@@ -38,10 +38,7 @@ def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePai
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """Return the equation of a circuit as a string, such as `64 (b - frame) + 38 (c - frame) = 0`.
-
-    A name represents the declared speed of a link.
-    """
+    """Return a circuit's equation in declared speeds, such as `64 (b - frame) + 38 (c - frame) = 0`."""
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
@@ -83,9 +80,7 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield gear pairs whose real teeth cannot run, as dictionaries in the form of loops, with the reason and a
-    remedy.
-    """
+    """Yield pairs whose real teeth cannot run, in the form of loops (`_loop_data`), with reason and remedy."""
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -153,10 +148,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the axis of the pin's link to its first pin.
-
-    Pins in holes are placed midway between the axes that their link carries, if there are such axes.
-    """
+    """Return the unit vector from the pin link's axis to its first pin; pins in holes avoid carried axes."""
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))

@@ -92,9 +92,7 @@ class ErrorSource(Shown):
     transmission: int
     """Index of the pair's error table in `Movement.transmissions`."""
     cycles: str
-    """Exact number of periods of the transmission error per turn of the driving link; negative if the driver turns
-    backwards.
-    """
+    """Exact number of error periods per turn of the driving link; negative if the driver turns backwards."""
     start: float
     """Driver's forward angle S at the start, with all errors 0 [rad]."""
     sense: int
@@ -269,16 +267,11 @@ class MovementStart:
     """Initial positions, by pair or coupling with a transmission error."""
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
-    """Movement against the declared sense of the driving link, on the coast flanks; None if it is equal to the forward
-    movement.
-    """
+    """Movement on the coast flanks, against the driving link's sense; None if it equals the forward movement."""
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement of a train in its state.
-
-    It is still if no speed is determined, and the mean motion with a reason if the errors cannot be computed.
-    """
+    """Return the movement in a state: still if no speed is determined, mean with a reason if errors are unknown."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
@@ -345,9 +338,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition, with kind `exact` if ratios are constant. Backlash may still cause
-    offsets.
-    """
+    """Return the movement of a composition: `exact` if ratios are constant, even if backlash causes offsets."""
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
@@ -371,9 +362,7 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Return the number of turns of the driving link after which all angles and errors repeat; None if the train does
-    not move.
-    """
+    """Return the turns of the driving link after which all angles and errors repeat; None if nothing moves."""
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

@@ -46,9 +46,7 @@ class Theme:
     fault: str
     """Colour of errors and faulty parts."""
     fill: str
-    """Colour of faces of the object in a picture; `shade` is for faces that are turned away, `band` for flows and
-    marks.
-    """
+    """Colour of faces in a picture; `shade` is for faces that are turned away, `band` for flows and marks."""
     shade: str
     band: str
     scale: tuple[str, str, str]
@@ -138,8 +136,5 @@ def series_colour(at: int, theme: ThemeName = "light") -> str:
 
 
 def series_dash(at: int) -> Dash:
-    """Return the dashes of the series with an index, from 0 [line widths].
-
-    The first seventy combinations of colour and dashes are distinct, in print the first ten.
-    """
+    """Return a series' dashes [line widths] by its index; with the colours, 70 are distinct, in print 10."""
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

@@ -216,10 +216,7 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return the indices of the samples at which a contact changes, and the new states as letters.
-
-        Both are empty for contacts without flanks.
-        """
+        """Return indices of samples at which a contact changes, and new states as letters; empty without flanks."""
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
@@ -299,10 +296,7 @@ def find_run(
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Return the tolerance of the stored angles of a link [rad], smaller for the driving link.
-
-    The page derives the ideal angles of all other links from the angle of the driving link.
-    """
+    """Return the tolerance of stored angles [rad], smaller for the driving link, which gives all ideal angles."""
     if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
@@ -321,9 +315,7 @@ def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield each contact with its kind, the body that carries the contact point, and the point in the zero pose
-    [mm].
-    """
+    """Yield each contact with its kind, the body that carries its point, and the point in the zero pose [mm]."""
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]

@@ -75,9 +75,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and count the version; if the train has errors, keep the last pages and store the error
-        message.
-        """
+        """Rebuild the pages and count the version; on errors of the train, keep the old pages and store the message."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -175,10 +173,7 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page.
-
-        It permits the script of the page, frames of this server, and the web socket to this server.
-        """
+        """Return the outer page's security policy: its script, frames of this server, and the web socket to it."""
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

@@ -29,8 +29,7 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
     "\u2028": "\\u2028",
     "\u2029": "\\u2029",
 }
-"""Escapes of characters that could end a script element or start another; in JSON strings they have the same meaning.
-"""
+"""Escapes of characters that could end or start a script element; they mean the same in JSON strings."""
 
 
 _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
@@ -192,9 +191,7 @@ def _words(scene: Scene) -> str:
 
 
 def own_script_only(program: str) -> str:
-    """Return a content security policy that permits inline styles and one script, identified by its hash, and no
-    images.
-    """
+    """Return a content security policy for inline styles and one script, identified by its hash; no images."""
     digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
     allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'"
     return f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"

@@ -282,10 +282,7 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield lantern wheels with the extent of their discs beyond the pitch circle [modules].
-
-    The extent is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
-    """
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle, 1.5 pins [modules]."""
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
@@ -296,9 +293,7 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return by pair the centre distance of real teeth divided by the distance at which pitch circles touch, if the
-    ratio is not 1.
-    """
+    """Return by pair the real centre distance over that of touching pitch circles, if the ratio is not 1."""
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:

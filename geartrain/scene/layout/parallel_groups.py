@@ -185,18 +185,14 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to the height at its reference point
-        [mm].
-        """
+        """Return the height of a crossing axis at a point in plan, relative to that at its reference point [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Fix the heights of crossing axes that mesh with each other and with one axis: they intersect this axis at one
-        point.
-        """
+        """Fix the heights of crossing axes that mesh with each other and one axis, which they meet at one point."""
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
@@ -406,9 +402,7 @@ class _Placing:
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
     def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
-        """Yield new axes that mesh with a placed axis: the pair from the side of the new axis, and a point of the new
-        axis [mm].
-        """
+        """Yield each new axis that meshes with a placed axis: the pair from its side, and a point on it [mm]."""
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -420,9 +414,7 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return points in plan of the axes that cannot move [mm]; if no axis is fixed, points of axes that are
-        chosen.
-        """
+        """Return points in plan of the axes that cannot move [mm], or if there are none, of chosen axes."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))

@@ -90,9 +90,7 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return chosen distances [mm] for pins without dimensions, and for carried axes that no distance connects to the
-    axis of their carrier.
-    """
+    """Return chosen distances [mm] for pins without dimensions, and for carried axes not tied to their pivot."""
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -116,10 +114,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect the same crossing axis, each with the direction of the line on which they lie.
-
-    A worm does not intersect its wheel's axis.
-    """
+    """Yield pairs of axes that cross a common axis (worms do not), with the direction of the line through both."""
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":
@@ -141,9 +136,7 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield the axes of planets between a sun and a ring, each with its number of assembly positions, z_sun +
-    z_ring.
-    """
+    """Yield axes of planets between sun and ring, each with its number of assembly positions, z_sun + z_ring."""
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

@@ -105,9 +105,7 @@ def _simple(factor: float) -> Fraction:
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without using this distance (Dijkstra); empty if there is
-    no path.
-    """
+    """Return the shortest path between the axes of a distance without using it (Dijkstra); empty without a path."""
     joined: dict[str, list[tuple[str, int]]] = {}
     for number, one in enumerate(distances):
         if number != at:
@@ -152,9 +150,7 @@ class WheelModules:
     declared: frozenset[str]
     """Wheels of clusters whose module is declared."""
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
-    pairs.
-    """
+    """Pair of axes -> required distance [mm]: a pin's declared offset, else the mean distance of its gear pairs."""
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
@@ -261,10 +257,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance between two axes [mm] from their declared points, otherwise from the offset of a pin.
-
-        It is None if neither is declared.
-        """
+        """Return the distance of two axes [mm] from their declared points, else from a pin's offset, else None."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -314,9 +307,7 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the axis from the point where the axes intersect, or are nearest, to the centre of the
-    wheel [mm].
-    """
+    """Distance along the axis from where the axes intersect, or are nearest, to the wheel's centre [mm]."""
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
     out: Vector

@@ -111,9 +111,7 @@ class _OrderSearch:
 
     @cached_property
     def order(self) -> list[int]:
-        """Order of the stacks: first the stack with the most arbors, then repeatedly the stack that shares the most
-        arbors with earlier stacks.
-        """
+        """Order of the stacks: the one with most arbors first, then those that share most arbors with earlier ones."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
@@ -128,9 +126,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Return the key of each stack: all stacks are placed, then each stack and runs of levels are moved until no
-        move improves the order.
-        """
+        """Return the key of each stack, moving stacks and runs of levels until no move improves the order."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
@@ -158,9 +154,7 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to its position of minimum cost, in a level (integer key) or between two levels (half-integer
-        key).
-        """
+        """Move one stack to its cheapest position, in a level (integer key) or between levels (half-integer key)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -268,9 +262,7 @@ class _OrderSearch:
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, the stacks whose wheels they would pierce at the same height, and the number of such wheels in each
-        stack.
-        """
+        """Arbors, stacks whose wheels they would pierce at equal height, and the number of these wheels in each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -289,9 +281,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Return keys with each stack in the free level nearest to other stacks on its arbors, or in a new
-        top level.
-        """
+        """Return keys with each stack in the free level nearest to its arbors' other stacks, or in a new top level."""
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -343,10 +333,7 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return heights of levels from the lowest [mm].
-
-    Each level is above all blocks that clash with it, and above the previous level.
-    """
+    """Return heights of levels [mm], each above the previous level and all blocks that clash with its own."""
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])
@@ -384,11 +371,7 @@ class WheelStack:
     """Stack -> height [mm] that is determined by parts that are already placed."""
 
     def heights(self) -> dict[str, float]:
-        """Return heights of upright wheels [mm].
-
-        Given heights are kept, and all other stacks are shifted by the same amount as the first stack with a given
-        height.
-        """
+        """Return heights of upright wheels [mm]: given heights, and others shifted as the first given stack."""
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)
         found = {stack: self.given.get(stack, height + shift) for stack, height in found.items()}
@@ -417,9 +400,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, whose axes
-        share one stud.
-        """
+        """Yield arbors with the wheels they pass through, except those of a pin and its slot, which share a stud."""
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

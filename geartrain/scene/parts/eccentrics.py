@@ -157,9 +157,7 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on each side of the wheels, on the same arbor; none for a flexible wheel, which its wall
-        holds.
-        """
+        """Yield a washer on each side of the wheels, on the same arbor; none for a flexible wheel, held by its wall."""
         if self.wave is not None:
             return
         radius = max(self.radius, self.wall + _OVER)
@@ -168,9 +166,7 @@ class Eccentric:
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
     def faces(self, disc: StackDisc) -> tuple[float, float]:
-        """Return the faces of the eccentric [mm]: between its washers, or in a flexible wheel below the wall of the
-        cup.
-        """
+        """Return the faces of the eccentric [mm]: between its washers, or below the cup's wall in a flexible wheel."""
         if self.wave is not None:
             return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD

@@ -55,9 +55,7 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Choice of the heights of both frame plates, of the seats of carriers, and of the columns of all axes, with its
-    cost.
-    """
+    """Choice of the heights of the frame plates, the seats of carriers and all columns, with its cost."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
@@ -65,9 +63,7 @@ class PlateChoice:
     outside: int
     """1 if the train extends above the front plate, -1 if below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Cost of the choice: obstacles on all axes, including crossing wheels that a plate would cut; then studs and
-    arbors through a plate.
-    """
+    """Obstacles on all axes, including crossing wheels that a plate would cut; then studs and arbors through one."""
 
 
 def best_places(
@@ -138,9 +134,7 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """Return the number of obstacles of a set of columns; a pair of links that cannot be nested counts as one
-    obstacle.
-    """
+    """Return the number of obstacles of columns; a pair of links that cannot be nested counts as one."""
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
@@ -152,9 +146,7 @@ def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle, or the first column; the iterable is read only as far as
-    necessary.
-    """
+    """Return the first column without an obstacle, else the first; the iterable is read no further than needed."""
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -229,9 +221,7 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return the diameters of the arbor on an axis and of its pivots [mm], as requested, or as declared for its
-        link.
-        """
+        """Return the diameters of an axis' arbor and pivots [mm], as requested or as declared for its link."""
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -242,9 +232,7 @@ class FramePlan:
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Yield the possible seats of each carrier, of each circle of pins or cup, of each turning ring and of each
-        flange.
-        """
+        """Yield the possible seats of each carrier, circle of pins, cup, turning ring and flange."""
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -302,9 +290,7 @@ class FramePlan:
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Return the number of obstacles on the axes that a carrier carries; space for the heads of studs is added
-        later.
-        """
+        """Return the number of obstacles on a carrier's axes, before space is added for the heads of studs."""
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0
@@ -419,9 +405,7 @@ class FramePlan:
 
     @cached_property
     def cut(self) -> frozenset[str]:
-        """Pinions that are cut from the solid arbor, because there is too little material between their roots and the
-        arbor.
-        """
+        """Pinions cut from the solid arbor, because too little material is between their roots and the arbor."""
         wheels = self.stack.layout.wheels
         return frozenset(
             disc.name
@@ -433,10 +417,7 @@ class FramePlan:
 
     @cached_property
     def bores(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel and turning plate [mm].
-
-        A pinion that is cut from its arbor has the hole of that arbor, which is 0 for a solid arbor.
-        """
+        """Diameter of each wheel's and turning plate's hole [mm], 0 for a pinion cut from a solid arbor."""
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
@@ -562,10 +543,7 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return heights as built, with plates inserted between the slabs of wheels.
-
-    The lowest slab keeps its height, and plates below it are placed under it.
-    """
+    """Return heights as built, with plates inserted between slabs of wheels and the lowest slab in its place."""
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

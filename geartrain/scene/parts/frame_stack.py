@@ -70,9 +70,7 @@ class AcrossWheel:
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return the passage of the wheel through a plate; None if it does not intersect the plate or has no
-        section.
-        """
+        """Return the wheel's passage through a plate; None if it does not meet the plate or has no section."""
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -219,9 +217,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by name of the coupling, for which no wheel of the pins' link is wide
-        enough.
-        """
+        """Circles of pins in round holes by coupling, for which no wheel of the pins' link is wide enough."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -248,10 +244,7 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights between which no plate may be inserted, by axis of the wheels that are not upright.
-
-        A plate between such a wheel and its mates would change their distance.
-        """
+        """Heights between which a plate would part wheels from their mates, by axis of wheels that are not upright."""
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
         for gear in self.train.declaration.gears:
@@ -311,9 +304,7 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """Return the stack with space for the heads of studs next to the wheels that carriers carry, and for
-        washers.
-        """
+        """Return the stack with space for heads of studs beside the wheels of carriers, and for washers."""
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
@@ -421,9 +412,7 @@ class StackEccentrics:
     # ---------------------------------------------------------------------------------------------- cranks side by side
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-        """Yield the parallel cranks that a link represents, each carried about the link's axis, as link, axis and
-        coupling.
-        """
+        """Yield the parallel cranks that a link represents, carried about its axis, as link, axis and coupling."""
         tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot

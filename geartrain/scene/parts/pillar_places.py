@@ -64,9 +64,7 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return the first position, then repeatedly the position farthest from the chosen positions (greedy
-    dispersion).
-    """
+    """Return the first position, then repeatedly the one farthest from those chosen (greedy dispersion)."""
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
@@ -111,9 +109,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance between a point and a set of circles [mm], negative inside a circle; infinite without
-    circles.
-    """
+    """Return the minimum distance of a point from circles [mm], negative inside one; infinite without circles."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -163,10 +159,7 @@ def _posts(
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced positions on a rim with the maximum clearance, up to 0.5 mm.
-
-    The clearance is that to arbors, and to parts between the ring and the plate.
-    """
+    """Return three equally spaced positions on a rim with maximum clearance to arbors and parts, up to 0.5 mm."""
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]

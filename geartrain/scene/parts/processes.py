@@ -49,9 +49,7 @@ USUAL = "hand"
 
 
 def process_named(name: str | None) -> Process:
-    """Return the process with a given name, or the default process for None. Raise `QuestionError` for an
-    unknown name.
-    """
+    """Return the process of a name, or the default process for None; raise `QuestionError` if it is unknown."""
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         fix = suggest(wanted, PROCESSES)

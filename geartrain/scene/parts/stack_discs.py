@@ -70,10 +70,7 @@ class StackDisc:
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Return occupied intervals of height [mm], from the lowest.
-
-    Discs that overlap in height are merged, and so are all discs between the ends of a `tied` interval.
-    """
+    """Return occupied intervals of height [mm] from the lowest, merging overlapping discs and `tied` intervals."""
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
         if found and low < found[-1][1] - _SAME:
@@ -154,9 +151,7 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and the windows within it. Passages that would divide the plate are
-    omitted.
-    """
+    """Return a convex edge with notches, and its windows; passages that would divide the plate are omitted."""
     windows = []
     for each in passages:
         x, y = each.way

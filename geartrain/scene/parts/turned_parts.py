@@ -166,9 +166,7 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor from shoulder to shoulder. It has a pivot in each plate, or a collar where it passes through the
-    plate.
-    """
+    """Yield an arbor from shoulder to shoulder, with a pivot or, where it passes through, a collar at each plate."""
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)
@@ -209,10 +207,7 @@ def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """Return a pin that is held in one plate.
-
-    A head retains the turning parts, unless another stud is on the end of the pin.
-    """
+    """Return a pin held in one plate, with a head for the turning parts unless another stud is on its end."""
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high

@@ -65,9 +65,7 @@ class FlatDrawing:
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour within the margin of a drawing: many vertices, or chords of a contour with
-    few.
-    """
+    """Return points that bound a contour: its vertices if they are many, otherwise vertices of its chords."""
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
@@ -182,10 +180,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors perpendicular to a normal, right and up for a viewer who looks against the normal.
-
-    They are x and y for a normal along +z.
-    """
+    """Return unit vectors right and up for a viewer who looks against a normal; x and y for a normal along +z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)
@@ -198,16 +193,12 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of the distance, at most 2
-    mm.
-    """
+    """Return a pin's default diameter [mm] at a distance from its axis [mm]: a quarter of it, at most 2 mm."""
     return min(2.0, _PIN * radius)
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the slot of a bar from its axis at the origin along x, for a pin from |r - e| to r + e
-    [mm].
-    """
+    """Return edge and slot of a bar from its axis at the origin along x, for a pin at |r - e| to r + e [mm]."""
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 

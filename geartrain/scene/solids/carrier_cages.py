@@ -79,9 +79,7 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face, and downward direction; None without such a
-        dial.
-        """
+        """Direction towards the reader of the first dial on a face, and downward direction; None without one."""
         normal = self.plan.stack.normal
         assert normal is not None
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
@@ -191,8 +189,7 @@ class Bracket:
     """Support of one end of an arbor that is parallel to the plates: a plate with a hole, fixed in a frame plate."""
 
     body: int
-    """Index of the arbor's body; `reach` is the position of the bracket's outer face along the arbor's direction [mm].
-    """
+    """Index of the arbor's body; `reach` is the outer face of the bracket along the arbor's direction [mm]."""
     reach: float
     side: str
     """Side of the frame plate to which the bracket is fixed, through the `mortise` there."""
@@ -217,9 +214,7 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point [mm]; None if it has no wheels besides
-    rings.
-    """
+    """Return the ends of a body's wheels along its direction, from its point [mm]; None without, besides rings."""
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -389,9 +384,7 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: its side of the carrier's axis, 1 or -1, and its position
-        [mm].
-        """
+        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1, -1) and place [mm]."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -415,9 +408,7 @@ class _CageBuilder:
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of a wheel of the carrier whose tips are outside of a post; None without such a
-        wheel.
-        """
+        """Return the nearest face of a carrier's wheel whose tips are outside of a post; None if there is none."""
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)
@@ -432,9 +423,7 @@ class _CageBuilder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the middle height of an arm next to the pinion, on the side with the fewest obstructing coaxial wheels
-        [mm].
-        """
+        """Return the middle height of an arm beside the pinion [mm], on the side with fewer obstructing wheels."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -453,17 +442,13 @@ class _CageBuilder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Return the heights of the `ends` of a wheel, which are given relative to its centre, along the carrier's axis
-        [mm].
-        """
+        """Return the heights of a wheel's `ends`, given relative to its centre, along the carrier's axis [mm]."""
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the middle height of an arm beyond all wheels [mm], on the side with the fewest wheels that obstruct
-        the post.
-        """
+        """Return the middle height of an arm beyond all wheels [mm], where fewer wheels obstruct the post."""
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:

@@ -111,9 +111,7 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return the disc of a single dial if it contains all feet, otherwise the convex curve around all dials and
-        feet.
-        """
+        """Return a single dial's disc if it contains all feet, else the convex curve around all dials and feet."""
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
             return Contour.circle(first.radius, place(first.at))
@@ -126,10 +124,7 @@ class DialPlate:
         return around([place(point) for point in (*rims, *(foot.at for foot in self.feet))], wide)
 
     def drawing(self) -> FlatDrawing:
-        """Return the drawing of the plate as seen by the reader, with zero marks at the top.
-
-        Scales, numerals and names are engraved.
-        """
+        """Return the drawing of the engraved plate as seen by the reader, with zero marks at the top."""
         title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, front view; "
         scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
         title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in scales.items())

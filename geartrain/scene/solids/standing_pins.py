@@ -45,10 +45,7 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """Coupling that is cut into wheels: a pin in one wheel, and its slot or holes in another wheel.
-
-    The pin's wheel is None if no wheel carries the pins of round holes.
-    """
+    """Coupling cut into wheels: pin in one (None if no wheel carries round holes' pins), slot or holes in another."""
 
     coupling: SceneCoupling
     pin: SceneWheel | None
@@ -98,10 +95,7 @@ def _wide_wheels(
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return the edge and the hole of the bar with the slot.
-
-    If no sizes are declared, the slot is a round hole in which the pin moves uniformly.
-    """
+    """Return edge and hole of the slotted bar, or without declared sizes of a bar whose hole a pin circles."""
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
@@ -121,9 +115,7 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return the holes of a wheel for pins and for a slot, in the coordinates of the wheel with axes `turn` at
-    `place`.
-    """
+    """Return a wheel's holes for pins and for a slot, in the coordinates of the wheel, `turn` at `place`."""
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:
@@ -191,9 +183,7 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the interval of height from the far face of the pin's wheel to the far face of the slot's wheel
-        [mm].
-        """
+        """Return the heights from the far face of the pin's wheel to the far face of the slot's wheel [mm]."""
         ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
         return min(ends), max(ends)
 
@@ -269,10 +259,7 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with rings of pins as rings without pins, because the pins are separate parts.
-
-    A tooth of such a ring is the space between two seats of pins.
-    """
+    """Return the scene with rings of separate pins, whose teeth are the parts between two seats of pins."""
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
@@ -326,10 +313,7 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost position of a bar with sufficient clearance relative to wheel and arm.
-
-    If no position has it, the position with the maximum clearance is returned.
-    """
+    """Return the outermost bar position with enough clearance to wheel and arm, or else that with the most."""
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]

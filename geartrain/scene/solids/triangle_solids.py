@@ -107,9 +107,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Remaining corners of a polygon. A cut changes its two neighbours; the other corners keep their position in a
-    heap.
-    """
+    """Remaining corners of a polygon; a cut changes its two neighbours, all others keep their heap position."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -167,9 +165,7 @@ class _Corners:
             heappush(self.heap, (-self.fatness[k], k))
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the square of the longest
-        side.
-        """
+        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the longest side squared."""
         (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
         turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
@@ -190,9 +186,7 @@ _SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Closed surface of triangles: vertices (n, 3) in mm, and faces (m, 3) of their indices, counter-clockwise from
-    outside.
-    """
+    """Closed surface: vertices (n, 3) in mm, and triangles (m, 3) as indices, counter-clockwise from outside."""
 
     vertices: Floats
     faces: Integers
@@ -276,10 +270,7 @@ def extruded(
 
 
 def lathed(rows: Sequence[Floats]) -> Solid:
-    """Return the closed surface through rows of counter-clockwise points (n, 3), also from the last row to the first.
-
-    A row of one point is a pole, in which the surface ends.
-    """
+    """Return the closed surface through rows of counter-clockwise points (n, 3); one point is a pole, its end."""
     starts = np.cumsum([0, *map(len, rows)])
     count = max(map(len, rows))
     rings = [start + np.arange(count) * (len(row) > 1) for start, row in zip(starts.tolist(), rows, strict=False)]
@@ -294,9 +285,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of one tooth with its sector of the web, closed along the bore, or at the centre without a
-    bore.
-    """
+    """Return the polygon of a tooth with its sector of the web, closed along the bore, or at the centre without."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -342,10 +331,7 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius [mm] and angle [rad] of the whole outline, without duplicate points between teeth.
-
-    Above the maximum tooth count that is drawn, the outline is the pitch circle.
-    """
+    """Return radius [mm] and angle [rad] of a whole outline, or of the pitch circle above the maximum tooth count."""
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T
@@ -405,10 +391,7 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown wheel's flanks at a scale of the radius [rad].
-
-    Its mates have teeth of constant width that pass obliquely.
-    """
+    """Return the angles of a crown's flanks at a scale of the radius [rad], for oblique passage of mates' teeth."""
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)

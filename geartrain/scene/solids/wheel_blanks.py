@@ -169,9 +169,7 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Flat shapes of the wheels of a train: wheels that can be cut flat by name, notices on wheels, and the backlash of
-    every pair that is cut.
-    """
+    """Flat shapes of wheels by name, with notices, and the backlash of every pair that is cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
@@ -218,10 +216,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return a wheel that has no mates, with a notice.
-
-    An escape wheel keeps its teeth, and any other wheel becomes a disc with the diameter of its pitch circle.
-    """
+    """Return a wheel without mates, as a disc unless it is an escape wheel, with a notice."""
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
         fix = "make an anchor to match it, or recut its teeth for another escapement"

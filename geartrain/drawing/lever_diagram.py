@@ -8,7 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import groupby
+from math import ceil
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import spread, text_width
@@ -111,27 +114,9 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the panels in rows of at most the page width: as few as possible, the longest as short as possible."""
-    rows = len(_packed_rows(wide, _PAGE))
-    ends = range(len(wide))
-    # the width of the longest row is the width of some run of panels, so only these widths are tried
-    widths = sorted(
-        {sum(wide[first : last + 1]) + _GAP * (last + 1 - first) for last in ends for first in ends[: last + 1]}
-    )
-    return next(bands for each in widths if len(bands := _packed_rows(wide, each)) <= rows)
-
-
-def _packed_rows(wide: Sequence[float], page: float) -> list[list[int]]:
-    """Return the panels in rows that are filled in order up to a width [in] (next-fit packing)."""
-    bands: list[list[int]] = [[]]
-    left = 0.0
-    for at, each in enumerate(wide):
-        if bands[-1] and left + each + _GAP > page + 1e-9:  # tolerance for the rounding of sums
-            bands.append([])
-            left = 0.0
-        bands[-1].append(at)
-        left += each + _GAP
-    return bands
+    """Return the panels in rows of nearly equal numbers, as few as their total width requires."""
+    rows = ceil((sum(wide) + _GAP * len(wide)) / _PAGE)
+    return [band.tolist() for band in np.array_split(np.arange(len(wide)), min(rows, len(wide)))]
 
 
 def _widened(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:

@@ -6,11 +6,17 @@ that close a loop return above all other parts.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from math import inf
+from typing import Any
+
+import networkx as nx
+import numpy as np
+from scipy.optimize import isotonic_regression
 
 from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
@@ -192,57 +198,30 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
     """Return forward streams without loops, and one purely circulating stream of each loop as a return stream."""
-    ahead = [stream for stream in streams if stream.circling < stream.power]
-    back: list[PowerStream] = []
-    for stream in _depth_first(streams):
-        if stream.circling == stream.power:
-            closes = stream.source in _reached(ahead, stream.target)
-            (back if closes else ahead).append(stream)
-    return ahead, back
+    # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop
+    ordered = sorted(streams, key=lambda each: (each.source.kind != "in", -each.power))
+    graph, back = _graph(ordered), list[PowerStream]()
+    with suppress(nx.NetworkXNoCycle):
+        while True:
+            loop = nx.find_cycle(graph, list(dict.fromkeys(stream.source for stream in ordered)))
+            passed = (graph.edges[ends]["stream"] for ends in loop[::-1])
+            back.append(next(stream for stream in passed if stream.circling == stream.power))
+            graph.remove_edge(back[-1].source, back[-1].target)
+    return [stream for stream in streams if stream not in back], back
 
 
-def _depth_first(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
-    """Yield all streams by depth-first search from the power input, the largest stream of a node first."""
-    after: dict[PowerNode, list[PowerStream]] = {}
-    for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
-        after.setdefault(stream.source, []).append(stream)
-    seen: set[PowerNode] = set()
-    for start in after:
-        todo = [iter(after[start])] if start not in seen else []
-        seen.add(start)
-        while todo:
-            for stream in todo[-1]:
-                yield stream
-                if stream.target not in seen:
-                    seen.add(stream.target)
-                    todo.append(iter(after.get(stream.target, ())))
-                    break
-            else:
-                todo.pop()
-
-
-def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
-    seen, todo = {node}, [node]
-    while todo:
-        here = todo.pop()
-        fresh = {stream.target for stream in streams if stream.source == here} - seen
-        seen |= fresh
-        todo += fresh
-    return seen
+def _graph(streams: Sequence[PowerStream]) -> Any:
+    graph = nx.DiGraph()
+    graph.add_edges_from((stream.source, stream.target, {"stream": stream}) for stream in streams)
+    return graph
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
     """Return each node's column, after the columns of all nodes that feed it (longest path); outputs are last."""
-    columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
-    moved = True
-    while moved:
-        moved = False
-        for stream in ahead:
-            if columns[stream.target] <= columns[stream.source]:
-                columns[stream.target] = columns[stream.source] + 1
-                moved = True
+    graph = _graph(ahead)
+    columns = {node: at for at, nodes in enumerate(nx.topological_generations(graph)) for node in nodes}
     last = 1 + max(at for node, at in columns.items() if node.kind != "out")
-    return {node: last if node.kind == "out" else at for node, at in columns.items()}
+    return {node: last if node.kind == "out" else columns[node] for node in graph}
 
 
 def find_scale(
@@ -416,9 +395,6 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
     """Return a column's separated tops nearest to the wanted tops by weighted least squares (isotonic regression)."""
-    import numpy as np
-    from scipy.optimize import isotonic_regression
-
     steps = [one.height + one.below + other.above for one, other in pairwise(column)]
     offsets = np.cumsum([0.0, *steps])
     tops, weights = np.array(wanted).T

@@ -48,46 +48,7 @@ class Shown:
         return [[float(angle) for angle in row] for row in self.run(script, [list(turns), list(outputs)])]
 
 
-# lists, ticks and sliders; what is typed into a text field remains
-CONTROLS = "[...document.querySelectorAll('select, input[type=checkbox], input[type=range]')]"
-VALUES = f"() => {CONTROLS}.map((each) => each.type === 'checkbox' ? each.checked : each.value)"
-RESTORE = f"""(values) => {{
-  const click = (selector) => document.querySelector(selector)?.click();
-  click('.round[aria-label=pause]');
-  click('[aria-label="play backwards"][aria-pressed=true]');
-  click('[data-key=reset]'); // all counts as declared
-  values.forEach((value, n) => {{
-    const each = {CONTROLS}[n], key = each.type === 'checkbox' ? 'checked' : 'value';
-    if (each[key] === value) return;
-    each[key] = value;
-    for (const kind of ['input', 'change']) each.dispatchEvent(new Event(kind, {{ bubbles: true }}));
-  }});
-  click('[role=tab]');
-  click('[data-look=free]');
-  document.activeElement?.blur();
-  geartrain.setTurns('0');
-}}"""
-
-
-@dataclass
-class OpenedPage:
-    """A page that several tests use one after the other: `values` are those of its controls when it opened."""
-
-    shown: Shown
-    values: list[Any] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.values = self.shown.run(VALUES)
-
-    def restore(self) -> None:
-        """Bring the page back to the state in which it opened, as a reader would."""
-        self.shown.run(RESTORE, self.values)
-        self.shown.page.keyboard.press("Escape")
-        assert self.shown.run(VALUES) == self.values
-
-
 OpenPage = Callable[..., Shown]
-SharePage = Callable[[str], Shown]
 
 
 @pytest.fixture(scope="session")
@@ -127,52 +88,6 @@ def open_page(browser: Browser) -> Iterator[OpenPage]:
         context.close()
 
 
-@pytest.fixture(scope="module")
-def opened_pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], OpenedPage]]:
-    """Opens each page of a module once, by its HTML, and closes all of them after the module's last test."""
-    context = browser.new_context(**DESK)
-    pages: dict[str, OpenedPage] = {}
-
-    def opened(html: str) -> OpenedPage:
-        if html not in pages:
-            path = tmp_path_factory.mktemp("shared") / "page.html"
-            path.write_text(html, encoding="utf-8")
-            pages[html] = OpenedPage(_opened(context.new_page(), path))
-        return pages[html]
-
-    yield opened
-    context.close()
-
-
-@pytest.fixture
-def share(opened_pages: Callable[[str], OpenedPage]) -> SharePage:
-    """Returns the page of some HTML, which all tests of a module share; each test meets it as it opened."""
-    shown: dict[str, Shown] = {}
-
-    def shared(html: str) -> Shown:
-        if html not in shown:
-            found = opened_pages(html)
-            found.restore()
-            shown[html] = found.shown
-        return shown[html]
-
-    return shared
-
-
-@pytest.fixture
-def show_shared(share: SharePage) -> Opening:
-    """Shows the page of shipped trains, or of a declaration, as `show` does, on a page shared by a module's tests.
-
-    For tests of what a page does after it has opened: numbers, pictures, controls. What a reader sees at first, other
-    windows and scripts that run before the page need one of their own.
-    """
-
-    def opened(*names: str, text: str | None = None, compare: bool = False, teeth: bool = False) -> Shown:
-        return share(html_of(names or (str(text),), compare, teeth))
-
-    return opened
-
-
 def _opened(sheet: Page, path: Path) -> Shown:
     shown = Shown(sheet)
     address = path.resolve().as_uri()
@@ -184,15 +99,25 @@ def _opened(sheet: Page, path: Path) -> Shown:
 
 
 @pytest.fixture
-def show(open_page: OpenPage, tmp_path: Path) -> Opening:
+def show_html(open_page: OpenPage, tmp_path: Path) -> OpenPage:
+    """Opens a page by its HTML."""
+
+    def opened(html: str, **window: Any) -> Shown:
+        path = tmp_path / "page.html"
+        path.write_text(html, encoding="utf-8")
+        return open_page(path, **(DESK | window))
+
+    return opened
+
+
+@pytest.fixture
+def show(show_html: OpenPage) -> Opening:
     """Opens the page of shipped trains, or of a declaration, in all their states."""
 
     def opened(
         *names: str, text: str | None = None, compare: bool = False, teeth: bool = False, **window: Any
     ) -> Shown:
-        path = tmp_path / "page.html"
-        path.write_text(html_of(names or (str(text),), compare, teeth), encoding="utf-8")
-        return open_page(path, **(DESK | window))
+        return show_html(html_of(names or (str(text),), compare, teeth), **window)
 
     return opened
 

@@ -19,7 +19,7 @@ from geartrain.scene import make_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, SharePage, Shown
+    from conftest import OpenPage, Shown
 
     from geartrain import Answer
 
@@ -51,12 +51,12 @@ ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tbody tr')]
 
 
 @pytest.fixture
-def opened(share: SharePage) -> Any:
+def opened(show_html: OpenPage) -> Any:
     """Shows the page of a train on which counts may be changed, in all its states."""
 
     def show(train: GearTrain) -> Shown:
         scenes = [make_scene(train, state, formulas=True) for state in train.states or (None,)]
-        return share(page(scenes, teeth=False))
+        return show_html(page(scenes, teeth=False))
 
     return show
 

@@ -53,10 +53,8 @@ def test_brakes_and_clutches_are_named_and_a_click_shows_what_they_hold(show: Op
 
 
 @pytest.mark.parametrize("output", ["moon", "exeligmos"])
-def test_the_path_is_exactly_what_the_output_cannot_do_without(
-    show_shared: Opening, tmp_path: Path, output: str
-) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tmp_path: Path, output: str) -> None:
+    shown = show(ANTIKYTHERA)
     tab(shown, "Outputs")
     plain = {colour for _, _, colour in shown.run(DRAWN)}
     shown.page.locator(f"tr[data-output='{output}'] th button").click()
@@ -81,8 +79,8 @@ def test_the_path_is_exactly_what_the_output_cannot_do_without(
     assert shown.page.locator(".path").is_hidden()
 
 
-def test_dials_read_clockwise_what_fractions_say(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(100_003, 7)

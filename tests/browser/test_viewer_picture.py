@@ -55,8 +55,8 @@ NEEDLES = """() => {
 @pytest.mark.parametrize(
     "names", [("planetary",), ("humpage",), ("worm",), ("longcase-clock",), ("price-1974", "worm")]
 )
-def test_the_whole_train_and_its_crank_fill_the_picture(show_shared: Opening, names: tuple[str, ...]) -> None:
-    shown = show_shared(*names, compare=len(names) > 1)
+def test_the_whole_train_and_its_crank_fill_the_picture(show: Opening, names: tuple[str, ...]) -> None:
+    shown = show(*names, compare=len(names) > 1)
     for scene in range(len(names)):
         for look in ("Front", "Side", "Free"):
             shown.page.get_by_role("button", name=look, exact=True).click()
@@ -68,8 +68,8 @@ def test_the_whole_train_and_its_crank_fill_the_picture(show_shared: Opening, na
 
 
 @pytest.mark.parametrize("name", [ANTIKYTHERA, "bevel-differential", "worm"])
-def test_taken_apart_nothing_leaves_the_picture(show_shared: Opening, name: str) -> None:
-    shown = show_shared(name)
+def test_taken_apart_nothing_leaves_the_picture(show: Opening, name: str) -> None:
+    shown = show(name)
     apart = shown.page.get_by_label("Apart")
     for look in ("Front", "Back", "Side", "Free"):
         shown.page.get_by_role("button", name=look, exact=True).click()
@@ -88,8 +88,8 @@ def test_taken_apart_nothing_leaves_the_picture(show_shared: Opening, name: str)
     assert shown.run(SPREAD, 0) == pytest.approx(near, rel=1e-3)
 
 
-def test_needles_in_the_picture_point_where_fractions_say(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_needles_in_the_picture_point_where_fractions_say(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(1234, 7)
@@ -103,8 +103,8 @@ def test_needles_in_the_picture_point_where_fractions_say(show_shared: Opening) 
         assert min(off, 1 - off) < 1e-6, output
 
 
-def test_what_stands_before_the_middle_is_hidden_and_comes_back(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_what_stands_before_the_middle_is_hidden_and_comes_back(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     seen = "geartrain.stages[0].world.wheels.map(({own}) => geartrain.stages[0].world.palette.looks[own].shown)"
     assert all(shown.run(seen))
     shown.page.get_by_label("Hide front").check()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shipped
-from conftest import SharePage, Shown
+from conftest import OpenPage, Shown
 from viewing import Opening, tab, wait
 
 from geartrain import load
@@ -25,8 +25,8 @@ def played() -> Played:
 
 
 @pytest.fixture
-def shown(played: Played, share: SharePage) -> Shown:
-    return share(page([played[1]], teeth=False))
+def shown(played: Played, show_html: OpenPage) -> Shown:
+    return show_html(page([played[1]], teeth=False))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
@@ -165,10 +165,10 @@ gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.98}]
 """
 
 
-def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(share: SharePage) -> None:
+def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(show_html: OpenPage) -> None:
     train = load(PLANETARY)
     run = train.dynamics(rate="1 turn/s", turns=1, skip=0, steps=1000, fast=False)
-    shown = share(page([build_scene(train, run=run)], teeth=False))
+    shown = show_html(page([build_scene(train, run=run)], teeth=False))
     rows = shown.run(
         """() => {
           geartrain.setTurns(0.77);

@@ -40,8 +40,8 @@ def told(day: Fraction, calendar: str | None = None) -> str:
     return f"{found.day} {MONTHS[found.month - 1]} {year}, {minutes // 60:02d}:{minutes % 60:02d}"
 
 
-def test_the_crank_tells_the_date_of_its_turns(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_crank_tells_the_date_of_its_turns(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     told_by = shown.page.locator(".date")
     assert told_by.inner_text() == told(START)
     draw = random.Random(0)
@@ -51,8 +51,8 @@ def test_the_crank_tells_the_date_of_its_turns(show_shared: Opening) -> None:
     assert shown.errors == []
 
 
-def test_a_date_that_is_typed_is_reached_exactly(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_a_date_that_is_typed_is_reached_exactly(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     day = shown.page.get_by_label("Go to date")
     for text, same in (
         ("-204-05-12", "-204-05-12"),
@@ -76,8 +76,8 @@ def test_a_date_that_is_typed_is_reached_exactly(show_shared: Opening) -> None:
         assert "This is not a date" in shown.page.get_by_role("alert").inner_text()
 
 
-def test_the_page_turns_to_a_date_and_back_and_stops_there(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_page_turns_to_a_date_and_back_and_stops_there(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     for text in ("1901-01-01", "-204-05-12"):
         began = turns(shown)
         shown.page.get_by_label("Go to date").fill(text)
@@ -88,8 +88,8 @@ def test_the_page_turns_to_a_date_and_back_and_stops_there(show_shared: Opening)
         assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
 
 
-def test_targets_stand_beside_pointers_and_the_error_is_exact(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     at = Fraction(100_003, 7)
     go(shown, at)
     tab(shown, "Sky")
@@ -132,8 +132,8 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show_shared: Openi
     assert marks["metonic"] == pytest.approx(float(5 * YEAR / month * at % 5), abs=1e-9)
 
 
-def test_errors_of_very_long_times_stay_in_their_column(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     tab(shown, "Sky")
     for at in ("1e18", "1/1000000"):
         go(shown, at)
@@ -142,7 +142,7 @@ def test_errors_of_very_long_times_stay_in_their_column(show_shared: Opening) ->
         assert shown.run("document.querySelector('.sky').scrollWidth <= document.querySelector('.sky').clientWidth + 1")
 
 
-def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening, show_shared: Opening) -> None:
+def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening) -> None:
     shown = show(text=CALENDAR)
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
     go(shown, "-1")
@@ -150,6 +150,6 @@ def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening, show_share
     tab(shown, "Sky")
     exact = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.dataset.exact)")
     assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns a day, one day back
-    shown = show_shared(SIMPLE)
+    shown = show(SIMPLE)
     assert shown.page.get_by_role("tab", name="Sky").count() == 0
     assert shown.page.get_by_label("Go to date").count() == 0

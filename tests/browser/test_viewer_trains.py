@@ -35,8 +35,8 @@ outputs: {"b": {note: "<script>alert(5)</script>"}}
 """
 
 
-def test_links_lead_only_to_the_web(show_shared: Opening) -> None:
-    shown = show_shared(text=LOCKED)
+def test_links_lead_only_to_the_web(show: Opening) -> None:
+    shown = show(text=LOCKED)
     tab(shown, "About")
     links = shown.run("[...document.querySelectorAll('.page a')].map((each) => each.href)")
     assert links == ["https://example.org/a"]
@@ -150,8 +150,8 @@ def test_two_trains_turn_in_step_and_their_difference_is_exact(show: Opening) ->
     assert gaps
 
 
-def test_a_locked_train_names_its_loop_in_red_and_shows_it(show_shared: Opening) -> None:
-    shown = show_shared(text=LOCKED)
+def test_a_locked_train_names_its_loop_in_red_and_shows_it(show: Opening) -> None:
+    shown = show(text=LOCKED)
     verdict = shown.page.locator(".verdict")
     assert verdict.get_attribute("data-verdict") == "locked"
     red, green, blue = rgb(verdict.evaluate("(v) => getComputedStyle(v).color"))

@@ -17,8 +17,8 @@ PAINTED = """geartrain.scenes[0].wheels.map(({ status }, k) => {
 })"""
 
 
-def test_the_wheel_panel_tells_all_that_is_declared(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_wheel_panel_tells_all_that_is_declared(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     tab(shown, "Wheels")
     shown.page.get_by_label("find a wheel").fill("e5")
     assert shown.page.locator(".wheels li:visible").count() == 1
@@ -29,15 +29,15 @@ def test_the_wheel_panel_tells_all_that_is_declared(show_shared: Opening) -> Non
     assert shown.run("geartrain.scenes[0].wheels[geartrain.stages[0].world.looks.selected].id") == "e5"
 
 
-def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
+def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show: Opening) -> None:
+    shown = show(SIMPLE)
     shown.run("geartrain.stages[0].onPick(1)")
     wheel = shipped.built(SIMPLE).wheels[1]
     assert f"Wheel {wheel.id}" in shown.page.locator(".detail").inner_text()
 
 
-def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     shown.page.get_by_label("Colours").select_option("status")
     declared = [
         wheel.status for link in shipped.train(ANTIKYTHERA).declaration.links.values() for wheel in link.wheels.values()
@@ -71,8 +71,8 @@ OF_BRASS = """[geartrain.stages[0].world].flatMap(({ parts, palette }) => parts.
 }))"""
 
 
-def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
+def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(show: Opening) -> None:
+    shown = show(SIMPLE)
     brass = shown.run(OF_BRASS)
     shown.page.get_by_label("Colours").select_option("speed")
     speeds = dict(shown.run(OF_BRASS))
@@ -83,15 +83,15 @@ def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(s
     assert shown.run(OF_BRASS) == brass
 
 
-def test_losses_are_told_where_they_are_known(show_shared: Opening) -> None:
-    shown = show_shared("norton-compound")
+def test_losses_are_told_where_they_are_known(show: Opening) -> None:
+    shown = show("norton-compound")
     shown.page.get_by_label("Colours").select_option("loss")
     assert "of the input power" in shown.page.locator(".legend").inner_text()
     tab(shown, "Wheels")
     wheel = next(wheel for wheel in shipped.built("norton-compound").wheels if wheel.loss)
     shown.page.locator(f"[data-wheel='{wheel.id}']").click()
     assert f"{100 * float(wheel.loss or 0):.3g} % of the input power" in shown.page.locator(".detail").inner_text()
-    shown = show_shared(SIMPLE)
+    shown = show(SIMPLE)
     shown.page.get_by_label("Colours").select_option("loss")
     assert "declares no loads" in shown.page.locator(".legend").inner_text()
 

@@ -19,7 +19,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from heapq import heappop, heappush
 from itertools import pairwise
 from math import atan2, tan
 from statistics import median
@@ -106,31 +105,17 @@ def _simple(factor: float) -> Fraction:
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
     """Return the shortest path between the axes of a distance without using it (Dijkstra); empty without a path."""
-    joined: dict[str, list[tuple[str, int]]] = {}
-    for number, one in enumerate(distances):
-        if number != at:
-            first, second = one.axes
-            joined.setdefault(first, []).append((second, number))
-            joined.setdefault(second, []).append((first, number))
-    start, goal = distances[at].axes
-    waiting: list[tuple[float, str, int, str]] = [(0.0, start, -1, "")]
-    came: dict[str, tuple[int, str]] = {}  # axis -> distance on its shortest path, and the axis before it
-    while waiting:
-        length, here, by, before = heappop(waiting)
-        if here in came:
-            continue
-        came[here] = by, before
-        if here == goal:
-            break
-        for other, number in joined.get(here, ()):
-            if other not in came:
-                heappush(waiting, (length + distances[number].length(modules), other, number, here))
-    way = []
-    here = goal
-    while here in came and here != start:
-        by, here = came[here]
-        way.append(distances[by])
-    return way
+    import networkx as nx
+
+    graph = nx.Graph()
+    # the longest first, so that the shortest of several distances between two axes replaces the others
+    for one in sorted((*distances[:at], *distances[at + 1 :]), key=lambda one: -one.length(modules)):
+        graph.add_edge(*one.axes, distance=one, weight=one.length(modules))
+    try:
+        way = nx.dijkstra_path(graph, *distances[at].axes)
+    except (nx.NodeNotFound, nx.NetworkXNoPath):
+        return []
+    return [graph.edges[step]["distance"] for step in pairwise(way)]
 
 
 # -------------------------------------------------------------------------------------------------------- wheel modules

@@ -11,6 +11,7 @@ from math import asin, atan2, cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector
@@ -158,25 +159,15 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    """Return the corners of the convex hull, counter-clockwise from the leftmost; the ends of collinear points."""
     # rounded, so that coincident axes are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
-    if len(ordered) < 3:
-        return ordered
-
-    def chain(row: Sequence[Point]) -> list[Point]:
-        kept: list[Point] = []
-        for x, y in row:
-            while len(kept) > 1:
-                (ax, ay), (bx, by) = kept[-2:]
-                # mm2: a collinear point is not a corner
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9:
-                    break
-                kept.pop()
-            kept.append((x, y))
-        return kept[:-1]
-
-    return chain(ordered) + chain(ordered[::-1])
+    apart = np.subtract(ordered, ordered[0])
+    if np.linalg.matrix_rank(apart, tol=1e-6) < 2:  # mm: a collinear point is not a corner
+        return list(dict.fromkeys((ordered[0], ordered[-1])))
+    corners = ConvexHull(apart).vertices.tolist()
+    first = corners.index(0)
+    return [ordered[at] for at in corners[first:] + corners[:first]]
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:

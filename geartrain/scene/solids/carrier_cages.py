@@ -332,30 +332,15 @@ def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tup
     return tuple(found)
 
 
-@dataclass(frozen=True)
 class _CageBuilder:
-    scene: Scene
-    plan: FramePlan
-    at: int
-    bores: Mapping[str, float]
+    """Builder of the cage of the body with index `at`; `along` is the unit vector of its carrier's axis."""
 
-    @property
-    def body(self) -> SceneBody:
-        return self.scene.bodies[self.at]
-
-    @property
-    def index(self) -> int:
+    def __init__(self, scene: Scene, plan: FramePlan, at: int, bores: Mapping[str, float]) -> None:
+        self.scene, self.plan, self.at, self.bores = scene, plan, at, bores
+        self.body = scene.bodies[at]
         assert self.body.parent is not None
-        return self.body.parent
-
-    @property
-    def carrier(self) -> SceneBody:
-        return self.scene.bodies[self.index]
-
-    @property
-    def along(self) -> Floats:
-        """Unit vector of the carrier's axis."""
-        return np.array(self.carrier.direction)
+        self.index, self.carrier = self.body.parent, scene.bodies[self.body.parent]
+        self.along = np.array(self.carrier.direction)
 
     def height(self, point: object) -> float:
         """Return the position of a point along the carrier's axis [mm]."""

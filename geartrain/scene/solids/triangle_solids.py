@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
-from math import ceil, isnan, nan, pi, tan
+from math import ceil, dist, pi, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -97,80 +96,60 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
     """Return triangles by ear clipping; the ear with the best aspect ratio is clipped first."""
     corners = _Corners(points[loop])
     found: list[tuple[int, int, int]] = []
-    while len(corners.left) > 3:
+    while corners.left.sum() > 3:
         at = corners.find_ear()
         if corners.turn[at] != 0:
             found.append((loop[corners.before[at]], loop[at], loop[corners.after[at]]))
         corners.cut(at)
-    a, b, c = corners.left.tolist()
+    a, b, c = np.flatnonzero(corners.left).tolist()
     return [*found, (loop[a], loop[b], loop[c])]
 
 
 class _Corners:
-    """Remaining corners of a polygon; a cut changes its two neighbours, all others keep their heap position."""
+    """Corners of a polygon, of which those `left` are not cut off yet; a cut changes two neighbours."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
-        self.corners, self.left = corners, np.arange(count)
-        self.points = [(x, y) for x, y in corners.tolist()]
+        self.corners, self.left = corners, np.ones(count, bool)
         self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
-        self.turn, self.fatness = [0.0] * count, [0.0] * count
-        self.blocker = [-1] * count  # a corner known to be in the triangle of each; -1 if unknown
+        self.turn, self.fatness = np.zeros(count), np.zeros(count)
+        self.blocker = np.full(count, -1)  # a corner known to be in the triangle of each; -1 if unknown
         for at in range(count):
             self._measure(at)
-        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness)]
-        heapify(self.heap)
 
     def find_ear(self) -> int:
         """Return the ear with the best aspect ratio, or the flattest corner if no corner is an ear."""
-        passed, ear = [], -1
-        while self.heap:
-            fat, at = heappop(self.heap)
-            if -fat != self.fatness[at]:  # an outdated entry: cut off, or with changed neighbours
-                continue
-            if self.turn[at] > _FLAT and self._empty(at):
-                ear = at
-                break
-            passed.append((fat, at))
-            if self.turn[at] <= _FLAT:
-                break
-        for each in passed:
-            heappush(self.heap, each)
-        # without an ear only flat corners are left
-        return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
+        while True:
+            tried = self.left & (self.turn > _FLAT) & ~((self.blocker >= 0) & self.left[self.blocker])
+            if not tried.any():  # without an ear only flat corners are left
+                return int(np.argmin(np.where(self.left, abs(self.turn), np.inf)))
+            at = int(np.argmax(np.where(tried, self.fatness, -np.inf)))
+            if self._empty(at):
+                return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner."""
-        blocker = self.blocker[at]
-        if blocker >= 0 and not isnan(self.fatness[blocker]):  # not cut off yet
-            return False
-        here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
-        (ax, ay), (x, y) = own.T[..., None], here.T
+        """Return True if no other point is in the triangle of a convex corner; otherwise, note one as its blocker."""
+        own = self.corners[[self.before[at], at, self.after[at]]]
+        (ax, ay), (x, y) = own.T[..., None], self.corners.T
         side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
-        within = np.flatnonzero(side.min(axis=0) >= 0)
-        if len(within) == 3:
-            return True
-        others = within[~(here[within][:, None] == own).all(-1).any(-1)]
-        if len(others):
-            self.blocker[at] = int(self.left[others[0]])
+        within = np.flatnonzero(self.left & (side.min(axis=0) >= 0))
+        others = within[~(self.corners[within][:, None] == own).all(-1).any(-1)]
+        self.blocker[at] = others[0] if len(others) else -1
         return not len(others)
 
     def cut(self, at: int) -> None:
         """Cut off a corner and update its neighbours."""
         a, c = self.before[at], self.after[at]
-        self.left = np.delete(self.left, np.searchsorted(self.left, at))
-        self.after[a], self.before[c], self.fatness[at] = c, a, nan
-        for k in (a, c):
-            self._measure(k)
-            heappush(self.heap, (-self.fatness[k], k))
+        self.left[at], self.after[a], self.before[c] = False, c, a
+        self._measure(a)
+        self._measure(c)
 
     def _measure(self, at: int) -> None:
         """Update twice the signed area of a corner's triangle, and its ratio to a bound of the longest side squared."""
-        (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
-        turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
+        a, b, c = self.corners[[self.before[at], at, self.after[at]]].tolist()
+        turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         # the sum of two squares bounds the larger one, which is sufficient to rank corners
-        longest = max((cx - ax) * (cx - ax) + (cy - ay) * (cy - ay), first + second)
+        longest = max(dist(a, c) ** 2, dist(a, b) ** 2 + dist(b, c) ** 2)
         self.turn[at], self.fatness[at], self.blocker[at] = turn, turn / (longest or 1.0), -1
 
 

@@ -135,9 +135,8 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
     for name in outputs:
         if name not in known:
             fix = f"choose from {', '.join(known)}" if known else "declare `outputs`"
-            raise QuestionError(
-                Problem(f"'{scene.name}' has no output '{name}'", "only declared outputs have dials", fix)
-            )
+            what = f"'{scene.name}' has no output '{name}'"
+            raise QuestionError(Problem(what, "only declared outputs have dials", fix))
     wanted = [known[name] for name in outputs] or list(known.values())
     on: dict[int, list[int]] = {}
     for at in wanted:
@@ -151,17 +150,11 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
-        raise QuestionError(
-            Problem(f"'{scene.name}' has no dial to draw", "it declares no `outputs`", "declare `outputs` and `dials`")
-        )
+        what = f"'{scene.name}' has no dial to draw"
+        raise QuestionError(Problem(what, "it declares no `outputs`", "declare `outputs` and `dials`"))
     if len(faces) > _MOST:
-        raise QuestionError(
-            Problem(
-                f"{len(faces)} dial faces do not fit on a page",
-                f"a page has space for {_MOST}",
-                "select fewer outputs with --of",
-            )
-        )
+        what = f"{len(faces)} dial faces do not fit on a page"
+        raise QuestionError(Problem(what, f"a page has space for {_MOST}", "select fewer outputs with --of"))
     return faces
 
 

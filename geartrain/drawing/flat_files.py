@@ -165,10 +165,11 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
         return to_dxf(wheel_drawing(wheel))
     if suffix == ".csv":
         return _csv(wheel)
-    what = f"an outline cannot be written as {suffix or 'a file without suffix'}"
-    raise GearTrainError(
-        Problem(what, "the suffix determines the format", f"use one of {', '.join(OUTLINES)}", "--profile")
+    what, fix = (
+        f"an outline cannot be written as {suffix or 'a file without suffix'}",
+        f"use one of {', '.join(OUTLINES)}",
     )
+    raise GearTrainError(Problem(what, "the suffix determines the format", fix, "--profile"))
 
 
 def _csv(wheel: WheelOutline) -> str:

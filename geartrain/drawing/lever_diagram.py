@@ -67,13 +67,9 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     """
     levers = find_levers(train.declaration, train.kinematics.tree, train.circuits)
     if not levers:
-        raise QuestionError(
-            Problem(
-                f"'{train.name}' has no epicyclic set",
-                "a speed diagram shows members that turn about the axis of a moving carrier, and no carrier moves",
-                "draw another kind of picture: plan, stick, graph or dials",
-            )
-        )
+        why = "a speed diagram shows members that turn about the axis of a moving carrier, and no carrier moves"
+        fix = "draw another kind of picture: plan, stick, graph or dials"
+        raise QuestionError(Problem(f"'{train.name}' has no epicyclic set", why, fix))
     states: list[str | None] = [state] if state is not None else [*train.states] or [None]
     too_many(train, len(levers) * len(states), _MOST, "panels of sets and states")
     answers = [train.solve(name) for name in states]

@@ -313,9 +313,8 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     'torque at sun (N m)'
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
-        raise QuestionError(
-            Problem("the torque over a turn is not known", found.verdict.text, "declare loads that the input can move")
-        )
+        what, fix = "the torque over a turn is not known", "declare loads that the input can move"
+        raise QuestionError(Problem(what, found.verdict.text, fix))
     losses = _losses(found)
     rows = 2 if losses else 1
     figure, panels = curve_panels([2.9] * rows, 0.8)

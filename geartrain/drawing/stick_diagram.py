@@ -208,16 +208,6 @@ class StickMesh:
     """Height at which the wheels touch [in]."""
 
 
-_Arrangement = tuple[
-    dict[str, StickShaft],
-    list[tuple[Circuit, float]],
-    list[StickCrank],
-    list[tuple[str, float]],
-    float,
-    list[list[str]],
-]
-
-
 @dataclass(frozen=True, slots=True)
 class StickSkeleton:
     """Positions of all parts of a diagram [in], from the lower left corner."""
@@ -238,8 +228,8 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
     axis_of = {link: train.kinematics.tree.axis(link) or "" for link in train.declaration.links}
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
-    tries: list[tuple[int, int, _Arrangement]] = []
-    for at in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
+    tries: list[tuple[int, StickSkeleton]] = []
+    for _ in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
         shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
         columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
         _reach_cranks(shafts, cranks)
@@ -252,14 +242,13 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
         ]
         levels = find_levels(order, shafts, spans)
         row = {axis: level for level, axes in enumerate(levels) for axis in axes}
-        tries.append((_overlaps(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
+        rows, height = _set_heights(levels, shafts)
+        meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
+        tries.append((_overlaps(spans, row), StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)))
         if not tries[-1][0]:
             break
     # the iteration may alternate between arrangements, so the one with the fewest overlaps is used
-    shafts, columns, cranks, lone, width, levels = min(tries)[2]
-    rows, height = _set_heights(levels, shafts)
-    meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
-    return StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)
+    return min(tries, key=lambda each: each[0])[1]
 
 
 def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:

@@ -116,12 +116,8 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     """
     kind = suffix.lower()
     if kind not in SUFFIXES:
-        raise GearTrainError(
-            Problem(
-                f"a plot cannot be written as {suffix or 'a file without suffix'}",
-                fix=f"use one of {', '.join(SUFFIXES)}",
-            )
-        )
+        what = f"a plot cannot be written as {suffix or 'a file without suffix'}"
+        raise GearTrainError(Problem(what, fix=f"use one of {', '.join(SUFFIXES)}"))
     for text in _texts(figure):
         if (shown := printable(text.get_text())) != text.get_text():
             text.set_text(shown)
@@ -333,10 +329,8 @@ def after_turns(scene: Scene, turns: Fraction) -> str:
 def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
     """Raise `QuestionError` if a picture would show more than `most` items of a kind."""
     if count > most:
-        raise QuestionError(
-            Problem(
-                f"'{train.name}' has {count} {what}, too many for this picture",
-                f"at most {most} {what} are legible on a page",
-                "declare a part of the train, or draw another kind of picture",
-            )
+        found, why = (
+            f"'{train.name}' has {count} {what}, too many for this picture",
+            f"at most {most} {what} are legible",
         )
+        raise QuestionError(Problem(found, why, "declare a part of the train, or draw another kind of picture"))

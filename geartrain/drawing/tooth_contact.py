@@ -65,13 +65,8 @@ def pair_text(transmission: TriangularTransmission, friction: float | None = Non
 def require_contact(transmission: TriangularTransmission) -> None:
     """Raise `GearTrainError` if the pair has no teeth, or no teeth in contact."""
     if not transmission.sizes.has_valleys or not transmission.intervals:
-        raise GearTrainError(
-            Problem(
-                "the teeth of this pair never touch",
-                transmission.verdict.text,
-                "change `half_angle` or `clearance_factor`",
-            )
-        )
+        what, fix = "the teeth of this pair never touch", "change `half_angle` or `clearance_factor`"
+        raise GearTrainError(Problem(what, transmission.verdict.text, fix))
 
 
 Point = tuple[float, float]

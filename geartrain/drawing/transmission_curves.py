@@ -389,13 +389,8 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     8
     """
     if not paths:
-        raise QuestionError(
-            Problem(
-                "no tooth form can be drawn",
-                "no form has a path of contact for this pair",
-                "change the arcs or the tooth counts",
-            )
-        )
+        what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"
+        raise QuestionError(Problem(what, why, "change the arcs or the tooth counts"))
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)
     for axes in panels.flat:

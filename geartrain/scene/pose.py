@@ -115,13 +115,9 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
             delta[at] = _delta(scene, scene.movement.sources[at], turns, float(each))
         if not step.own or np.abs(delta[sources] - before).max() < _CONVERGED:
             return
-    raise RangeError(
-        Problem(
-            f"the pose of '{scene.name}' does not converge",
-            "the fixed-point iteration for pairs that depend on each other diverges or is too slow",
-            "compute the motion with `GearTrain.motion`, or choose another number of turns",
-        )
-    )
+    why = "the fixed-point iteration for pairs that depend on each other diverges or is too slow"
+    fix = "compute the motion with `GearTrain.motion`, or choose another number of turns"
+    raise RangeError(Problem(f"the pose of '{scene.name}' does not converge", why, fix))
 
 
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:

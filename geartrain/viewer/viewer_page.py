@@ -74,13 +74,9 @@ def page(
     (True, True, False)
     """
     if len(scenes) < 1 + compare:
-        raise QuestionError(
-            Problem(
-                "there are too few scenes for a page",
-                f"a page requires at least one scene, or two to compare, and the number given is {len(scenes)}",
-                "pass at least one scene, or at least two with compare=True",
-            )
-        )
+        why = f"a page requires at least one scene, or two to compare, and the number given is {len(scenes)}"
+        fix = "pass at least one scene, or at least two with compare=True"
+        raise QuestionError(Problem("there are too few scenes for a page", why, fix))
     # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
@@ -117,12 +113,8 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
     >>> "sun fixed" in train_page(geartrain.load("planetary"))
     True
     """
-    return page(
-        [
-            build_scene(train, each, formulas=True)
-            for each in ((state,) if state is not None else train.states or (None,))
-        ]
-    )
+    states = (state,) if state is not None else train.states or (None,)
+    return page([build_scene(train, each, formulas=True) for each in states])
 
 
 @dataclass(frozen=True)

@@ -19,21 +19,11 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the size of a bevel wheel's teeth at the narrow end divided by their size at the wide end.
+    """Return the size of a bevel wheel's teeth at the narrow end over that at the wide end, from 0.55 to 1.
 
-    Parameters
-    ----------
-    cone : float
-        Half angle of its pitch cone [rad], above 0; a right angle for a crown wheel.
-    radius : float
-        Pitch radius at the wide end [mm].
-    thickness : float
-        Face width along the cone [mm].
-
-    Returns
-    -------
-    float
-        Ratio from 0.55 to 1; 1 for a face width of 0.
+    cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
+    radius      pitch radius at the wide end [mm]
+    thickness   face width along the cone [mm]
     """
     # the cone distance is radius / sin(cone)
     return 1 - min(_MOST_FACE, thickness * sin(cone) / radius)

@@ -84,6 +84,17 @@ class AcrossWheel:
         return self.low < high and low < self.high
 
 
+def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
+    """Return the axis direction of most wheels that the frame carries; None if it carries no wheel."""
+    count: Counter[Vector] = Counter()
+    for place in layout.wheels.values():
+        axis = layout.axes[place.axis]
+        if axis.carrier == train.declaration.frame:
+            x, y, z = (round(each, 12) for each in upwards(axis.direction))
+            count[x + 0.0, y + 0.0, z + 0.0] += 1  # both senses of a direction count as one; + 0.0 removes -0.0
+    return count.most_common(1)[0][0] if count else None
+
+
 @dataclass(frozen=True)
 class FrameStack:
     """Train as placed, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is given."""
@@ -91,6 +102,8 @@ class FrameStack:
     train: GearTrain
     layout: Layout
     blanks: Mapping[str, Blank]
+    normal: Vector
+    """Unit vector perpendicular to the plates, along which heights increase."""
     core: float | None = None
 
     @property
@@ -99,20 +112,8 @@ class FrameStack:
         return self.train.declaration.frame
 
     @cached_property
-    def normal(self) -> Vector | None:
-        """Axis direction of most wheels that the frame carries; None if it carries no wheel."""
-        count: Counter[Vector] = Counter()
-        for place in self.layout.wheels.values():
-            axis = self.layout.axes[place.axis]
-            if axis.carrier == self.frame:
-                x, y, z = (round(each, 12) for each in upwards(axis.direction))
-                count[x + 0.0, y + 0.0, z + 0.0] += 1  # both senses of a direction count as one; + 0.0 removes -0.0
-        return count.most_common(1)[0][0] if count else None
-
-    @cached_property
     def turn(self) -> Floats:
         """Rotation matrix with right, up and normal of the stack as columns. Shape (3, 3)."""
-        assert self.normal is not None
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
@@ -131,11 +132,10 @@ class FrameStack:
 
     def is_upright(self, axis: AxisPlace) -> bool:
         """Return True if an axis is perpendicular to the plates."""
-        return self.normal is not None and abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
+        return abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
 
     def flat(self, point: Vector) -> Point:
         """Return the coordinates of a point in space in plan view of the plates [mm]."""
-        assert self.normal is not None
         right, up = basis(self.normal)
         return dot(point, right), dot(point, up)
 
@@ -176,7 +176,6 @@ class FrameStack:
         return tuple(self._discs())
 
     def _discs(self) -> Iterator[StackDisc]:
-        assert self.normal is not None
         for name, place in self.layout.wheels.items():
             axis = self.layout.axes[place.axis]
             about = None if place.axis in self.axes else self.carrier_axis(axis)
@@ -261,7 +260,6 @@ class FrameStack:
         return tuple(self._across(place) for name, place in self.layout.wheels.items() if name not in upright)
 
     def _across(self, place: WheelPlace) -> AcrossWheel:
-        assert self.normal is not None
         axis, outer = self.layout.axes[place.axis], place.radius + place.module
         below, above = place.span
         along, thick = dot(axis.direction, self.normal), (above - below) / 2 + place.module
@@ -290,7 +288,6 @@ class FrameStack:
         shift   function of the height [mm] that returns the shift [mm]
         """
         normal, old = self.normal, self.layout
-        assert normal is not None
         rise = {disc.name: shift(disc.middle) for disc in self.discs}
         across = {label: shift(sum(ends) / 2) for label, ends in self.tied.items()}
         wheels = {

@@ -52,8 +52,6 @@ def process_named(name: str | None) -> Process:
     """Return the process of a name, or the default process for None; raise `QuestionError` if it is unknown."""
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
-        fix = suggest(wanted, PROCESSES)
-        raise QuestionError(
-            Problem(f"'{wanted}' is not a manufacturing process", "the processes are predefined", fix, "--process")
-        )
+        what, fix = f"'{wanted}' is not a manufacturing process", suggest(wanted, PROCESSES)
+        raise QuestionError(Problem(what, "the processes are predefined", fix, "--process"))
     return PROCESSES[wanted]

@@ -165,7 +165,7 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
                 radius = circle.radii.get(face.id)
                 if radius is None or np.hypot(*np.subtract(stack.flat(face.centre), circle.at)) > _SAME:
                     continue
-                height = plate.high if dot(face.normal, stack.normal or face.normal) > 0 else plate.low
+                height = plate.high if dot(face.normal, stack.normal) > 0 else plate.low
                 faces[at] = replace(
                     face,
                     centre=stack.in_space(circle.at, height),

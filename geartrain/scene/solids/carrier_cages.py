@@ -81,7 +81,6 @@ class HangingParts:
     def front(self) -> tuple[Vector, Vector] | None:
         """Direction towards the reader of the first dial on a face, and downward direction; None without one."""
         normal = self.plan.stack.normal
-        assert normal is not None
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
         face = next(faces, None)
         return None if face is None else (face.normal, scaled(face.zero, -1.0))
@@ -90,7 +89,6 @@ class HangingParts:
     def pendulum(self) -> SceneHanger | None:
         """Pendulum behind the frame, above the escape wheel; None if none is declared or it cannot be placed."""
         escapement, normal = self.declared.escapement, self.plan.stack.normal
-        assert normal is not None
         if self.front is None or escapement is None or escapement.pendulum is None:
             return None
         index = next(at for at, body in enumerate(self.scene.bodies) if body.id == escapement.link)
@@ -112,7 +110,6 @@ class HangingParts:
     def _side(self) -> float:
         """1 if the normal points away from the reader, so that the space behind the frame is above it; else -1."""
         assert self.front is not None
-        assert self.plan.stack.normal is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
     @property
@@ -127,7 +124,6 @@ class HangingParts:
         if self.pendulum is None:
             return
         stack, places, side = self.plan.stack, self.plan.places, self._side
-        assert stack.normal is not None
         plate = max((places.back, places.front), key=lambda faces: side * faces[0])
         end = dot(self.pendulum.point, stack.normal) + side * 2 * _COCK
         low, high = sorted((plate[1] if side > 0 else plate[0], end))
@@ -207,7 +203,7 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
     found: list[Bracket] = []
     for at, body in enumerate(scene.bodies):
         frame = body.parent is not None and scene.bodies[body.parent].id == plan.stack.frame
-        across = abs(float(np.dot(body.direction, plan.stack.normal or ()))) < _FLAT if frame else False
+        across = abs(float(np.dot(body.direction, plan.stack.normal))) < _FLAT if frame else False
         if across and body.axis not in borne and bores.get(body.axis):
             found += _brackets(scene, plan, sides, at, bores[body.axis] / 2)
     return tuple(found)
@@ -401,7 +397,7 @@ class _CageBuilder:
     def _is_behind_a_plate(self, height: float, seat: float) -> bool:
         """Return True if a plate of the frame is between two heights."""
         stack, places = self.plan.stack, self.plan.places
-        if stack.normal is None or abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
+        if abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
             return False
         low, high = sorted((height, seat))
         plates = (self.height(stack.in_space((0.0, 0.0), sum(faces) / 2)) for faces in (places.back, places.front))

@@ -144,7 +144,6 @@ def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> 
     pointer extends.
     """
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
-    assert stack.normal is not None
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:
         side = dot(face.normal, stack.normal)

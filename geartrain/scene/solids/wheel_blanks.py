@@ -46,18 +46,9 @@ def spoke_windows(
 
     A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
 
-    Parameters
-    ----------
-    root : float
-        Root radius [mm].
-    module : float
-        Module of the wheel [mm].
-    bore : float
-        Diameter of the hole for the arbor [mm].
-    spokes : int
-        Number of spokes, 3 or more; fewer give no windows.
-    corner : float, optional
-        Radius of inner corners [mm], at least that of the tool; by default half a module.
+    root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
+    spokes   number of spokes, 3 or more; fewer give no windows
+    corner   radius of inner corners [mm], at least that of the tool; by default half a module
     """
     if spokes < 3:
         return ()

@@ -309,10 +309,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return callouts and their y [in] in a column, close to the points that they name.
-
-    Callouts with crossing leader lines are swapped, and the tried order with the fewest crossings is returned.
-    """
+    """Return callouts and their y [in] near their points, in the order with the fewest crossing lines found."""
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):

@@ -74,10 +74,7 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links: a turning pair, a gear pair or a coupling.
-
-    Its `kind` is revolute, gear or coupling; its `label` is the axis of a turning pair, or the name of another pair.
-    """
+    """Edge of kind revolute, gear or coupling between two links; `label` is the axis, or the pair's name."""
 
     ends: tuple[str, str]
     kind: str
@@ -86,10 +83,7 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return all edges of the kinematic graph: turning pairs, gear pairs and couplings, each in the order declared.
-
-    broken   names of the gear pairs and couplings to be marked
-    """
+    """Return the edges of turning pairs, gear pairs and couplings, marked if their name is in `broken`."""
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]

@@ -111,10 +111,7 @@ class ProjectedScene:
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) of the middle plane of a thin wheel, as its wave generator deforms it.
-
-        radius, angle   (n,) in the undeformed wheel, from its reference direction
-        """
+        """Return points (n, 3) of a thin wheel's middle plane as bent, for undeformed radius and angle (n,)."""
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
         x, y = first @ wave.towards, np.cross(along, first) @ wave.towards

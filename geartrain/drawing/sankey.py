@@ -14,10 +14,6 @@ from itertools import pairwise
 from math import inf
 from typing import Any
 
-import networkx as nx
-import numpy as np
-from scipy.optimize import isotonic_regression
-
 from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
 NAME = 0.46  # space above a node for its name
@@ -68,10 +64,7 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band between two spots, which are in neighbouring columns unless the band is a return band.
-
-    `start` and `end` are the y of the upper edge of the band at the two spots [in].
-    """
+    """Segment of a band; `start` and `end` are its upper edge at both spots [in]. Only return bands skip columns."""
 
     source: SankeySpot
     target: SankeySpot
@@ -198,6 +191,8 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
     """Return forward streams without loops, and one purely circulating stream of each loop as a return stream."""
+    import networkx as nx
+
     # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop
     ordered = sorted(streams, key=lambda each: (each.source.kind != "in", -each.power))
     graph, back = _graph(ordered), list[PowerStream]()
@@ -211,6 +206,8 @@ def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[Powe
 
 
 def _graph(streams: Sequence[PowerStream]) -> Any:
+    import networkx as nx
+
     graph = nx.DiGraph()
     graph.add_edges_from((stream.source, stream.target, {"stream": stream}) for stream in streams)
     return graph
@@ -218,6 +215,8 @@ def _graph(streams: Sequence[PowerStream]) -> Any:
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
     """Return each node's column, after the columns of all nodes that feed it (longest path); outputs are last."""
+    import networkx as nx
+
     graph = _graph(ahead)
     columns = {node: at for at, nodes in enumerate(nx.topological_generations(graph)) for node in nodes}
     last = 1 + max(at for node, at in columns.items() if node.kind != "out")
@@ -395,6 +394,9 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
     """Return a column's separated tops nearest to the wanted tops by weighted least squares (isotonic regression)."""
+    import numpy as np
+    from scipy.optimize import isotonic_regression
+
     steps = [one.height + one.below + other.above for one, other in pairwise(column)]
     offsets = np.cumsum([0.0, *steps])
     tops, weights = np.array(wanted).T

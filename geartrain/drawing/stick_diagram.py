@@ -133,10 +133,7 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link: before its shaft, or above, behind or below the shaft.
-
-        left, right, y   ends and height of the shaft [in]
-        """
+        """Add a link's name: before its shaft from `left` to `right` at height y [in], or above, behind or below."""
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
         before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second is next to a bearing

@@ -47,10 +47,7 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Return tooth counts, half angle, clearance factor and friction of a pair as a string, the driver first.
-
-    By default the friction is that of the transmission function.
-    """
+    """Return a pair's counts, half angle, clearance factor and friction in words, by default its own friction."""
     sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
@@ -153,10 +150,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose with the driving tooth pair at `alpha1` [rad], by default in the middle of the first interval.
-
-    If no tooth pair drives at `alpha1`, the pose is that in which some tooth of the driver is at this angle.
-    """
+    """Return the pose with the driving pair, or else some tooth of the driver, at `alpha1` [rad], if it is given."""
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
     alpha2 = float(tooth_pair.angle(interval.phase, x)) if standing is None else standing

@@ -146,10 +146,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """Return a tooth of a crown wheel, whose spaces are slightly wider than the given tooth of its mate.
-
-    section   one tooth of the mate: radius relative to its pitch radius and angle [rad], by increasing angle
-    """
+    """Return a crown wheel's tooth with spaces slightly wider than its mate's tooth `section` (radius, angle [rad])."""
     import numpy as np
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
@@ -162,10 +159,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread, as points around the axis of the worm.
-
-    height   addendum divided by the pitch radius
-    """
+    """Return the axial section of a worm's thread around its axis; `height` is addendum over pitch radius."""
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -259,10 +253,7 @@ def _role(stage: SceneContext, link: str) -> str:
 
 
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return the tooth profile of every wheel, as cut with the declared backlash, and notices.
-
-    Wheels that cannot be cut get nominal teeth. Each notice gives the reason why some wheels could not be drawn as cut.
-    """
+    """Return every wheel's tooth profile as cut, or nominal if it cannot be cut, and notices with the reasons."""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")

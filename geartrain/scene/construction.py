@@ -248,11 +248,7 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return the speeds of a train as functions of tooth counts, for the parts of its scene.
-
-    The result is None for a train without inputs or tooth counts, and for a train that is too strongly coupled or too
-    large.
-    """
+    """Return speeds as functions of tooth counts; None without inputs or counts, or if too coupled or too large."""
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
     driving_link = next((link for link, speed in case.inputs.items() if speed), None)

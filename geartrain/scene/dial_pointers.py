@@ -396,10 +396,7 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the target speeds of an output relative to the driving link.
-
-    speed   speed of the output in the train's unit; a target without a sense takes the sense of the output
-    """
+    """Return an output's targets relative to the driving link, in the sense of its `speed` if they have none."""
     if stage.driving_link is None or speed is None:
         return ()
     driving_link = stage.case.inputs[stage.driving_link]

@@ -118,11 +118,7 @@ class DialScale:
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as a string, such as `Leo, degree 14`, with the glyph in that cell; empty without
-        divisions.
-
-        The surrounding scale is not read, because no declaration specifies which pointer is read on it.
-        """
+        """Return the reading, such as `Leo, degree 14`, with its cell's glyph; empty without divisions."""
         read, parts = self.read(turned), []
         if self.turns > 1:
             parts.append(f"turn {read.turn}")
@@ -169,10 +165,7 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals with their lines, by default up to twelve numerals from 0 on a circle without names.
-
-    A spiral, and a scale with names, has no numerals by default.
-    """
+    """Return the numerals and their lines: by default up to twelve from 0, on a circle without names only."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:

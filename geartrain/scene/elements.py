@@ -60,10 +60,7 @@ class SceneHanger(Shown):
     """
 
     kind: Literal["pendulum", "line", "weight"]
-    """Kind of the part: pendulum, line or weight.
-
-    A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
-    """
+    """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns."""
     body: int
     """Index of the body whose rotation moves the part."""
     point: Vector
@@ -285,9 +282,7 @@ class SceneCoupling(Shown):
     text: str
     """Equation of the coupling's fundamental circuit as a string."""
     slot_turn: float = 0.0
-    """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose
-    [rad]; 0 unless starting angles are declared.
-    """
+    """Angle from the line of `slot_at` and `pin_at` to the slot in the zero pose [rad]; 0 without starting angles."""
     pins_at: Sequence[Vector] = ()
     """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
     holes_at: Sequence[Vector] = ()

@@ -182,11 +182,7 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 
 
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the angle by which the slot in the zero pose deviates from the direction of its pin [rad].
-
-    A transmission function assumes that slot and pin are in line if both angles are 0. Declared starting angles may
-    differ.
-    """
+    """Return the slot's deviation from its pin in the zero pose [rad], which declared starting angles may cause."""
     setting = moved.driving.get(circuit.id)
     if setting is None:
         return 0.0
@@ -195,11 +191,7 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from default
-    proportions.
-
-    apart   distance between the placed axes [mm], to which declared sizes without a unit are scaled
-    """
+    """Return pin radius and offset [mm]: declared, or for axes placed `apart` [mm], or in default proportions."""
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
@@ -219,10 +211,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of the two links [mm].
-
-    If only one link has wheels, it is the height of its first wheel; without wheels, the height of the pin's axis.
-    """
+    """Return the height midway between the two links' nearest wheels [mm], or of the only wheel, or of the pin's axis."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

@@ -322,11 +322,7 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement in reverse and notices.
-
-    The movement is None if it equals the forward movement `ahead`. If it cannot be computed, it is the mean motion, and
-    the notices give the reasons.
-    """
+    """Return the movement in reverse and notices: None if it equals `ahead`, or the mean motion if it fails."""
     try:
         composition = motion._backward
         _check_positions(composition, -float(motion.period or 1))

@@ -227,10 +227,7 @@ class ShownSamples:
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Return times since the first replayed sample [s] and closing speeds [rad/s] of a contact's impacts.
-
-        Impacts within one sample are merged into one impact with the first time and the maximum speed.
-        """
+        """Return a contact's impact times [s] and closing speeds [rad/s], with the impacts of one sample merged."""
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
         if not len(times):
@@ -327,10 +324,7 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the contact point of the pallets with the escape wheel, which is the largest wheel without mates [mm].
-
-    If all wheels of the link have mates, the largest wheel is used; without wheels, the origin.
-    """
+    """Return the pallets' contact point [mm]: on the link's largest wheel, if possible without mates, or the origin."""
     if not wheels:
         return (0.0, 0.0, 0.0)
     # an escape wheel has no mate among gears

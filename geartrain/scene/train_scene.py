@@ -225,11 +225,7 @@ class Scene(Shown):
     notices: Sequence[Mapping[str, str]]
     """Problems of layout, teeth or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """Deviations of the bodies' angles while the driving link turns against its declared sense and the coast
-    flanks are in contact.
-
-    The value is None if these deviations are equal to `movement`.
-    """
+    """Deviations of angles with the driving link reversed, on the coast flanks; None if equal to `movement`."""
     unit_days: str | None = None
     """Length of the unit in days, exact, if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
@@ -254,11 +250,7 @@ class Scene(Shown):
         return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data for JSON.
-
-        Arrays are encoded as base64 of little-endian numbers, row by row. The key `run` is included only for a scene
-        with a run.
-        """
+        """Return the scene as plain data, arrays as base64 of little-endian numbers, a run only if there is one."""
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:
             del named["run"]

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-import sys
 import xml.etree.ElementTree as ET
 from fractions import Fraction
 from functools import cache
 from itertools import combinations
 from math import atan2, hypot, pi
 from pathlib import Path
-from types import FrameType
 
 import numpy as np
 import pytest
@@ -280,19 +278,6 @@ def test_what_keeps_two_links_parallel_stands_between_their_shafts(name: str) ->
     assert ("pins in holes" in words) == (name == "rv-reducer")
 
 
-@pytest.mark.parametrize("name", ["strain-wave", "rv-reducer", "worm", "zf-8hp70", "humpage"])
-def test_a_legend_stays_on_its_page(name: str) -> None:
-    figure = drawn(name, "stick")
-    figure.draw_without_rendering()
-    box, page = figure.legends[0].get_window_extent(), figure.bbox
-    assert page.x0 <= box.x0
-    assert box.x1 <= page.x1
-
-
-def test_a_stick_diagram_without_clutches_is_as_it_was() -> None:
-    assert not [gid for gid in gids(drawn("planetary-24-18-60", "stick")) if gid.startswith("element")]
-
-
 def test_a_plan_bends_a_thin_wheel_where_its_wave_stands() -> None:
     """After a sixth of a turn the generator lies at 60 degrees, and the teeth are farthest out there."""
     figure = picture(load("strain-wave"), "plan", turns=Fraction(1, 6))
@@ -505,39 +490,6 @@ def test_a_train_that_locks_is_drawn_and_told(here: Path) -> None:
     assert result.exit_code == 1
     assert "locked" in result.stderr
     assert (here / "t.svg").exists()
-
-
-@cache
-def of_drawing(module: str) -> bool:
-    return Path(module).parent.name == "drawing"
-
-
-@pytest.mark.slow
-def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
-    """Steps are entries into functions of the plan's modules, among them one for each comparison of a spot."""
-    counts: list[int] = []
-    for count in (120, 240):  # from 120 on no wheel has room for its name
-        wheels = range(count)
-        train = geartrain.GearTrain.declare(
-            {
-                "links": {"frame": {}} | {f"g{at}": {"wheels": {f"w{at}": 20 + at % 7}} for at in wheels},
-                "revolutes": [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in wheels],
-                "gears": [{"pair": [f"w{at}", f"w{at + 1}"]} for at in wheels[:-1]],
-                "inputs": {"g0": 1},
-            }
-        )
-        steps = [0]
-
-        def entered(frame: FrameType, event: str, _: object, steps: list[int] = steps) -> None:
-            steps[0] += event == "call" and of_drawing(frame.f_code.co_filename)
-
-        sys.setprofile(entered)
-        try:
-            picture(train, "plan")
-        finally:
-            sys.setprofile(None)
-        counts.append(steps[0])
-    assert counts[1] < 2.5 * counts[0], counts
 
 
 def test_a_figure_shows_itself_in_a_notebook() -> None:

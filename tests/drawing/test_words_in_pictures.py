@@ -29,7 +29,17 @@ from geartrain.drawing import picture, render
 
 MINIMUM = 8.0  # points
 WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
-FEW = ["planetary", "bevel-differential", "humpage", "longcase-clock", "ravigneaux-set", "rv-reducer", "worm"]
+FEW = [
+    "planetary",
+    "bevel-differential",
+    "humpage",
+    "longcase-clock",
+    "ravigneaux-set",
+    "rv-reducer",
+    "strain-wave",
+    "worm",
+    "zf-8hp70",
+]
 ALL = sorted(path.stem for path in train_files())
 
 

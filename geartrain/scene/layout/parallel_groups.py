@@ -211,10 +211,7 @@ class _BlockBuilder:
                         self.heights.join(("axis", mate), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of the crossing mate of an upright wheel: a strip in plan.
-
-        If a carrier moves the mate relative to the wheel, the block is the whole space that the mate sweeps.
-        """
+        """Return a crossing mate's block: a strip in plan, or all that it sweeps if a carrier moves it."""
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -341,10 +338,7 @@ class Arrangement:
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the positions of the axes and wheels of all groups of parallel axes.
-
-    The group with the most wheels is placed first, then repeatedly the largest group that meshes with a placed group.
-    """
+    """Return all axes and wheels, placing first the largest group, then the largest that meshes with a placed one."""
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)

@@ -53,11 +53,7 @@ class PlanProblem:
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """Return the conditions on the plan of a group of parallel axes.
-
-    fixed      given points in plan by axis
-    standing   points of axes that are already placed
-    """
+    """Return the conditions on parallel axes' plan, with `fixed` points in plan and points of `standing` axes."""
     declared, labels = geometry.declared, list(parallels.index)
     discs: dict[str, dict[str, WheelSize]] = {label: {} for label in labels}
     for wheel, axis in declared.axis.items():

@@ -250,9 +250,7 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from wheels that mesh or from the offset of a pin, or
-    `free` (placed without overlap).
-    """
+    """Origin: `given` in the declaration, `found` from meshing wheels or a pin's offset, or `free` (chosen)."""
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
 

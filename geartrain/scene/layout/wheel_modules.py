@@ -55,10 +55,7 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return modules of roots, with the modules in `free` multiplied by simple factors until all chains can close.
-
-    At most 12 passes are made. With more than 300 distances the modules are unchanged.
-    """
+    """Return roots' modules with those in `free` multiplied by simple factors until all chains can close."""
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -70,10 +67,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the path round it, or lengthen the path, by changing `modules` in place.
-
-    Return True if a module was changed, False if not.
-    """
+    """Shorten a distance longer than the path round it, or lengthen the path, in place; return True if changed."""
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -336,10 +330,7 @@ def opposite(v: Vector) -> Vector:
 
 
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Return the unit vector from the axis of a worm to the axis of its wheel, along their common perpendicular.
-
-    Without declared positions it is the cross product of the directions of wheel and worm.
-    """
+    """Return the unit vector from a worm's axis to its wheel's; without positions, wheel cross worm direction."""
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
     if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), way) < 0:

@@ -40,10 +40,7 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 
 
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
-    """Return the position of the back of a bevel wheel's body [mm], in the coordinate of `height_on_cone`.
-
-    root   height of the roots above the pitch cone [mm]
-    """
+    """Return the position of a bevel wheel's back, as `height_on_cone` [mm]; `root` is the roots' height [mm]."""
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
 

@@ -171,10 +171,7 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return the costs of several orders of the same stacks, one per row; stacks that are not placed yet are NaN.
-
-        fixed_cost   cost of an arbor that interleaves with fixed wheels
-        """
+        """Return the costs of several orders, one per row, with NaN for stacks that are not placed yet."""
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
         low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
         for stacks in self._stack_table[1:]:
@@ -226,10 +223,7 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) of each arbor with each stack of another arbor on its axis, as three arrays.
-
-        The arrays are the arbors, the stacks, and the first row of each ordered pair of arbors.
-        """
+        """Rows (arbor, stack) of coaxial arbors' stacks: arbors, stacks, and the first row of each ordered pair."""
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):

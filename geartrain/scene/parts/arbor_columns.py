@@ -343,10 +343,7 @@ class CoaxialLink:
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return links from the innermost, each outside all earlier links, and two links that conflict, or None.
-
-    The order is a topological sort. If the graph has a cycle, the links are returned as given.
-    """
+    """Return links from the innermost (topological order), or as given and two that conflict if they form a cycle."""
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()
     while left:

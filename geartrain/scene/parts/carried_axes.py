@@ -68,10 +68,7 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return the seat on a plate at a height in a gap of the stack.
-
-    The faces of the plate are only a nominal distance apart until the heights of all plates are known.
-    """
+    """Return the seat on a plate at a height in a gap of the stack, with nominal faces until heights are known."""
     disc = replace(disc, low=height - _THIN, high=height + _THIN)
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
 

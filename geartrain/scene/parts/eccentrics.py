@@ -274,10 +274,7 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the plate of pins next to the disc in which they move, or the bottom of a cup next to its wheel.
-
-    The plate is above the disc, or on the side of the axes that its link carries.
-    """
+    """Return the plate of pins beside their disc, above or towards axes that it carries, or a cup's bottom."""
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]
     below = bool(others) and sum(others) / len(others) < (low + high) / 2

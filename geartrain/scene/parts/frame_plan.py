@@ -487,10 +487,7 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield arms for links that cannot be nested on an axis and extend to a dial on one side.
-
-    An arm turns beyond all wheels; an eccentric bar connects it to the widest disc of its link.
-    """
+    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested, each joined by a bar."""
     for link in column.tangled or ():
         below, above = ends.get(link, (False, False))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]

@@ -226,11 +226,7 @@ class FrameStack:
 
     @property
     def ends(self) -> dict[str, tuple[bool, bool]]:
-        """Links of a reducer that extend beyond the stack, below and above.
-
-        The shaft of an eccentric extends below, the link of pins above. A carrier of cranks extends below, its sun
-        above.
-        """
+        """Links that extend below and above: eccentric shaft and pins, or a carrier of cranks and its sun."""
         # eccentrics on the main axis: a cycloidal or strain wave drive; on carried axes: parallel cranks
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
         if inner:

@@ -84,11 +84,7 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon of `count` candidates that contains all axes, shape (count, 2); None if there is
-    none.
-
-    Candidates and axes are relative to the middle of the axes.
-    """
+    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle, or None."""
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])

@@ -45,11 +45,7 @@ class TurnedPart:
     name: str
     """Name of the part."""
     kind: str
-    """Kind of part.
-
-    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, wall, rod, bob or
-    weight.
-    """
+    """Kind of part, such as arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, pin, barrel or bob."""
     at: Point
     """Position of the part's axis in the stack [mm]."""
     bands: tuple[Band, ...]
@@ -116,10 +112,7 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield the arbor or stud, the pipes and the collars of an axis.
-
-    cut   names of pinions that are cut from the same piece as their arbor or pipe
-    """
+    """Yield an axis' arbor or stud, pipes and collars; the pinions `cut` are one piece with their arbor or pipe."""
     members = column.members
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:

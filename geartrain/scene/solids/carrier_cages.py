@@ -194,10 +194,7 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of every arbor of the frame that is perpendicular to the plates' normal.
-
-    bores   diameters [mm] of arbors by axis
-    """
+    """Return the brackets of the frame's arbors across the normal; `bores` are diameters by axis [mm]."""
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -265,10 +262,7 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor.
-
-    It is fixed to the plate with the fewest wheels between plate and bracket; of equal plates, to the nearer plate.
-    """
+    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or the nearer one."""
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
@@ -304,9 +298,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of one body whose axis is inclined to its carrier's axis; `reach` is the position along the body's
-    direction to which its arbor extends [mm].
-    """
+    """Support of a body with an axis inclined to its carrier's; `reach` is its arbor's end along the body [mm]."""
 
     body: int
     reach: float
@@ -314,10 +306,7 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cage of every axis that is carried at an angle to its carrier's axis.
-
-    bores   diameters [mm] of arbors by axis
-    """
+    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are diameters by axis [mm]."""
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]

@@ -138,11 +138,7 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return a plate of dials for each side of the frame.
-
-    It has the dials on the frame that are perpendicular to the normal of the stack, and through which the arbor of a
-    pointer extends.
-    """
+    """Return a plate for each side with dials on the frame, across the normal, that a pointer's arbor passes."""
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:

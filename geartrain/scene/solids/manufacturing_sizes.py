@@ -152,10 +152,7 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """Return the declaration with the requested backlash for every pair whose form does not fix its backlash.
-
-    Raise `QuestionError` if a backlash is requested but every declared form fixes its own.
-    """
+    """Return the declaration with the backlash of pairs that allow it; raise `QuestionError` if none does."""
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
@@ -183,10 +180,7 @@ def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of the process, if a process is named and no backlash is given.
-
-    The sizes are unchanged if every declared tooth form fixes its backlash.
-    """
+    """Return the sizes with the backlash of a named process, unless one is given or every form fixes its own."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -245,10 +239,7 @@ def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the diameter of the arbor on each axis [mm], which is used where no plate supports the axis.
-
-    It is as requested, or a third of the root diameter of the smallest wheel on the axis, at most 6 mm.
-    """
+    """Return arbor diameters by axis [mm] where no plate holds them: as given, or 1/3 of the root diameter, up to 6."""
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

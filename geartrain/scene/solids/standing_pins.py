@@ -53,10 +53,7 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return couplings that can be cut into flat wheels, by name; `bores` are diameters of holes for arbors [mm].
-
-    Without a wheel for pins of round holes, only the holes are cut.
-    """
+    """Return couplings that flat wheels with given bores [mm] can hold, by name; pins of round holes need no wheel."""
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
@@ -155,11 +152,7 @@ class CouplingParts:
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins, from their wheel to the slot's wheel, and arms and bars for couplings that are not cut into
-        wheels.
-
-        Pins that are fixed in plates are omitted.
-        """
+        """Yield pins from wheel to wheel, and arms and bars of couplings not cut into wheels; none fixed in plates."""
         for coupling in self.scene.couplings:
             direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
             along = np.array(direction)
@@ -341,11 +334,7 @@ def _round(centre: Point, radius: float) -> Iterator[Point]:
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of pin and
-    slot.
-
-    No circle is yielded unless that carrier is the link of `wheel`.
-    """
+    """Yield circles around a slotted bar at all positions of its pin, if `wheel` is of the pin's carrier."""
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack

@@ -295,10 +295,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return an approximate solid of a wheel, centred at the origin, with its first tooth along x and its axis along z.
-
-    bore   diameter of its hole [mm]; a ring has none
-    """
+    """Return a wheel's approximate solid, first tooth along x and axis along z, with a hole of `bore` [mm]."""
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)

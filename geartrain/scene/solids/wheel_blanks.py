@@ -240,10 +240,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return the blank with windows between its spokes, if there is space, and notices.
-
-    A wheel with holes for other parts keeps its web, and so do rings, lantern pinions and helical wheels.
-    """
+    """Return a blank with windows between spokes, if it is a plain spur wheel with enough space, and notices."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []

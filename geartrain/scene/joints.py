@@ -211,7 +211,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the two links' nearest wheels [mm], or of the only wheel, or of the pin's axis."""
+    """Return the height midway between the links' nearest wheels [mm], or of the only wheel, or of the pin's axis."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

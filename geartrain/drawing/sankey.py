@@ -105,7 +105,6 @@ class SankeyLayout:
     sheds: Mapping[PowerNode, Fraction]
     """Power lost at each node with a loss."""
     low: float
-    """Minimum y of all parts."""
     width: float
     height: float
 
@@ -152,21 +151,11 @@ def abscissae(
         turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
         # beside a return band the text of the neighbouring column needs its whole width
         gaps.append(max(names, _MINIMUM_GAP, turning + 0.2))
-    edges = left[0] + right[-1] + 0.2
+    more = max(minimum - left[0] - right[-1] - 0.2 - sum(gaps), 0.0) / len(gaps)
     x = [left[0] + 0.1]
-    for gap in _widened(gaps, minimum - edges):
-        x.append(x[-1] + gap)
+    for gap in gaps:
+        x.append(x[-1] + gap + more)
     return x
-
-
-def _widened(gaps: Sequence[float], whole: float) -> list[float]:
-    """Return the gaps with the narrowest gaps raised to a common width, so that the sum is at least the given total."""
-    ranked = sorted(gaps)
-    for count in range(len(gaps), 0, -1):
-        level = (whole - sum(ranked[count:])) / count
-        if level >= ranked[count - 1]:
-            return [max(gap, level) for gap in gaps]
-    return list(gaps)
 
 
 TALL = 2.4  # height of all bands in the fullest column
@@ -261,30 +250,12 @@ _CROSSING = 1e-3  # cost of each crossing, so that crossings of the thinnest ban
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
-    """Sort each column in place into the order with the fewest crossings, the best of several starting orders."""
-    found: list[tuple[float, list[list[SankeySpot]]]] = []
-    declared = [list(column) for column in table]
-    beginnings: tuple[Callable[[list[SankeySpot]], list[SankeySpot]], ...] = (
-        list,
-        lambda column: column[::-1],
-        _loops_first,
-    )
-    for begin in beginnings:
-        trial = [begin(column) for column in declared]
-        _reduce_crossings(trial)
-        found.append((_crossing_cost(trial, range(len(trial))), trial))
-    _, best = min(found, key=lambda each: each[0])
-    for column, order in zip(table, best, strict=True):
-        column[:] = order
+    """Sort columns in place so that few bands cross, by barycentre sweeps in both directions, then by swaps.
 
-
-def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
-    """Return a column with the spots in descending order of the circulating power that leaves them."""
-    return sorted(column, key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
-
-
-def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
-    """Reduce crossings by sorting columns in place, by barycentre sweeps in both directions, then by swapping spots."""
+    The sweeps start with the spots in descending order of the circulating power that leaves them.
+    """
+    for column in table:
+        column.sort(key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
     whole = range(len(table))
     best, minimum = [list(column) for column in table], _crossing_cost(table, whole)
     for sweep in range(_SWEEPS):

@@ -55,8 +55,17 @@ _ELEMENT_NAME = 8.0  # points: font size of an element's name
 
 def width_of(train: GearTrain) -> float:
     """Return the width of all brakes and clutches of a train [in]; 0 without brakes and clutches."""
-    count, letters = len(train.declaration.clutches), _letters(train)
-    return count * max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1) + 0.2 if count else 0.0
+    count = len(train.declaration.clutches)
+    return count * _element_width(train) + 0.2 if count else 0.0
+
+
+def _element_width(train: GearTrain) -> float:
+    """Return the width of the column of a brake or clutch [in], in which names of links and elements fit."""
+    every = train.declaration.clutches.items()
+    names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
+    # the name of an element is next to its plates, on one side
+    letters = max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
+    return max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1)
 
 
 def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
@@ -69,7 +78,7 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
     """
     declared = train.declaration
     closed = train.kinematics.cases[state].engaged
-    step = max(STEP, _letters(train) * _ELEMENT_NAME * LETTER + 0.1)
+    step = _element_width(train)
     for at, (name, clutch) in enumerate(declared.clutches.items()):
         x, gap = left + step * (at + 0.5), _CLOSED if name in closed else _OPEN
         color = PURPLE if name in closed else GREY
@@ -87,16 +96,6 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
         write(axes, x, middle - _HALF - 0.1, below, ha="center", fontsize=_ELEMENT_NAME, fontweight="bold")
         weight = "bold" if name in closed else "normal"
         write(axes, x + _PLATE + 0.06, middle, name, color, ha="left", fontsize=_ELEMENT_NAME, fontweight=weight)
-
-
-def _letters(train: GearTrain) -> int:
-    """Return the number of letters of the longest label, from which the width of an element's column is computed.
-
-    Labels are the names of links below and above the plates. The name of an element next to the plates counts twice.
-    """
-    every = train.declaration.clutches.items()
-    names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
-    return max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
 
 
 _LINK_NAME = 8.5  # points of a link's name

@@ -400,10 +400,11 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     styles = {name: (series_colour(at), series_dash(at)) for at, name in enumerate(paths)}
     for name, path in paths.items():
         X = _places(path)
-        _line(panels[0, 0], name, styles, _flat(path.flank(1, X)) / unit)
-        _line(panels[0, 1], name, styles, _flat(path.flank(2, X)) / unit)
+        # x and y from the pitch point; on the sphere, as viewed from outside above that point
+        _line(panels[0, 0], name, styles, path.flank(1, X)[..., :2] / unit)
+        _line(panels[0, 1], name, styles, path.flank(2, X)[..., :2] / unit)
         contact = path.at(X)
-        points = _flat(pitch.point(contact.d, contact.sin_psi, contact.cos_psi)) / unit
+        points = pitch.point(contact.d, contact.sin_psi, contact.cos_psi)[..., :2] / unit
         _line(panels[1, 0], name, styles, points)
     for axes, text in zip(
         panels.flat,
@@ -414,7 +415,8 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     for axes, (words, cost) in zip(panels.flat[3:], _quantities(pitch, unit), strict=True):
         _along(axes, words, cost, paths, styles)
     beyond = "; some curves extend beyond their panels" if any(map(_leaves_panel, panels.flat[3:])) else ""
-    headed(figure, f"{_form_text(paths)}, {_pitch_title(pitch)}{beyond}")
+    only = f"{next(iter(paths)).replace('_', ' ')} teeth" if len(paths) == 1 else "tooth forms side by side"
+    headed(figure, f"{only}, {_pitch_title(pitch)}{beyond}")
     if len(paths) == 1:
         return figure
     handles = [
@@ -423,11 +425,6 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     ]
     legend_below(figure, 3, handles, handlelength=4)
     return figure
-
-
-def _form_text(paths: Mapping[str, PathOfContact]) -> str:
-    only = next(iter(paths)).replace("_", " ")
-    return f"{only} teeth" if len(paths) == 1 else "tooth forms side by side"
 
 
 def _leaves_panel(axes: Axes) -> bool:
@@ -451,11 +448,6 @@ def _places(path: PathOfContact) -> Floats:
     steps = np.linspace(_NEAREST, 1.0, _PATH_SAMPLES)
     sides = [-approach * steps[::-1]] if approach else []
     return np.concatenate([*sides, *([recess * steps] if recess else [])])
-
-
-def _flat(points: Floats) -> Floats:
-    """Return x and y from the pitch point (..., 2); on the sphere, as viewed from outside above that point."""
-    return points[..., :2]
 
 
 def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:

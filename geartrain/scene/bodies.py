@@ -37,7 +37,6 @@ class BentWheel:
     """Flexible wheel of a strain wave gear in a layout, with the wave generator that deforms it."""
 
     wheel: str
-    """Name of the flexible wheel."""
     link: str
     """Link that is the wave generator."""
     axis: str

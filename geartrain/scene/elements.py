@@ -303,7 +303,6 @@ class SceneShiftElement:
     """
 
     id: str
-    """Name of the brake or clutch."""
     kind: Literal["brake", "clutch"]
     """Kind of the element: a brake, which fixes a body to the frame, or a clutch, which connects two bodies."""
     bodies: Sequence[int]

@@ -242,7 +242,6 @@ class InitialPosition:
     error: float
     """Error of the driven side at S [rad]."""
     transmission: ToothTransmission
-    """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
         """Return the minimum error of the driven side [rad] at which an out-of-phase driver does not overlap it.

@@ -37,7 +37,6 @@ class AxisLine:
 
     label: str
     direction: Vector
-    """Unit vector along the axis."""
     group: int
     """Number of the axis's group of parallel axes."""
     bearers: tuple[str, ...]
@@ -171,7 +170,6 @@ class DeclaredGeometry:
     contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
-    """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
     """Declared thickness by wheel [mm], for wheels with a declared thickness."""
     strays: tuple[tuple[str, str, str], ...]

@@ -33,11 +33,9 @@ class PlanProblem:
     distances: Mapping[tuple[str, str], float]
     """Required distances between pairs of axes [mm]."""
     discs: Mapping[str, Mapping[str, WheelSize]]
-    """Upright wheels of each axis, by name."""
     cluster: Mapping[str, int]
     """Cluster of each wheel. Wheels of one cluster share a level."""
     mates: frozenset[frozenset[str]]
-    """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
     """Pairs of axes that must lie on a line, with the direction of the line as a unit vector."""
     sides: Mapping[str, Point] = field(default_factory=dict)

@@ -129,7 +129,6 @@ class PlanStep:
 
     axis: int
     placed: Indices
-    """Indices of the axes that are already placed."""
     tied: tuple[DistanceBound, ...]
     """Placed axes at a required distance from the axis."""
     bounds: tuple[DistanceBound, ...]

@@ -127,7 +127,6 @@ class WheelModules:
     module: Mapping[str, float]
     """Wheel -> module [mm]."""
     declared: frozenset[str]
-    """Wheels of clusters whose module is declared."""
     distances: Mapping[tuple[str, str], float]
     """Pair of axes -> required distance [mm]: a pin's declared offset, else the mean distance of its gear pairs."""
 
@@ -343,7 +342,6 @@ class WheelSize:
     """Sizes of a wheel in a layout [mm]."""
 
     radius: float
-    """Pitch radius."""
     module: float
     """Transverse module: pitch diameter divided by the tooth count; axial module of a worm."""
     thickness: float

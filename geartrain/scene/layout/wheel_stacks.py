@@ -355,12 +355,10 @@ class WheelStack:
     """Wheels of a group of parallel axes, with the problem that determines their heights."""
 
     up: Vector
-    """Direction of increasing heights."""
     problem: StackProblem
     gap: float
     """Gap between levels [mm]."""
     swept: SweptDistances
-    """Distances between the axes while carriers turn."""
     given: Mapping[int, float]
     """Stack -> height [mm] that is determined by parts that are already placed."""
 

@@ -42,7 +42,6 @@ class FlexibleCup:
     """Link with the bottom of the cup; `slot` is the link with the wheel."""
     slot: str
     wheel: str
-    """Name of the flexible wheel."""
     at: Point
     """Position of the cup's axis in the stack [mm]."""
     reach: float
@@ -95,11 +94,8 @@ class Eccentric:
     """Eccentric disc on the arbor of a link, on which wheels turn, or the wave generator of a strain wave."""
 
     name: str
-    """Name of the eccentric."""
     link: str
-    """Link of the arbor."""
     axis: str
-    """Label of the arbor's axis."""
     at: Point
     """Position of the arbor in the stack [mm]."""
     centre: Point
@@ -107,7 +103,6 @@ class Eccentric:
     radius: float
     """Radius of the disc [mm]."""
     wheels: tuple[str, ...]
-    """Wheels that turn on the eccentric."""
     carried: str
     """Label of the axis about which the wheels in `wheels` turn."""
     middle: float = 0.0
@@ -245,9 +240,7 @@ class StandingPins:
     """Pins fixed in a plate, at their positions, which extend into a wheel."""
 
     name: str
-    """Name of the pins."""
     link: str
-    """Link that carries the pins."""
     seat: str
     """Turning plate in which the pins are fixed; empty for the nearer plate of the frame."""
     wheel: str

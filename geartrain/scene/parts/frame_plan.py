@@ -170,7 +170,6 @@ class FramePlan:
     """Wheels at their positions in the layout."""
     process: Process
     thickness: float
-    """Thickness of plates."""
     core: float | None
     """Diameter of all arbors; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[bool, bool]]
@@ -530,7 +529,6 @@ class StackHeights:
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
-    """Faces of the turning plates, by name."""
 
     def shift(self, height: float) -> float:
         """Return the distance by which a part at a given height moves up [mm]."""

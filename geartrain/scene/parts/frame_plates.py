@@ -41,13 +41,10 @@ class FlatPlate:
     """Plate perpendicular to the axis of the stack, with its edge, its holes and its heights."""
 
     link: str
-    """Link to which the plate belongs."""
     name: str
-    """Name of the plate."""
     outline: Contour
     """Edge of the plate, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
-    """Round holes of the plate."""
     low: float
     """Height of the plate's lower face along the normal [mm]."""
     high: float
@@ -90,7 +87,6 @@ class FramePlates:
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
     """Mortises of brackets within the outline of a plate, by the side of the plate."""
     standing: tuple[StandingPins, ...] = ()
-    """Groups of pins that are fixed in plates."""
     barrel: Barrel | None = None
     """Barrel from which a weight hangs; None for a train without a weight."""
 

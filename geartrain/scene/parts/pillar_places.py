@@ -146,7 +146,7 @@ def _posts(
     radius = min(_RIM_PART * wide, _POST_WIDEST)
     away = (ring.outer + ring.root) / 2
     free = ring.link == plan.stack.frame
-    spots = _spots(plan, ring, plate, away, radius) if free else _evenly(ring.at, away, 2 * _POSTS)
+    spots = _spots(plan, ring, plate, away, radius) if free else evenly(ring.at, away, 2 * _POSTS)
     low, high = min(plate[0], ring.low), max(plate[1], ring.high)
     inner = (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
     for number, at in enumerate(spots, 1):
@@ -161,7 +161,7 @@ def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: f
     circles = [swept_circle(disc) for disc in between]
     reach = min(plate[0], ring.low), max(plate[1], ring.high)
     circles += [(column.at, column.radius(*reach)) for column in plan.columns]
-    tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+    tried = [evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
     # more than 0.5 mm does not matter: the first such rotation is used, so that the result is stable
     return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
@@ -179,6 +179,7 @@ def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Prob
                 )
 
 
-def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:
+def evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:
+    """Return equally spaced points on a circle of radius `away` [mm], from the angle `start` [rad]."""
     turns: Sequence[float] = [start + 2 * pi * k / count for k in range(count)]
     return [(at[0] + away * cos(turn), at[1] + away * sin(turn)) for turn in turns]

@@ -23,20 +23,15 @@ _SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """Cylinder that contains a wheel or a turning plate; lengths in mm."""
+    """Cylinder that contains a wheel or turning plate of a link, from `low` to `high` along its axis; lengths in mm."""
 
     name: str
-    """Name of the wheel or plate."""
     link: str
-    """Link to which the wheel or plate belongs."""
     axis: str
-    """Label of the disc's axis."""
     at: Point
     """Position of the disc's axis in plan view of the stack."""
     low: float
-    """Height of the lower face of the disc."""
     high: float
-    """Height of the upper face of the disc."""
     outer: float
     """Outer radius of the teeth or of the rim."""
     inner: float = 0.0

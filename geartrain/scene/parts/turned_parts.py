@@ -41,9 +41,7 @@ class TurnedPart:
     """Turned part of a link, such as an arbor or a pillar: a body of revolution about an axis of the stack."""
 
     link: str
-    """Link to which the part belongs."""
     name: str
-    """Name of the part."""
     kind: str
     """Kind of part, such as arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, pin, barrel or bob."""
     at: Point

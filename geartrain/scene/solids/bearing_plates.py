@@ -53,7 +53,6 @@ class FlatDrawing:
     pitch: tuple[Contour, ...] = ()
     """Curves that are not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
-    """Letters to be engraved."""
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
     """Polylines to be engraved, shape (n, 2) each."""

@@ -109,7 +109,8 @@ def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
     # with backlash the wheels of the model have other angles
     turn = next(each.turn for each in model.scene.wheels if each.id == wheel.id) - wheel.turn
     way = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
-    return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FIT) @ way)) for each in blank.contours[1:]))
+    turned = ((each.flattened(_FIT) @ way).round(_DIGITS) for each in blank.contours[1:])
+    return replace(wheel, holes=tuple(tuple(each.ravel().tolist()) for each in turned))
 
 
 def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
@@ -133,7 +134,7 @@ def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
         _vector(part.turn[:, 2]),
         _vector(part.turn[:, 0]),
         tuple((_round(each.low), _round(each.high), _round(each.radius), _round(each.bore)) for each in bands),
-        tuple(tuple(_numbers(each.flattened(_FINE))) for each in part.contours),
+        tuple(tuple(each.flattened(_FINE).round(_DIGITS).ravel().tolist()) for each in part.contours),
         part.height,
     )
 
@@ -145,12 +146,6 @@ def _round(value: float) -> float:
 def _vector(values: Floats) -> Vector:
     x, y, z = values.round(9).tolist()
     return x, y, z
-
-
-def _numbers(points: Floats) -> Iterator[float]:
-    for x, y in points.tolist():
-        yield _round(x)
-        yield _round(y)
 
 
 def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:

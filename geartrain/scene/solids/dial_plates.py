@@ -51,7 +51,6 @@ class DialCircle:
     hole: float
     """Diameter of the hole for the arbors of the pointers [mm]."""
     scales: dict[str, DialScale]
-    """Scales by name of the dial."""
     radii: dict[str, float]
     """Radius of the scale of each dial [mm]."""
 

@@ -19,7 +19,7 @@ from geartrain.scene.elements import ToothProfile
 from geartrain.scene.parts.arbor_columns import APART
 from geartrain.scene.parts.carried_axes import seen_from_carrier
 from geartrain.scene.parts.eccentrics import StandingPins
-from geartrain.scene.parts.pillar_places import clear_of
+from geartrain.scene.parts.pillar_places import clear_of, evenly
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import around, holed_bar, pin_diameter, slotted_bar
@@ -148,7 +148,6 @@ class CouplingParts:
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
-    """Couplings that are cut into wheels."""
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
@@ -319,18 +318,11 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
     best, minimum = wheel.at, -wheel.root
     away = wheel.root - _RADIUS - _EDGE
     while away > 0 and minimum < _ENOUGH - APART:
-        at = max(_round(wheel.at, away), key=clearance)
+        at = max(evenly(wheel.at, away, _WAYS), key=clearance)
         if clearance(at) > minimum:
             best, minimum = at, clearance(at)
         away -= _STEP
     return best
-
-
-def _round(centre: Point, radius: float) -> Iterator[Point]:
-    """Yield equally spaced points on a circle."""
-    for way in range(_WAYS):
-        turn = 2 * pi * way / _WAYS
-        yield centre[0] + radius * cos(turn), centre[1] + radius * sin(turn)
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:

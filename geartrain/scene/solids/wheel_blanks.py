@@ -136,7 +136,6 @@ class Blank:
     kind: str
     """Kind of wheel: external, ring or pins."""
     form: str
-    """Description of the wheel's tooth form."""
     contours: tuple[Contour, ...]
     """Contours: first the outer contour, then holes."""
     module: float

@@ -41,12 +41,13 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     at = {item: position for position, item in enumerate(order)}
     ends = [(at[one], at[other]) for one, other in pairs if one != other and one in at and other in at]
     sequence = list(range(len(order)))
-    best = _length(sequence, ends)
     for _ in range(_PASSES):
-        before = best
+        before = sequence
         for item in range(len(sequence)):
-            sequence, best = _best_position(sequence, item, ends, best)
-        if best == before:
+            rest = [other for other in sequence if other != item]
+            trials = ([*rest[:position], item, *rest[position:]] for position in range(len(sequence)))
+            sequence = min((sequence, *trials), key=lambda trial: _length(trial, ends))  # unchanged if none is shorter
+        if sequence == before:
             break
     return [order[item] for item in sequence]
 
@@ -80,18 +81,6 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
     for position, item in enumerate(sequence):
         place[item] = position
     return sum(abs(place[one] - place[other]) for one, other in ends)
-
-
-def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
-    """Return the sequence with an item at its best position, if that is better, and the sum of distances."""
-    rest = [other for other in sequence if other != item]
-    found = sequence
-    for position in range(len(sequence)):
-        trial = [*rest[:position], item, *rest[position:]]
-        length = _length(trial, ends)
-        if length < best:
-            found, best = trial, length
-    return found, best
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:

@@ -107,12 +107,8 @@ def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanPr
 _NEAR = 60  # maximum number of axes on closed chains for which bounds are found: time grows with its square
 
 
-class Bar(NamedTuple):
-    """Required distance between two axes [mm], which are given by index."""
-
-    first: int
-    second: int
-    length: float
+Bar = tuple[int, int, float]
+"""Required distance: indices of two axes, and the distance [mm]."""
 
 
 class DistanceBound(NamedTuple):
@@ -149,7 +145,7 @@ class PlanOrder:
     def __init__(self, problem: PlanProblem) -> None:
         self.index = {label: at for at, label in enumerate(problem.labels)}
         self.radius = np.array([problem.radius(label) for label in problem.labels])
-        self.bars = [Bar(self.index[a], self.index[b], length) for (a, b), length in problem.distances.items()]
+        self.bars = [(self.index[a], self.index[b], length) for (a, b), length in problem.distances.items()]
         self._joined: list[dict[int, float]] = [{} for _ in problem.labels]
         for a, b, length in self.bars:
             self._joined[a][b] = self._joined[b][a] = length

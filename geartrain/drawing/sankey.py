@@ -197,7 +197,7 @@ def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[Powe
 def _graph(streams: Sequence[PowerStream]) -> Any:
     import networkx as nx
 
-    graph = nx.DiGraph()
+    graph: Any = nx.DiGraph()
     graph.add_edges_from((stream.source, stream.target, {"stream": stream}) for stream in streams)
     return graph
 

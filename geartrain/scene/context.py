@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.quantity import turns_in
+from geartrain.numerics.results import Key
 from geartrain.numerics.vectors import Vector, dot, unit_or_z
 
 if TYPE_CHECKING:
@@ -148,3 +150,8 @@ def exact(value: Fraction | None) -> str | None:
 def rounded(value: Fraction | None) -> str:
     """Return a ratio as a decimal string; empty if the ratio is None."""
     return "" if value is None else decimal(value)
+
+
+def packed_key(name: str, kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> Key:
+    """Return the key of an array that is stored as base64 text of little-endian numbers of the given type."""
+    return Key(name, ".", to=lambda result: packed(getattr(result, name), kind))

@@ -343,9 +343,8 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     # viewed against its axis, a positive angle is counter-clockwise
     sense = -1 if dot(stage.along(stage.train.kinematics.tree.axis(of)), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
-    circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]
-    order = {pair: at for at, pair in enumerate(pairs)}
-    circuits.sort(key=lambda circuit: order[circuit.id])
+    by_id = {circuit.id: circuit for circuit in stage.train.circuits}
+    circuits = [by_id[pair] for pair in pairs]
     bodies = dict.fromkeys(stage.body[link] for c in circuits for link in (c.j, c.i, c.carrier))
     wheels = dict.fromkeys(stage.wheel[wheel] for c in circuits if c.kind == "gear" for wheel in c.wheels)
     return Pointer(
@@ -399,10 +398,10 @@ def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) ->
     """Return an output's targets relative to the driving link, in the sense of its `speed` if they have none."""
     if stage.driving_link is None or speed is None:
         return ()
-    driving_link = stage.case.inputs[stage.driving_link]
+    driving_speed = stage.case.inputs[stage.driving_link]
     found = []
     for target in output.targets:
         goal = goal_of(stage.train.declaration, target)
         wanted = -goal.speed if not goal.signed and speed < 0 else goal.speed
-        found.append(PointerTarget(goal.label, fraction_text(wanted / driving_link), target.source or ""))
+        found.append(PointerTarget(goal.label, fraction_text(wanted / driving_speed), target.source or ""))
     return tuple(found)

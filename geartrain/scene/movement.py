@@ -10,13 +10,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.results import Key, Result, Shown, plain
-from geartrain.scene.context import SceneContext
+from geartrain.numerics.results import Result, Shown, plain
+from geartrain.scene.context import SceneContext, packed_key
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
@@ -38,13 +37,7 @@ class ErrorTable(Result):
     Movement : contains the tables of a scene.
     """
 
-    KEYS: ClassVar[tuple[str | Key, ...]] = (
-        "pair",
-        "period",
-        Key("breaks", "packed_breaks"),
-        Key("coefficients", "packed_coefficients"),
-        "uncertainty",
-    )
+    KEYS = ("pair", "period", packed_key("breaks"), packed_key("coefficients"), "uncertainty")
 
     pair: str
     """Name of the first gear pair or coupling with this transmission function."""
@@ -59,16 +52,6 @@ class ErrorTable(Result):
     """
     uncertainty: float
     """Maximum deviation of the table from the transmission error that it represents [rad]."""
-
-    @property
-    def packed_breaks(self) -> str:
-        """Breakpoints as a base64 string."""
-        return packed(self.breaks)
-
-    @property
-    def packed_coefficients(self) -> str:
-        """Coefficients as a base64 string, row by row."""
-        return packed(self.coefficients)
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +159,6 @@ def tables_and_sources(
           about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
-    numbers: dict[tuple[float, bytes, bytes], int] = {}
     sources = []
     for source in composition.sources:
         transmission = tabulated(source.id, source.transmission)
@@ -188,7 +170,7 @@ def tables_and_sources(
         sources.append(
             ErrorSource(
                 pair=source.id,
-                transmission=numbers.setdefault(key, len(numbers)),
+                transmission=list(transmissions).index(key),
                 cycles=fraction_text(way * source.cycles),
                 start=source.start,
                 sense=source.sense,

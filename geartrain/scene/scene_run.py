@@ -13,15 +13,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tau
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.arrays import packed
 from geartrain.numerics.polylines import simplified
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Result
 from geartrain.numerics.vectors import Vector, across, minus, plus, size, unit_or_z
+from geartrain.scene.context import packed_key
 from geartrain.wings import WingResult
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class LinkCourse(Result):
     SceneRun : contains a course for each body.
     """
 
-    KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
+    KEYS = ("rate", packed_key("samples", "<u4"), packed_key("angles", "<f4"))
 
     rate: float
     """Mean speed of the link about its declared axis in the replayed part [rad/s]."""
@@ -51,16 +51,6 @@ class LinkCourse(Result):
     """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
     """Angle that the link has turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
-
-    @property
-    def packed_samples(self) -> str:
-        """Entries of `samples` as base64 of little-endian uint32."""
-        return packed(self.samples, "<u4")
-
-    @property
-    def packed_angles(self) -> str:
-        """Entries of `angles` as base64 of little-endian float32."""
-        return packed(self.angles, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,19 +62,9 @@ class SceneContact(Result):
     SceneRun : contains the contacts of a run.
     """
 
-    KEYS: ClassVar[tuple[str | Key, ...]] = (
-        "name",
-        "kind",
-        "body",
-        "at",
-        "apart",
-        "coast",
-        "impact_rate",
-        "hardest",
-        Key("changes", "packed_changes"),
-        "states",
-        Key("impact_times", "packed_times"),
-        Key("impact_speeds", "packed_speeds"),
+    KEYS = (
+        *("name", "kind", "body", "at", "apart", "coast", "impact_rate", "hardest"),
+        *(packed_key("changes", "<u4"), "states", packed_key("impact_times"), packed_key("impact_speeds", "<f4")),
     )
 
     name: str
@@ -111,21 +91,6 @@ class SceneContact(Result):
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
     """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
-
-    @property
-    def packed_changes(self) -> str:
-        """Entries of `changes` as base64 of little-endian uint32."""
-        return packed(self.changes, "<u4")
-
-    @property
-    def packed_times(self) -> str:
-        """Entries of `impact_times` as base64 of little-endian float64."""
-        return packed(self.impact_times)
-
-    @property
-    def packed_speeds(self) -> str:
-        """Entries of `impact_speeds` as base64 of little-endian float32."""
-        return packed(self.impact_speeds, "<f4")
 
 
 @dataclass(frozen=True, slots=True)

@@ -165,7 +165,7 @@ def test_a_clock_has_its_pendulum_and_its_weight_in_true_size() -> None:
     arm = np.subtract(line.point, great.point)
     arm = arm - arm @ np.array(great.direction) * np.array(great.direction)
     assert np.cross(np.array(great.direction) * turned, arm) @ np.array(line.down) == pytest.approx(1277, abs=1)
-    assert np.pi * weight.wide**2 * 4 * weight.wide * 11.34e-6 == pytest.approx(5.9), "driving_link"
+    assert np.pi * weight.wide**2 * 4 * weight.wide * 11.34e-6 == pytest.approx(5.9), "mass of lead in kg"
     zero = next(face.zero for face in scene.dials)
     assert pendulum.down == pytest.approx([-each for each in zero])
     behind = next(face for face in scene.dials)

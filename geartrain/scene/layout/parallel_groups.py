@@ -15,12 +15,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 from math import hypot, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.graphs import DisjointSets
+from geartrain.numerics.graphs import DisjointSets, joined_groups
 from geartrain.numerics.vectors import Vector, dot, plus
 from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, PinSlotTie, Point, upwards
 from geartrain.scene.layout.plan_problem import plan_problem
@@ -196,19 +197,14 @@ class _BlockBuilder:
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
-        tied: dict[str, set[str]] = {}
-        for each in self.all_crossing:
-            tied.setdefault(each.side.axis, set()).add(each.side.mate_axis)
         for label, others in met.items():
-            for other in dict.fromkeys(others):
-                reached, waiting = {label, other}, [other]
-                while waiting:
-                    for next_ in sorted(tied[waiting.pop()] - reached):
-                        reached.add(next_)
-                        waiting.append(next_)
-                for mate in others:
-                    if mate in reached and mate != other:
-                        self.heights.join(("axis", mate), ("axis", other), 0.0)
+            tied: DisjointSets[str] = DisjointSets()
+            for each in self.all_crossing:
+                if label not in (ends := (each.side.axis, each.side.mate_axis)):
+                    tied.join(*ends)
+            for one, other in combinations(dict.fromkeys(others), 2):
+                if not tied.are_apart(one, other):
+                    self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
         """Return a crossing mate's block: a strip in plan, or all that it sweeps if a carrier moves it."""
@@ -257,8 +253,8 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
     overlap  function that returns True if two wheels at one height would collide
     """
     found: dict[str, AxialSlots] = {}
-    for group in _groups(meshes):
-        wheels = list(dict.fromkeys(wheel for mesh in group for wheel in mesh))
+    for wheels in joined_groups([wheel for mesh in meshes for wheel in mesh], meshes):
+        group = [mesh for mesh in meshes if mesh[0] in wheels]
         mates = {frozenset(mesh) for mesh in group}
         clashes: dict[str, list[str]] = {}
         for at, wheel in enumerate(wheels):
@@ -269,17 +265,6 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
         if clashes:
             found |= _find_spans(group, clashes)
     return found
-
-
-def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
-    """Return the meshes grouped by connected wheels."""
-    wheels: DisjointSets[str] = DisjointSets()
-    for first, second in meshes:
-        wheels.join(first, second)
-    groups: dict[str, list[tuple[str, str]]] = {}
-    for mesh in meshes:
-        groups.setdefault(wheels.find(mesh[0]), []).append(mesh)
-    return list(groups.values())
 
 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:

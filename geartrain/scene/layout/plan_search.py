@@ -193,15 +193,8 @@ class PlanOrder:
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
         """Return the 2-core of the graph of bars, with placed axes as one node; empty for more than 60 axes."""
         left = set(range(len(self._joined)))
-        count = [len(joined) for joined in self._joined]
-        ends = [at for at in left if at not in placed and count[at] < 2]
-        while ends:
-            at = ends.pop()
-            left.discard(at)
-            for other in self._joined[at]:
-                count[other] -= 1
-                if count[other] == 1 and other in left and other not in placed:
-                    ends.append(other)
+        while ends := {at for at in left - placed if len(self._joined[at].keys() & left) < 2}:
+            left -= ends
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:

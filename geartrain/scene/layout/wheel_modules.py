@@ -101,7 +101,7 @@ def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int,
     """Return the shortest path between the axes of a distance without using it (Dijkstra); empty without a path."""
     import networkx as nx
 
-    graph = nx.Graph()
+    graph: nx.Graph[str] = nx.Graph()
     # the longest first, so that the shortest of several distances between two axes replaces the others
     for one in sorted((*distances[:at], *distances[at + 1 :]), key=lambda one: -one.length(modules)):
         graph.add_edge(*one.axes, distance=one, weight=one.length(modules))

@@ -216,8 +216,8 @@ class _OrderSearch:
                 ]
                 heights = np.concatenate(rows)
                 order = np.argsort(heights, axis=0)  # nan is sorted last
-                tooth_phase, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
-                turns = ((tooth_phase[1:] != tooth_phase[:-1]) & put[1:]).sum(axis=0)
+                is_fixed, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
+                turns = ((is_fixed[1:] != is_fixed[:-1]) & put[1:]).sum(axis=0)
                 found += np.maximum(turns - 1, 0) / 2
         return found
 

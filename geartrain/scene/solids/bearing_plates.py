@@ -164,7 +164,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
     apart = np.subtract(ordered, ordered[0])
     if np.linalg.matrix_rank(apart, tol=1e-6) < 2:  # mm: a collinear point is not a corner
         return list(dict.fromkeys((ordered[0], ordered[-1])))
-    corners = ConvexHull(apart).vertices.tolist()
+    corners = [int(at) for at in ConvexHull(apart).vertices]
     first = corners.index(0)
     return [ordered[at] for at in corners[first:] + corners[:first]]
 

@@ -258,7 +258,8 @@ class SolidModel(Shown):
         radii, borne = bores(self.layout, self.making), set[str]()
         if self.plan is not None:
             borne = {column.axis for column in self.plan.all_columns} | self.plan.stack.on_eccentrics
-        reach = [(each.body, each.reach) for each in (*self.brackets, *self.cages)]
+        reach = [(each.body, each.reach) for each in self.brackets]
+        reach += [(each.body, each.reach) for each in self.cages]
         for at, body in enumerate(self.scene.bodies):
             wheels, radius = wheel_ends(self.scene, at), radii.get(body.axis, 0.0) / 2
             if body.parent is None or body.axis in borne or wheels is None or not radius:

@@ -365,11 +365,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
     ratio = _mean_speed(found)
     powers = powers / (ratio or 1.0)
     panel.stackplot(
-        turns,
-        powers,
-        colors=[loss.colour for loss in losses],
-        labels=[loss.name for loss in losses],
-        linewidth=0,
+        turns, powers, colors=[loss.colour for loss in losses], labels=[loss.name for loss in losses], linewidth=0
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
     of = f"as torque at {short(found.link)}" if ratio else "per radian of the input"

@@ -481,11 +481,7 @@ def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callab
 
 
 def _along(
-    axes: Axes,
-    words: str,
-    cost: Callable[[PathContact], Floats],
-    paths: Mapping[str, PathOfContact],
-    styles: Styles,
+    axes: Axes, words: str, cost: Callable[[PathContact], Floats], paths: Mapping[str, PathOfContact], styles: Styles
 ) -> None:
     low, high, tops = inf, 0.0, []
     for name, path in paths.items():

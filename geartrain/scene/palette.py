@@ -3,7 +3,7 @@
 Series differ in colour and in dashes; `series_dash` gives the number of distinct combinations. In print, areas differ
 in grey and hatch. Values are mapped to a scale of colours whose low end is close to the paper. In the light and the
 dark theme, any two of the ten colours, and each colour and the ink, remain distinguishable for readers with protanopia
-or deuteranopia (tests/scene/test_palette.py measures the CIEDE2000 difference under the simulation of Machado, Oliveira
+or deuteranopia (tests/scene/test_palette.py measures distances in CIE L*a*b* under the simulation of Machado, Oliveira
 and Fernandes 2009, A physiologically-based model for simulation of color vision deficiency, IEEE Trans. Vis. Comput.
 Graph. 15:1291). All colours have enough contrast to be read as text on their paper.
 """

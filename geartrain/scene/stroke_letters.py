@@ -184,9 +184,6 @@ def curved_text(text: str, height: float, radius: float, angle: float, inwards: 
         out, right = (sin(turned), cos(turned)), (cos(turned), -sin(turned))
         for stroke in letter_strokes(letter)[0]:
             yield tuple(
-                (
-                    (radius + v) * out[0] + u * right[0],
-                    (radius + v) * out[1] + u * right[1],
-                )
+                ((radius + v) * out[0] + u * right[0], (radius + v) * out[1] + u * right[1])
                 for u, v in ((way * (x * height - wide / 2), way * (y - 0.5) * height) for x, y in stroke)
             )

@@ -175,10 +175,7 @@ def without_quantity(figure: Figure) -> list[str]:
             continue
         labels = (
             (axes.xaxis, any(text.get_text() for text in axes.get_xticklabels())),
-            (
-                axes.yaxis,
-                any(_number(text.get_text()) for text in axes.get_yticklabels()),
-            ),
+            (axes.yaxis, any(_number(text.get_text()) for text in axes.get_yticklabels())),
         )
         left = axes.get_position().x0
         below = [each.get_xlabel() for each in figure.axes if abs(each.get_position().x0 - left) < 0.02]

@@ -40,11 +40,7 @@ from geartrain.workshop import (
     tooth_sizes_figure,
     train_sizes_figure,
 )
-from geartrain.workshop.monte_carlo.monte_carlo_plots import (
-    course_figure,
-    histogram_figure,
-    jam_map_figure,
-)
+from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, histogram_figure, jam_map_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
 

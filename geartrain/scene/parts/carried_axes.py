@@ -153,12 +153,7 @@ def _away(axis: CarriedAxis, seat: StackDisc) -> float:
 
 
 def _carried_column(
-    axis: CarriedAxis,
-    seat: StackDisc,
-    seen: Sequence[StackDisc],
-    process: Process,
-    core: float | None,
-    head: float,
+    axis: CarriedAxis, seat: StackDisc, seen: Sequence[StackDisc], process: Process, core: float | None, head: float
 ) -> AxisColumn:
     """Return the preferred column of a carried axis, which has only one plate: its seat."""
     ends: Mapping[str, tuple[bool, bool]] = {}

@@ -206,17 +206,8 @@ class FramePlan:
         span = taken[0][0] - _DIAL, taken[-1][1] + _DIAL
         for label, axis in self.stack.axes.items():
             if any(disc.axis == label for disc in self.stack.discs):
-                problem = ColumnProblem(
-                    label,
-                    self.stack.flat(axis.point),
-                    (),
-                    (),
-                    self.ends,
-                    span,
-                    self.stack.frame,
-                    self.process,
-                    *self._arbor(label),
-                )
+                at, sizes = self.stack.flat(axis.point), self._arbor(label)
+                problem = ColumnProblem(label, at, (), (), self.ends, span, self.stack.frame, self.process, *sizes)
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
@@ -282,9 +273,7 @@ class FramePlan:
         return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
 
     def _borne_by(self, seat: CarrierSeat) -> list[CarriedAxis]:
-        return (
-            [] if not seat.is_bearing else [each for each in self.stack.carried.values() if each.carrier == seat.link]
-        )
+        return [each for each in self.stack.carried.values() if seat.is_bearing and each.carrier == seat.link]
 
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
@@ -316,14 +305,10 @@ class FramePlan:
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
         """Wheels and turning plates at heights as built."""
-        found = []
-        for disc in self.stack.discs:
-            rise = self.heights.shift(disc.middle)
-            found.append(replace(disc, low=disc.low + rise, high=disc.high + rise))
-        for plate in self.turning:
-            low, high = self.heights.plates[plate.disc.name]
-            found.append(replace(plate.disc, low=low, high=high))
-        return tuple(found)
+        rises = [(disc, self.heights.shift(disc.middle)) for disc in self.stack.discs]
+        faces = [(plate.disc, *self.heights.plates[plate.disc.name]) for plate in self.turning]
+        faces = [*((disc, disc.low + rise, disc.high + rise) for disc, rise in rises), *faces]
+        return tuple(replace(disc, low=low, high=high) for disc, low, high in faces)
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:

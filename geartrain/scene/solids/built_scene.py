@@ -161,12 +161,7 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
                 if radius is None or np.hypot(*np.subtract(stack.flat(face.centre), circle.at)) > _SAME:
                     continue
                 height = plate.high if dot(face.normal, stack.normal) > 0 else plate.low
-                faces[at] = replace(
-                    face,
-                    centre=stack.in_space(circle.at, height),
-                    radius=radius,
-                    plate=circle.radius,
-                )
+                faces[at] = replace(face, centre=stack.in_space(circle.at, height), radius=radius, plate=circle.radius)
     return tuple(faces)
 
 

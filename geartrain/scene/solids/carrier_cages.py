@@ -45,15 +45,10 @@ if TYPE_CHECKING:
 # -------------------------------------------------------------------------------------------------- pendulum and weight
 
 
-_BOB, _THICK = (
-    0.05,
-    0.25,
-)  # radius of a bob divided by the pendulum's length, and half its thickness divided by its radius
+_BOB, _THICK = 0.05, 0.25  # radius of a bob over the pendulum's length, and half its thickness over its radius
 _ROD = 0.04  # radius of a pendulum's rod divided by that of the bob
 _TALL = 4.0  # height of a weight divided by its radius
-_ANCHOR = sqrt(
-    2
-)  # distance of the anchor's axis divided by the escape wheel's radius, for pallets a quarter turn apart
+_ANCHOR = sqrt(2)  # distance of the anchor's axis over the escape wheel's radius, for pallets a quarter turn apart
 _COCK = 2.0  # mm: radius of the stud of a pendulum
 _AWAY = 2.0  # mm between the frame and a bob
 _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose

@@ -1,4 +1,4 @@
-"""A browser for the pages: Chromium, headless, drawing WebGL in software; what a page says and asks for is kept."""
+"""Browser for the pages: headless Chromium with software WebGL, which records messages and requests of pages."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ from stills import NAMES, SWITCHES, find_browser
 from viewing import DESK, GALLERY, Opening, html_of, wait
 
 ROOT = Path(__file__).parent.parent.parent
-PATIENCE = 90_000  # ms: software draws slowly on a busy machine
+PATIENCE = 90_000  # ms: software rendering is slow on a busy machine
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    # playwright leaves its loop and its pipes to the interpreter's end
+    # playwright closes its event loop and pipes only when the interpreter exits
     config.addinivalue_line("filterwarnings", "ignore::pytest.PytestUnraisableExceptionWarning")
 
 
 @dataclass
 class Shown:
-    """A page in the browser: `errors` and warnings it logged, and the addresses it asked for beside its own."""
+    """Page in the browser, with the `errors` and warnings that it logged, and the addresses that it requested."""
 
     page: Page
     errors: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
 
     def run(self, script: str, argument: Any = None) -> Any:
-        """The value of an expression, or of a function of `argument`, in the page."""
+        """Return the value of an expression, or of a function of `argument`, in the page."""
         return self.page.evaluate(script, argument)
 
     def angles(self, turns: Sequence[str | float], outputs: Sequence[str]) -> list[list[float]]:
-        """The angles (rad) of outputs, a list for each number of turns of the lead; asked at once, so drawn once."""
+        """Return the angles of outputs [rad] for each number of turns of the driving link, in one call."""
         script = """([turns, outputs]) => turns.map((each) => {
           geartrain.setTurns(each);
           return outputs.map((name) => geartrain.pointer(0, name).angle);
@@ -53,7 +53,7 @@ OpenPage = Callable[..., Shown]
 
 @pytest.fixture(scope="session")
 def program() -> str:
-    """The browser's program; what needs it is passed over where there is none."""
+    """Executable of the browser; tests that need it are skipped without it."""
     found = find_browser()
     if found is None:
         why = f"no browser: none of {', '.join(NAMES)} is on the path, and GEARTRAIN_BROWSER names none"
@@ -74,7 +74,7 @@ def browser(program: str) -> Iterator[Browser]:
 
 @pytest.fixture
 def open_page(browser: Browser) -> Iterator[OpenPage]:
-    """Opens a file as a user would, after a script of ours; further arguments (viewport, ...) are the window's."""
+    """Function that opens a file after running a script; further arguments are those of the window."""
     contexts = []
 
     def show(path: Path, before: str = "", **window: Any) -> Shown:
@@ -100,7 +100,7 @@ def _opened(sheet: Page, path: Path) -> Shown:
 
 @pytest.fixture
 def show_html(open_page: OpenPage, tmp_path: Path) -> OpenPage:
-    """Opens a page by its HTML."""
+    """Function that opens a page from its HTML."""
 
     def opened(html: str, **window: Any) -> Shown:
         path = tmp_path / "page.html"
@@ -112,7 +112,7 @@ def show_html(open_page: OpenPage, tmp_path: Path) -> OpenPage:
 
 @pytest.fixture
 def show(show_html: OpenPage) -> Opening:
-    """Opens the page of shipped trains, or of a declaration, in all their states."""
+    """Function that opens the page of shipped trains, or of a declaration, in all their states."""
 
     def opened(
         *names: str, text: str | None = None, compare: bool = False, teeth: bool = False, **window: Any
@@ -140,7 +140,7 @@ def _listen(shown: Shown, address: str) -> None:
 
 
 def _is_of_the_driver(text: str) -> bool:
-    """Software rendering grumbles about itself; a page can do nothing about that."""
+    """Return True for warnings of software rendering, which a page does not cause."""
     return "GL Driver Message" in text or "GPU stall" in text
 
 

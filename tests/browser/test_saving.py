@@ -1,4 +1,4 @@
-"""Pictures and films of a page: what its buttons save, what scripts of the documentation take, and the motion seen."""
+"""Pictures and films of a page: those saved by its buttons and by scripts of the documentation, and their motion."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ STILL = """(turns) => {
 
 
 def taken(*turns: Fraction, background: str = "#f4f1ea", size: tuple[int, int] = (240, 160)) -> list[bytes]:
-    """Stills of a train; in a thread of their own, for the browser of other tests waits in this one."""
+    """Return stills of a train, made in a thread without the event loop of the browser of other tests."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(lambda: list(stills(shipped.scene(SIMPLE), size, turns, background))).result()
 
@@ -49,7 +49,7 @@ def test_a_picture_is_saved_from_the_page_as_it_stands(show: Opening, tmp_path: 
 
 
 def recorded(shown: Shown, to: Path) -> tuple[str, bytes]:
-    """The name and content of a film of two moments."""
+    """Return the name and content of a film of two moments."""
     button = shown.page.get_by_role("button", name="Record film")
     button.click()
     assert button.get_attribute("aria-pressed") == "true"
@@ -102,7 +102,7 @@ def test_a_browser_that_records_nothing_has_no_button_for_it(show: Opening) -> N
 
 
 def knob(shown: np.ndarray) -> complex:
-    """Middle of what is blue, with y upwards."""
+    """Return the centre of the blue area, with y upwards."""
     red, green, blue = np.moveaxis(shown, 2, 0)
     rows, columns = np.nonzero((blue > 100) & (blue > red + 60) & (blue > green + 30))
     assert len(rows) > 20, "the handle is seen"

@@ -1,4 +1,4 @@
-"""The viewer in a browser: exact motion, one self-contained file, pictures that are there."""
+"""Viewer in a browser: exact motion, a self-contained file, and pictures."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [fr
 
 
 def apart(one: float, other: float) -> float:
-    """Distance of two directions (rad)."""
+    """Return the angle between two directions [rad]."""
     return abs((one - other + pi) % TURN - pi)
 
 
 def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
-    """Outputs and their mean directions after some turns of the first input, by Fractions alone."""
+    """Yield outputs with their mean directions after some turns of the first input, computed with Fractions."""
     train = shipped.train(name)
     case = train.declaration
     state = train.states[0] if train.states else None
@@ -68,14 +68,14 @@ def test_a_page_opens_from_disk_without_errors_or_requests(show: Opening, name: 
 def test_pointers_of_ideal_trains_stand_where_fractions_say(show: Opening, name: str) -> None:
     texts = ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003")
     outputs = list(shipped.train(name).declaration.outputs)
-    turns = (*texts, 0.1, -2.7, 1e9 + 0.1, 123456.789)  # a float is taken as exactly what it is
+    turns = (*texts, 0.1, -2.7, 1e9 + 0.1, 123456.789)  # a float is converted exactly
     for each, angles in zip(turns, show(name).angles(turns, outputs), strict=True):
         expected = dict(directions(name, Fraction(each)))
         for output, angle in zip(outputs, angles, strict=True):
             assert apart(angle, expected[output]) < 1e-12, (output, each)
 
 
-# how far the end of a part stands out of what it ends in (mm): where a ray along its axis meets these, below the plates
+# distance by which a part protrudes from the face in which it ends [mm], from intersections of a ray along its axis
 OUT = """([wheel, post]) => {
   const [stage] = geartrain.stages, {world} = stage, part = world.wheels[wheel];
   stage.cut();
@@ -101,14 +101,14 @@ OUT = """([wheel, post]) => {
 def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
     show: Opening, name: str, wheel: str, end: tuple[float, float, float] | None
 ) -> None:
-    """Two faces in one plane flicker."""
+    """Coplanar faces flicker."""
     shown = show(name)
     at = [each.id for each in shipped.built(name).wheels].index(wheel)
     assert 0.02 < shown.run(OUT, [at, end]) < 0.1
 
 
 def test_a_dial_about_two_axes_has_a_face_for_each(show: Opening) -> None:
-    """They are told apart by what is read on them; on each, the one hand is in the first colour."""
+    """They are distinguished by their outputs; the single hand of each has the first colour."""
     shown = show("price-1974")
     faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
     assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
@@ -137,7 +137,7 @@ def test_pins_and_real_teeth_move_as_the_motion_says(show: Opening, name: str) -
 
 
 def test_backwards_the_other_flanks_drive(show: Opening) -> None:
-    """Negative turns, against a run backwards; forwards the teeth stand otherwise, by their play."""
+    """Negative turns are compared with a run backwards; in forward motion the positions differ by the backlash."""
     name = "pennestri-2002-teeth"
     motion = shipped.train(name).motion()
     shown = show(name)
@@ -155,7 +155,7 @@ def test_backwards_the_other_flanks_drive(show: Opening) -> None:
 
 
 def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
-    """What the first stage shows, drawn at a size of ours: (height, width, 3), 0 to 1."""
+    """Return the picture of the first stage in a given size, shape (height, width, 3), from 0 to 1."""
     script = """([width, height]) => {
       const [stage] = geartrain.stages;
       const place = {position: 'fixed', left: 0, top: 0, width: `${width}px`, height: `${height}px`};
@@ -169,7 +169,7 @@ def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "bevel-differential"])
 def test_the_picture_is_the_one_that_was_looked_at_and_approved(show: Opening, name: str) -> None:
-    """Within a tolerance; GEARTRAIN_NEW_PICTURES=1 stores what is drawn, to be looked at and approved."""
+    """Within a tolerance; with GEARTRAIN_NEW_PICTURES=1 the new picture is stored for approval."""
     drawn = canvas_of(show(name, teeth=True))
     stored = PICTURES / f"{name}.png"
     if os.environ.get("GEARTRAIN_NEW_PICTURES"):

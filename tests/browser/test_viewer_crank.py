@@ -75,7 +75,7 @@ def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show
         x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.36 * box["width"]
         shown.page.mouse.move(x, y - reach)
         shown.page.mouse.down()
-        for step in range(1, 18):  # a turn and a bit
+        for step in range(1, 18):  # slightly more than a turn
             angle = 0.4 * step
             shown.page.mouse.move(x + reach * math.sin(angle), y - reach * math.cos(angle))
         shown.page.mouse.up()
@@ -95,7 +95,7 @@ def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show
 
 
 def gearing(name: str) -> float:
-    """Turns of the hand for one of the lead: those of the crank that is declared, where a hand could turn it so."""
+    """Return turns of the hand per turn of the driving link: those of the declared crank if a hand can turn it."""
     scene = shipped.scene(name)
     speed = 1.0 if scene.crank is None else abs(float(Fraction(scene.bodies[scene.crank].speed or 1)))
     return speed if 0.05 <= speed <= 20 else 1.0
@@ -103,7 +103,7 @@ def gearing(name: str) -> float:
 
 @pytest.mark.parametrize("name", ["carman-thorndike-evans-2012", "al-biruni-box-of-the-moon"])
 def test_a_crank_does_not_stand_before_a_dial_about_its_axis(show: Opening, name: str) -> None:
-    """It hid the hands, or went through them."""
+    """It would hide the hands, or pass through them."""
     before = show(name).run("""() => {
       const [{world}] = geartrain.stages, [scene] = geartrain.scenes, {point} = scene.bodies[scene.crank];
       const coaxial = scene.dials.filter(({centre}) => Math.hypot(centre[0] - point[0], centre[1] - point[1]) < 1e-6);

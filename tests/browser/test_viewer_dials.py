@@ -1,4 +1,4 @@
-"""Dials of the viewer in a browser: what hands are told to show, pins that follow spirals, directions that agree."""
+"""Dials of the viewer in a browser: readings of hands, pins on spirals, and directions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from viewing import Opening
 
 ANTIKYTHERA = "freeth-2008"
 
-# where the pin of the hand over a spiral is, in the dial's own right and up, over its radius
+# position of the pin of a hand on a spiral, right and up, relative to the radius of the dial
 PIN = """(name) => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {poses} = stage.world;
   stage.world.turn();
@@ -53,7 +53,7 @@ def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> No
     )
     checked = 0
     for pointer in scene.pointers:
-        if pointer.dial is None or pointer.output == "moon":  # its pins ripple
+        if pointer.dial is None or pointer.output == "moon":  # its pins cause errors
             continue
         scale = scene.dials[pointer.dial].scale
         of, base = declared.outputs[pointer.output].links(pointer.output, declared.frame)
@@ -94,7 +94,7 @@ def test_the_ground_is_below_all_that_turns_and_grows_as_layers_part(show: Openi
 
 
 def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> None:
-    """In the picture it is there once, and on both dials beside it in the one colour that it has."""
+    """The picture has one hand, and both dials show it in its colour."""
     shown = show("prague-orloj")
     hands = "geartrain.stages[0].world.parts.filter(({dial, plate, colour}) => dial !== undefined && !plate)"
     outputs = [shown.run(f"geartrain.scenes[0].bodies[{body}].id") for body in shown.run(f"{hands}.map((e) => e.body)")]

@@ -1,4 +1,4 @@
-"""Dates of the crank and targets beside pointers in a browser, against the package's dates and fractions."""
+"""Dates of the crank and targets of pointers in a browser, compared with the package's dates and fractions."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ outputs: {week: {targets: [{period: 7 d, sense: retrograde}, {speed: -1/8}]}}
 
 
 def told(day: Fraction, calendar: str | None = None) -> str:
-    """A Julian day as a reader is told it, from the package's date."""
+    """Return the text of a Julian day, from the package's date."""
     found = date_of(day, calendar)  # type: ignore[arg-type]
     minutes = math.floor(found.part * 1440)
     year = f"{1 - found.year} BC" if found.year < 1 else f"{found.year} AD" if found.year < 1000 else str(found.year)
@@ -113,9 +113,9 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> 
         assert Fraction(exact) == (own - goal) * at, (output, target)
         declared = train.declaration.outputs[output]
         face = train.declaration.dials[declared.dial].face if declared.dial else "front"
-        sense = clockwise if (face == "front") != (output == "games") else -clockwise  # Games are counted the other way
+        sense = clockwise if (face == "front") != (output == "games") else -clockwise  # Games: counted backwards
         for text, speed in ((pointer, own), (sky, goal)):
-            # texts are rounded to hundredths of a degree; real pins ripple, so those pointers are checked elsewhere
+            # texts are rounded to 0.01 degree; pointers with errors of pins are checked elsewhere
             if output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
                 off = float(text.removesuffix("\u00b0")) - float(sense * speed * at % 1) * 360
                 assert abs((off + 180) % 360 - 180) <= 0.0051, (output, target)
@@ -146,10 +146,10 @@ def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening) -> None:
     shown = show(text=CALENDAR)
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
     go(shown, "-1")
-    assert shown.page.locator(".date").inner_text() == "14 October 1582, 12:00"  # as the Gregorian calendar has it
+    assert shown.page.locator(".date").inner_text() == "14 October 1582, 12:00"  # in the Gregorian calendar
     tab(shown, "Sky")
     exact = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.dataset.exact)")
-    assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns a day, one day back
+    assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns per day, one day earlier
     shown = show(SIMPLE)
     assert shown.page.get_by_role("tab", name="Sky").count() == 0
     assert shown.page.get_by_label("Go to date").count() == 0

@@ -1,4 +1,4 @@
-"""The palette can be told apart, by readers who see no red or no green too, and stands once."""
+"""Colours of the palette are distinguishable, also with colour vision deficiencies, and are defined once."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def lab(rgb: Vector) -> Vector:
 
 
 def contrast(one: str, other: str) -> float:
-    """WCAG 2.2, contrast ratio."""
+    """Return the contrast ratio of WCAG 2.2."""
     dark, light = sorted(float(XYZ[1] @ linear(each)) for each in (one, other))
     return (light + 0.05) / (dark + 0.05)
 
@@ -89,7 +89,7 @@ def test_pages_and_the_built_viewer_hold_no_other_colours_of_series() -> None:
             assert re.search(rf"--hand-{at}: ?{colour}[;}}]", built), (name, colour)
 
 
-# metals, enamel and grounds, which stand for themselves: no reader is to tell them apart by their colour
+# materials and backgrounds, which need not be distinguishable by colour
 MADE_OF = re.compile(
     r"^(?:export const (?:BRASS|PARTS) = .*|\s*--(?:stage|edge|gd-edge|on-accent|wash|bad-wash): .*)$", re.MULTILINE
 )
@@ -101,7 +101,8 @@ def sources() -> list[Path]:
     plots = [
         *docs.glob("scripts/make_*.py"),
         *docs.glob("scripts/studies/*.py"),
-        *(path for path in (ROOT / "geartrain" / "drawing").rglob("*.py") if path.stem != "flat_files"),  # cut by laser
+        # colours of flat files are operations of a laser cutter
+        *(path for path in (ROOT / "geartrain" / "drawing").rglob("*.py") if path.stem != "flat_files"),
     ]
     return [*viewer.rglob("*.js"), *viewer.rglob("*.css"), *plots]
 

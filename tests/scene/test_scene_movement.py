@@ -1,4 +1,4 @@
-"""The motion of a scene's bodies and pointers, against the motion of the train."""
+"""Motion of a scene's bodies and pointers, compared with the motion of the train."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ AGREE = 1e-9  # rad
 
 
 class Reader:
-    """Angles of the bodies of a scene; with `back`, those of negative turns."""
+    """Reader of the angles of the bodies of a scene; with `back`, for negative turns."""
 
     def __init__(self, scene: Scene, back: bool = False) -> None:
         self.scene = replace(scene, movement=scene.back) if back and scene.back else scene
@@ -33,30 +33,30 @@ class Reader:
         return list(body_errors(self.scene, turns))
 
     def angles(self, turns: float) -> list[float]:
-        """Angle of every body about its direction [rad]."""
+        """Return the angle of every body about its direction [rad]."""
         return list(scene_pose(self.scene, Fraction(turns)).angles)
 
 
 def pointer_angle(scene: Scene, angles: Sequence[float], pointer: Pointer) -> float:
-    """About the pointer's own declared axis."""
+    """Return the angle of a pointer about its declared axis [rad]."""
     return scene.bodies[pointer.body].sense * (angles[pointer.body] - angles[pointer.base])
 
 
 @cache
 def drawn(train: GearTrain) -> Scene:
-    """A scene, made once for both ways."""
+    """Return a scene, cached for both directions."""
     return make_scene(train)
 
 
 def off(a: float, b: float) -> float:
-    """Difference of two angles, whole turns left out."""
+    """Return the difference of two angles modulo one turn."""
     return abs((a - b + pi) % (2 * pi) - pi)
 
 
 def compared(train: GearTrain, back: bool = False) -> float:
-    """The greatest difference of any output between the scene's data and the train's motion (rad).
+    """Return the maximum difference of any output between the scene's data and the train's motion [rad].
 
-    A scene counts about declared axes; motion counts turns and angles in the sense in which the lead turns.
+    A scene counts about declared axes; motion counts turns and angles in the sense of the driving link.
 
     back   for runs of negative turns
     """
@@ -122,7 +122,7 @@ def test_the_scene_of_a_train_that_is_declared_to_turn_backwards_is_the_mirror_i
 
 
 def test_the_way_back_is_written_only_where_it_differs() -> None:
-    """Pins slide in their slots alike both ways; teeth with play drive with their other flanks."""
+    """Pins in slots move equally in both directions; teeth with backlash drive with their coast flanks."""
     assert shipped.scene("freeth-2021").back is None
     assert make_scene(geartrain.load("price-1974")).back is None
     teeth = make_scene(geartrain.load("moon-triangular"))
@@ -175,7 +175,7 @@ inputs: {a: 1}
 
 
 def test_a_pin_stands_where_its_transmission_has_it() -> None:
-    """The slot, drawn from its axis to the pin in the zero pose and turned with its body, always holds the pin."""
+    """The slot, which is drawn towards the pin in the zero pose and turns with its body, always contains the pin."""
     train = geartrain.load(
         """
 links: {frame: {}, pin: {angle: 40 deg}, slot: {angle: 10 deg}}

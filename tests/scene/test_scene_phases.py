@@ -1,4 +1,4 @@
-"""At turn 0 a tooth of every first wheel, and every pin, is drawn where its `phase` says."""
+"""At turn 0 a tooth of every first wheel, and every pin, is at its declared `phase`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from test_scene_movement import Reader
 from geartrain import load
 from geartrain.scene import Scene, ScenePair, make_scene
 
-# two pairs in a row; a third whose first wheel is driven; a pin; a pair behind the pin
+# two pairs in series; a third whose first wheel is driven; a pin; a pair driven by the pin
 CHAIN = """
 links:
   frame: {{}}
@@ -46,7 +46,7 @@ FORMS = {
 
 
 def past_the_line(scene: Scene, angles: list[float], pair: ScenePair) -> float:
-    """By what part of a pitch a tooth of the first wheel of a pair is past the line of centres, as it turns."""
+    """Return how far a tooth of the first wheel is past the line of centres in its sense [pitches]."""
     wheel, mate = (scene.wheels[at] for at in pair.wheels)
     body = scene.bodies[wheel.body]
     x, y = (mate.centre[at] - wheel.centre[at] for at in (0, 1))
@@ -68,5 +68,5 @@ def test_a_tooth_of_every_first_wheel_is_drawn_at_its_phase(phases: tuple[float,
     for pair, phase in zip(scene.pairs, phases, strict=True):
         off = past_the_line(scene, angles, pair) - phase
         assert (off + 0.5) % 1 - 0.5 == pytest.approx(0, abs=1e-9), pair.id
-    # and the pointers are where ideal teeth would put them
+    # pointers are at the positions for ideal teeth
     assert max(abs(each) for each in Reader(scene).errors(Fraction(0))) < 1e-9

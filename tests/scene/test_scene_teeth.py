@@ -1,4 +1,4 @@
-"""Teeth as a scene draws them, cut out of the plane and turned: they touch, and do not cut into each other."""
+"""Teeth of a scene as plane figures: they touch and do not overlap."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from geartrain.scene import Scene, SceneWheel, make_scene
 
 
 def outline(scene: Scene, number: int, turned: float) -> Any:
-    """A wheel about its centre, turned by an angle more than its own; a ring as a disc with a toothed hole."""
+    """Return a wheel about its centre, rotated by an additional angle; a ring is a disc with a toothed hole."""
     wheel = scene.wheels[number]
     profile = scene.profiles[wheel.profile]
     x, y, _ = wheel.centre
@@ -31,12 +31,12 @@ def outline(scene: Scene, number: int, turned: float) -> Any:
         teeth.append(np.column_stack([x + r * wheel.radius * np.cos(at), y + r * wheel.radius * np.sin(at)]))
     if profile.hole:
         return unary_union([Polygon(tooth) for tooth in teeth])
-    whole = Polygon(np.concatenate([tooth[:-1] for tooth in teeth]))  # a tooth ends where the next begins
+    whole = Polygon(np.concatenate([tooth[:-1] for tooth in teeth]))  # adjacent teeth share an end point
     return Point(x, y).buffer(1.5 * wheel.radius, 128).difference(whole) if wheel.kind == "ring" else whole
 
 
 def meshing(train: GearTrain, steps: int = 12) -> tuple[float, float]:
-    """Over a pitch of each pair: the greatest depth of one wheel in the other, and the greatest gap, in modules."""
+    """Return the maximum overlap and the maximum gap of all pairs over one pitch [modules]."""
     scene = make_scene(train)
     reader, bodies = Reader(scene), scene.bodies
     deepest = widest = 0.0
@@ -54,7 +54,7 @@ def meshing(train: GearTrain, steps: int = 12) -> tuple[float, float]:
 
 
 def depth(common: Any) -> float:
-    """How thick what two wheels have in common is, at most: twice its inner radius by halving."""
+    """Return the maximum thickness of the overlap of two wheels: twice its inradius, by bisection."""
     low, high = 0.0, 10.0
     for _ in range(40):
         middle = (low + high) / 2
@@ -136,7 +136,7 @@ def test_likenesses_mesh_without_cutting_into_each_other() -> None:
     ],
 )
 def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str | None) -> None:
-    """In space, so for bevel wheels too; the point where they touch is found by looking all round both."""
+    """In space, so also for bevel wheels; the point of contact is found by a search on both circles."""
     scene = shipped.scene(name, state)
     reader = Reader(scene)
     for pair in scene.pairs:
@@ -157,7 +157,7 @@ def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str |
 
 
 def forwards(wheel: SceneWheel, angle: float) -> Any:
-    """Which way the rim of a wheel goes at an angle, as a unit vector."""
+    """Return the direction of motion of a rim at an angle, as a unit vector."""
     u, v = frame_of(wheel)
     return -sin(angle) * u + cos(angle) * v
 
@@ -168,7 +168,7 @@ def frame_of(wheel: SceneWheel) -> tuple[Any, Any]:
 
 
 def touching(first: SceneWheel, second: SceneWheel) -> tuple[list[float], float]:
-    """Angles at which two pitch circles are nearest, and how near, on grids that grow finer."""
+    """Return the angles at which two pitch circles are nearest, and the distance, by successively finer grids."""
     middle, reach = np.zeros(2), pi
     for _ in range(14):
         grid = [centre + reach * np.linspace(-1, 1, 73) for centre in middle]

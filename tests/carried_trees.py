@@ -1,8 +1,8 @@
-"""Every explanation on a carrier by plain growth of concrete trees in the frame: Willis' equation, mesh by mesh.
+"""Enumeration of all trains on a carrier by growth of concrete trees in the frame: Willis equation, mesh by mesh.
 
-An independent program: it reads plain data and takes nothing from the package. Trees have the form of `concrete_trees`,
-so that they can be compared. All counts are there from the start, speeds are those in the frame, and what turns as
-fast as the carrier is no special case.
+This program is independent: it reads plain data and imports nothing from the package. Trees have the form of
+`concrete_trees`, so that they can be compared. All counts are chosen from the start, speeds are relative to the frame,
+and a link that turns as fast as the carrier is not a special case.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ DRIVEN = ("=", 0)
 
 
 def carried_trains(evidence: Evidence) -> list[set[Node]]:
-    """All trains with 0, 1, ... added wheels."""
+    """Return all trains with 0, 1, ... added wheels."""
     requested = evidence["reconstruct"]
     root = _source(evidence)
     found: list[set[Node]] = [set() for _ in range(requested["add"]["wheels"] + 1)]
@@ -39,7 +39,9 @@ def _source(evidence: Evidence) -> str:
 
 
 def _grown(tree: Node, evidence: Evidence) -> Iterator[Node]:
-    """The tree with one mesh more, on every arbor, by every wheel that may drive, to everything that may be driven."""
+    """Yield the tree with one more mesh: on every arbor, by every wheel that may drive, to every wheel that may be
+    driven.
+    """
     here = {node[0] for node in _nodes(tree)}
     minimum, maximum = evidence["reconstruct"]["add"]["teeth"]
     counts = range(minimum, maximum + 1)
@@ -52,7 +54,7 @@ def _grown(tree: Node, evidence: Evidence) -> Iterator[Node]:
 
 
 def _wheels(evidence: Evidence, link: str) -> dict[str, int]:
-    """Teeth of the surviving wheels of an arbor, negative on a ring."""
+    """Return the tooth counts of the surviving wheels of an arbor, negative for rings."""
     given = evidence["links"].get(link, {}).get("wheels", {})
     return {name: -of["teeth"] if isinstance(of, dict) else of for name, of in given.items()}
 
@@ -96,7 +98,7 @@ def _added(tree: Node) -> int:
 
 
 def _allowed(tree: Node, evidence: Evidence) -> bool:
-    """Whether more meshes may still make it a train. A leaf needs a dial."""
+    """Return True if further meshes may still complete the train. A leaf needs a dial."""
     joined = [{node[0], child[0]} for node in _nodes(tree) for _, below in node[3] for child in below]
     return (
         _added(tree) <= evidence["reconstruct"]["add"]["wheels"]
@@ -107,7 +109,7 @@ def _allowed(tree: Node, evidence: Evidence) -> bool:
 
 
 def _mates(tree: Node) -> list[tuple[int, int]]:
-    """Teeth of each two wheels in mesh."""
+    """Yield the tooth counts of both wheels of each mesh."""
     drives = [(node, wheel, child) for node in _nodes(tree) for wheel, below in node[3] for child in below]
     return [(node[1][1] if wheel == DRIVEN else wheel[1], child[1][1]) for node, wheel, child in drives]
 
@@ -128,7 +130,10 @@ def _complete(tree: Node, evidence: Evidence) -> bool:
 
 
 def frame_speeds(tree: Node, evidence: Evidence) -> list[Fraction]:
-    """Of all arbors, in the frame: z_i (w_i - w_c) + z_j (w_j - w_c) = 0 at every mesh, z negative on a ring."""
+    """Return the speeds of all arbors in the frame.
+
+    Every mesh satisfies z_i (w_i - w_c) + z_j (w_j - w_c) = 0, where z is negative for a ring.
+    """
     carrier = Fraction(evidence["inputs"][CARRIER])
 
     def beneath(node: Node, speed: Fraction) -> list[Fraction]:
@@ -179,10 +184,11 @@ def _plain(wheel: tuple) -> tuple:
 
 
 def random_evidence(seed: int, rings: bool = False) -> Evidence:
-    """A small question that mostly has an answer: a random train on a carrier, of which some wheels are lost.
+    """Return a small problem that usually has a solution: a random train on a carrier from which some wheels are
+    removed.
 
-    seed   of the question
-    rings  whether some of the wheels that survive are rings
+    seed   seed of the problem
+    rings  whether some of the surviving wheels are rings
     """
     chance = random.Random(seed)
     minimum = chance.randint(5, 9)

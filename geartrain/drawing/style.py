@@ -117,7 +117,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     kind = suffix.lower()
     if kind not in SUFFIXES:
         what = f"a plot cannot be written as {suffix or 'a file without suffix'}"
-        raise GearTrainError(Problem(what, fix=f"use one of {', '.join(SUFFIXES)}"))
+        raise GearTrainError(Problem(what, "the suffix determines the format", f"use one of {', '.join(SUFFIXES)}"))
     for text in _texts(figure):
         if (shown := printable(text.get_text())) != text.get_text():
             text.set_text(shown)

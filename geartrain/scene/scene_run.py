@@ -307,6 +307,6 @@ def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
     if other.kind == "ring":
         one, other = other, one
     way = across(minus(other.centre, one.centre), one.direction)
-    if size(way) < 1e-9:
+    if size(way) < 1e-9:  # wheels on one axis have no line of centres
         way = one.reference
     return plus(one.centre, unit_or_z(way), one.radius)

@@ -78,7 +78,6 @@ def notices(
     gaps     gaps of pairs whose pitch circles do not touch [mm]
     misses   phase errors of pairs whose teeth do not mesh [pitches]
     """
-    # what cannot be built at all comes first
     yield from (each.problem for each in train.build_findings)
     declared = found.geometry.declared
     place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}

@@ -79,7 +79,7 @@ def best_places(
     At most 64 combinations of seats are tried. One plate is at an end of the stack; only if obstacles remain, both
     plates may be inside the stack.
 
-    blocked   number of obstacles on axes that carriers bear
+    blocked   number of obstacles on axes of carriers
     cut       number of crossing wheels that a plate at some height would cut
     """
     count = len(slab_gaps)
@@ -517,6 +517,7 @@ class StackHeights:
 
     def shift(self, height: float) -> float:
         """Return the distance by which a part at a given height moves up [mm]."""
+        # a part on the lower face of a slab moves with the slab, despite rounding errors
         return self.shifts[max(bisect_right(self.starts, height + 1e-6) - 1, 0)]
 
 

@@ -32,8 +32,8 @@ _FIT = 0.01  # mm: tolerance of chords of holes, less than the 0.04 mm of a runn
 _DIGITS = 4  # decimals of lengths in mm
 _HAND = 1.0  # mm of an arbor's end inside a hand
 _LAID = 0.2  # mm from a bracket to the face of a dial on it
-_CLEAR = 1.0  # mm from the edge of such a dial to other arbors
-_EDGE = 1.08  # radius of its edge divided by that of the engraving
+_CLEAR = 1.0  # mm from the edge of a dial on a bracket to other arbors
+_EDGE = 1.08  # radius of the edge of such a dial divided by that of its engraving
 _SAME = 1e-6
 
 

@@ -273,6 +273,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
     steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))), ceil(SIDES / teeth))
     radius = radius / float(np.cos(sweep / steps / 2))  # circumscribed about the bore, as in `round_about`
     turn = last - sweep * np.arange(steps + 1) / steps
+    # a tooth spans one pitch, so that the copies of tooth and bore join
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
     return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])
 

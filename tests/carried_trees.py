@@ -56,7 +56,8 @@ def problem_by_hand(evidence: Evidence) -> ReconstructionProblem:
 
 
 def random_evidence(seed: int, rings: bool = False) -> Evidence:
-    """Return a small problem that usually has a solution: a random train on a carrier from which some wheels are removed.
+    """Return a small problem that usually has a solution: a random train on a carrier from which some wheels are
+    removed.
 
     seed   seed of the problem
     rings  whether some of the surviving wheels are rings

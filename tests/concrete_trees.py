@@ -4,9 +4,9 @@ This program is independent: from the package it takes only the classes that dec
 at a time, in every way that the rules permit; an added wheel first has the count 0. Equal trees coincide in the set.
 Trees that satisfy the rules get all possible tooth counts and then all possible dials, and equal trees coincide again.
 
-A wheel is `(name, teeth)`; an added wheel has the name "". A node is `(name, driven, dials, drives)`: the name is "" for
-an added arbor, driven is `()` at the input, and drives is a sorted tuple of `(wheel, sorted tuple of nodes)`. The entry
-`DRIVEN` among the driving wheels denotes the driven wheel itself, where idlers are permitted.
+A wheel is `(name, teeth)`; an added wheel has the name "". A node is `(name, driven, dials, drives)`: the name is ""
+for an added arbor, driven is `()` at the input, and drives is a sorted tuple of `(wheel, sorted tuple of nodes)`. The
+entry `DRIVEN` among the driving wheels denotes the driven wheel itself, where idlers are permitted.
 """
 
 from __future__ import annotations

@@ -15,12 +15,10 @@ from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import fault_text, joined_table, without_losses
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
-from geartrain.teeth.pair_results import friction_lock_at_speed
 from geartrain.teeth.rubbed_transmission import pair_friction
 from geartrain.teeth.triangular.triangular_mesh import (
     TriangularMesh,
     explain_clearance,
-    explain_friction_lock,
     triangular_figures,
 )
 from geartrain.teeth.triangular.triangular_transmission import contact_course
@@ -213,8 +211,8 @@ def triangular_verdict(mesh: TriangularMesh) -> str:
         why, fix = explain_clearance(transmission, mesh.window)
         words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
     elif mesh.losses.locks:
-        what, why, fix = _friction_lock(mesh)
-        words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
+        (lock,) = mesh.friction_faults()
+        words = [f"Verdict: friction locks: {lock.what}.", f"Why: {lock.why}.", f"What to do: {lock.fix}."]
     return " ".join(word for word in words if word)
 
 
@@ -326,21 +324,13 @@ def _collisions(transmission: TriangularTransmission) -> Section:
     return Section("Collisions", (text,), (Table(header, rows),))
 
 
-def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
-    declared = mesh.wheels.friction_law
-    if declared is None:
-        return explain_friction_lock(mesh.transmission)
-    fault = friction_lock_at_speed(declared.law, mesh.transmission.locking_friction)
-    return fault.what, fault.why, fault.fix
-
-
 def _losses(mesh: TriangularMesh) -> Section:
     transmission = mesh.losses
     if (known := without_losses(mesh)) is not None:
         return known
     if transmission.locks:
-        what, why, _ = _friction_lock(mesh)
-        return Section("Friction", (f"{what}: {why}.",))
+        (lock,) = mesh.friction_faults()
+        return Section("Friction", (f"{lock.what}: {lock.why}.",))
     lines = [
         f"{mesh.friction_words}. Sliding efficiency: mean {transmission.efficiency_mean():.9f} at constant "
         f"driver torque (Eq. 34), {transmission.efficiency_at_constant_load():.9f} at constant load torque, minimum "

@@ -59,9 +59,7 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at input positions `turns` [turns of the input], at most `chunk`
-        positions.
-        """
+        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
         one, other = self.one.at(turns), self.other.at(turns)
         both = one.reversing_drivers | other.reversing_drivers
         return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
@@ -103,8 +101,7 @@ def without_teeth(motion: Motion) -> Motion:
 def find_tooth_motion(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> ToothMotion:
-    """Return the ripple and the lost motion of every output, from `samples` positions within `turns` turns of the
-    input.
+    """Return the ripple and lost motion of every output from `samples` positions in `turns` turns of the input.
 
     on_done   callback with the number of positions of each chunk that is done
     """
@@ -140,10 +137,9 @@ def find_tooth_motion(
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return by output the peak-to-peak error that each gear pair causes [deg]: its own error multiplied by its
-    sensitivity.
+    """Return the peak-to-peak error that each gear pair causes [deg]: its own error times its sensitivity.
 
-    Pairs are in descending order of this error. Pins and pairs without influence are omitted.
+    The errors are grouped by output, in descending order. Pins and pairs without influence are omitted.
     """
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.pins}
@@ -255,7 +251,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
     for _ in range(_STEPS):
         step = (E - e * np.sin(E) - M) / (1 - e * np.cos(E))
         E = E - step
-        if np.max(np.abs(step), initial=0.0) < 1e-15:
+        if np.max(np.abs(step), initial=0.0) < 1e-15:  # rounding errors of E
             break
     # nu - E by one atan2, without half angles, is continuous over many turns
     beta = e / (1 + np.sqrt(1 - e * e))
@@ -337,8 +333,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre [rad], with the phase shift that minimises the sum of
-    squares.
+    """Return an error over one cycle minus the equation of centre at the best phase (least squares) [rad].
 
     error   error at phases 2 pi k/n, shape (n,) [rad]; the mean of the result is 0
     """

@@ -41,7 +41,7 @@ class _Candidates(NamedTuple):
 
     def chosen(self, which: Bools | Indices | slice) -> _Candidates:
         """Return some of the candidates."""
-        return _Candidates(*(each[which] for each in self))
+        return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
         """Return the candidates that may exceed the maxima; equal maxima in other pieces are not searched."""

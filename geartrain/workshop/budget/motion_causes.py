@@ -21,16 +21,16 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.extreme_search import ExtremeSearch
-from geartrain.dynamics.motion.rate_bounds import error_difference
-from geartrain.dynamics.motion.run_statistics import RunningStatistics, SampledPeaks, count_extremes
+from geartrain.dynamics.motion.error_composition import ErrorSamples
+from geartrain.dynamics.motion.extreme_search import count_extremes
+from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.workshop.budget.pointer_budget import BudgetCause, CauseName, Declared
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
-    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
+    from geartrain.dynamics.motion.error_composition import ErrorComposition
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.arrays import Floats
@@ -61,7 +61,8 @@ class ErrorDifference:
     def at(self, turns: Floats) -> ErrorSamples:
         """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
         one, other = self.one.at(turns), self.other.at(turns)
-        return error_difference(one, other)
+        both = one.reversing_drivers | other.reversing_drivers
+        return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
 
 
 class DeclaredPairs(NamedTuple):
@@ -110,21 +111,18 @@ def find_tooth_motion(
     tallies = motion._statistics()
     maximum, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
     back: set[str] = set()
-    peaks = SampledPeaks(len(tallies))
     chunk = min(ripple.chunk, lost.chunk)
     for start in range(0, samples, chunk):
         at = turns * (np.arange(start, min(start + chunk, samples)) / (samples - 1))
         passage, backlash = ripple.at(at), lost.at(at)
         for tally, error, rate in zip(tallies, passage.error, passage.rate, strict=True):
             tally.add(error, rate)
-        peaks.add(passage)
         back |= passage.reversing_drivers | backlash.reversing_drivers
         maximum = np.maximum(maximum, np.abs(backlash.error).max(axis=1))
         squares += np.sum(backlash.error**2, axis=1)
         on_done(len(at))
     # samples miss the extremes, so each is refined
-    search = ExtremeSearch(ripple.one, less=ripple.other)
-    count_extremes(search, turns, turns / (samples - 1), peaks, tallies)
+    count_extremes([ripple.one, ripple.other], ripple, turns, tallies)
     names = list(motion.outputs)
     return ToothMotion(
         dict(zip(names, tallies, strict=True)),

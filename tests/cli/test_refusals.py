@@ -21,8 +21,8 @@ montecarlo pair.yaml --trials 64 --trials -5 | -5 is not a valid number of trial
 montecarlo pair.yaml --trials 64 --cutting 'pitch_deviation=120 %' | tooth vanishes
 montecarlo pair.yaml --trials 64 --cutting 'pitch_deviation=20 deg' | tooth vanishes
 montecarlo pair.yaml --trials 64 --cutting 'tip=0.1 mm' | needs a module
-montecarlo pair.yaml --trials 64 --cutting 'colour=3 %' | is not a valid setting of an error
-montecarlo pair.yaml --trials 64 --cutting 'pitch_deviation=3 apples' | is not a valid setting of an error
+montecarlo pair.yaml --trials 64 --cutting 'colour=3 %' | is not a valid error specification
+montecarlo pair.yaml --trials 64 --cutting 'pitch_deviation=3 apples' | is not a valid error specification
 montecarlo pair.yaml --trials 64 --cutting 'pitch_deviation=-3 %' | is negative
 montecarlo pair.yaml --trials 64 --cutting 'x9.pitch_deviation=3 %' | wheel 'x9'
 montecarlo pair.yaml --trials 64 --cutting 'p.centre=3 %' | pair 'p'
@@ -91,7 +91,7 @@ sphere icosidodecahedron --radius 6=1 | use 5, 3
 sphere | give a solid
 
 # export
-export planetary-24-18-60 | output is missing
+export planetary-24-18-60 | no output file or folder is given
 export planetary-24-18-60 --to d -o x.glb | both given
 export planetary-24-18-60 -o x.pdf | a train cannot be written as '.pdf'
 export planetary-24-18-60 -o x | a train cannot be written as 'x'

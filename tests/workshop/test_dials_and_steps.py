@@ -54,19 +54,13 @@ def clockwise(point: tuple[float, float]) -> float:
     return (atan2(*point) / (2 * pi)) % 1
 
 
-def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours() -> None:
+def test_the_dial_of_a_clock_has_sixty_minutes_and_twelve_hours_engraved_as_strokes() -> None:
     work = model("longcase-clock-cycloidal")
     lines = about(work, engraved(work, "dial-minutes-and-hours-and-seconds"), "minutes")
     outer, inner = sorted({round(hypot(*line[0]), 2) for line in lines if len(line) > 80}, reverse=True)
     for radius, count in ((outer, 60), (inner, 12)):
         marks = [line[0] for line in lines if len(line) == 2 and hypot(*line[0]) == pytest.approx(radius, abs=0.01)]
         assert sorted(map(clockwise, marks)) == pytest.approx([k / count for k in range(count)], abs=1e-4)
-
-
-def test_hours_are_engraved_as_strokes_with_twelve_above() -> None:
-    work = model("longcase-clock-cycloidal")
-    lines = about(work, engraved(work, "dial-minutes-and-hours-and-seconds"), "minutes")
-    inner = min(hypot(*line[0]) for line in lines if len(line) > 80)
     strokes = [line for line in lines if max(hypot(*point) for point in line) < 0.95 * inner - 1e-6]
     near = [line for line in strokes if abs(sum(x for x, _ in line) / len(line)) < 0.2 * inner and line[0][1] > 0]
     assert len(near) == 4, "XII: two strokes of the X, two of the I"

@@ -181,10 +181,13 @@ def test_all_parts_lie_apart_on_their_sheets(seed: int) -> None:
             assert one.intersection(other).area == 0
 
 
-def test_a_part_may_be_turned() -> None:
-    (sheet,) = stock_sheets([part("bar", Contour.of([(0, 0, 0), (10, 0, 0), (10, 90, 0), (0, 90, 0)]))], (100, 20), 1)
-    low, high = sheet.drawing.cut[0].points.min(axis=0), sheet.drawing.cut[0].points.max(axis=0)
-    assert high - low == pytest.approx([90, 10])
+def test_a_part_may_be_turned_with_its_letters() -> None:
+    bar = part("bar", Contour.of([(0, 0, 0), (10, 0, 0), (10, 90, 0), (0, 90, 0)]))
+    (sheet,) = stock_sheets([bar], (100, 20), 1)
+    assert np.ptp(sheet.drawing.cut[0].points, axis=0) == pytest.approx([90, 10])
+    (mark,) = sheet.drawing.marks
+    assert mark.angle == 90
+    assert mark.at == pytest.approx((46, 6), abs=0.05)
 
 
 def test_a_part_larger_than_the_sheet_is_named() -> None:
@@ -200,10 +203,3 @@ def test_parts_are_in_rows_the_tallest_first_and_none_goes_back_to_a_row_before(
     assert [sheet.parts for sheet in sheets] == [("a", "b"), ("d", "c")]
     kinks = [[each.points.min(axis=0) for each in sheet.drawing.cut[::2]] for sheet in sheets]
     assert np.array(kinks) == pytest.approx(np.array([[(5, 5), (5, 50)], [(5, 5), (5, 30)]]), abs=0.05)
-
-
-def test_letters_turn_with_their_part() -> None:
-    bar = part("bar", Contour.of([(0, 0, 0), (10, 0, 0), (10, 90, 0), (0, 90, 0)]))
-    (mark,) = stock_sheets([bar], (100, 20), 1)[0].drawing.marks
-    assert mark.angle == 90
-    assert mark.at == pytest.approx((46, 6), abs=0.05)

@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from math import exp, pi, radians
+from typing import Any
 
 import numpy as np
 import pytest
@@ -179,37 +180,25 @@ def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
 
 
 @pytest.mark.parametrize(
-    ("aims", "free", "limits", "word"),
+    ("friction", "aims", "free", "limits", "word"),
     [
-        (("speed",), None, (), "does not name one objective"),
-        (("loss", "loss"), None, (), "does not name one objective"),
-        (("loss",), {"depth": None}, (), "not a free parameter"),
-        (("loss",), {"window": (0.5, 1.5)}, (), "not valid"),
-        (("loss",), {"radii": (1.0, 0.9)}, (), "not valid"),
-        (("loss",), {}, (), "no parameter is free"),
-        (("loss",), {"radii": (0.98, 0.99)}, (SizeLimit("loss", 1e-4),), "violates a limit"),
+        (0.2, ("speed",), None, {}, "does not name one objective"),
+        (0.2, ("loss", "loss"), None, {}, "does not name one objective"),
+        (0.2, ("loss",), {"depth": None}, {}, "not a free parameter"),
+        (0.2, ("loss",), {"window": (0.5, 1.5)}, {}, "not valid"),
+        (0.2, ("loss",), {"radii": (1.0, 0.9)}, {}, "not valid"),
+        (0.2, ("loss",), {}, {}, "no parameter is free"),
+        (0.2, ("loss",), {"radii": (0.98, 0.99)}, {"loss": 1e-4}, "violates a limit"),
+        (0.2, ("loss",), {"radii": (0.98, 0.99)}, {"los": 0.01}, "loss"),
+        (9.0, ("loss",), {"radii": (0.97, 0.98)}, {}, "no design in the ranges turns"),
+        (0.0, ("loss",), None, {}, "without friction"),
     ],
 )
 def test_what_cannot_be_requested_or_found_is_said(
-    aims: tuple[str, ...], free: object, limits: object, word: str
+    friction: float, aims: tuple[str, ...], free: Any, limits: dict[Any, float], word: str
 ) -> None:
     with pytest.raises(QuestionError, match=word):
-        find_tooth_sizes(pair(48, 96), aims, free, limits)  # type: ignore[arg-type]
-
-
-def test_teeth_that_friction_locks_are_no_answer() -> None:
-    with pytest.raises(QuestionError, match="no design in the ranges turns"):
-        find_tooth_sizes(pair(48, 96, friction=9.0), free={"radii": (0.97, 0.98)})
-
-
-def test_a_limit_is_of_a_figure_that_there_is() -> None:
-    with pytest.raises(QuestionError, match="loss"):
-        SizeLimit("los", 0.01)
-
-
-def test_without_friction_there_is_no_loss_to_be_minimum() -> None:
-    with pytest.raises(QuestionError, match="without friction"):
-        find_tooth_sizes(pair(48, 96, friction=0.0))
+        find_tooth_sizes(pair(48, 96, friction=friction), aims, free, [SizeLimit(*each) for each in limits.items()])
 
 
 def test_outlines_and_transmission_agree_on_wheels_of_two_half_angles() -> None:

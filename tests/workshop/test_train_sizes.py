@@ -152,24 +152,16 @@ def test_the_published_train_with_both_means(radii: str, at_load: float, at_driv
     """From crank to link 19; with the mean at constant driver torque declared as the efficiency of every pair."""
     train = pennestri(radii=radii)
     assert float(train.driven("19", "2").efficiency or 0) == pytest.approx(at_load, abs=5e-5)
-    gears = [
-        {
-            "id": mesh.name,
-            "pair": mesh.gear.pair,
-            "efficiency": dict(zip(("forward", "backward"), _means(mesh), strict=True)),
-        }
-        for mesh in train.meshes
-    ]
+    gears = []
+    for mesh in train.meshes:
+        forward, backward = (repr(mesh.efficiency(wheel).mean) for wheel in mesh.gear.pair)
+        efficiency = {"forward": forward, "backward": backward}
+        gears.append({"id": mesh.name, "pair": mesh.gear.pair, "efficiency": efficiency})
     declared = GearTrain.declare({"extends": "pennestri-2002-teeth", "gears": gears})
     found = declared.driven("19", "2")
     assert float(found.efficiency or 0) == pytest.approx(at_driver, abs=5e-5)
     (loop,) = find_power_flow(found).loops
     assert float(loop.of_power_in) == pytest.approx(circulating, abs=5e-5)
-
-
-def _means(mesh: Any) -> tuple[str, str]:
-    first, second = (repr(mesh.efficiency(wheel).mean) for wheel in mesh.gear.pair)
-    return first, second
 
 
 @pytest.mark.long

@@ -1,4 +1,4 @@
-"""Three causes of the error of a pointer: theory of its pins, ripple of teeth, and backlash when the crank turns back.
+"""Three causes of the error of a pointer: theory of its pins, ripple of teeth, and lost motion.
 
 The ripple is the motion with real teeth minus the motion of the same pins with ideal teeth, at the same positions
 (docs/motion.md, 3), because the anomaly that pins are meant to give is not an error of teeth. Lost motion is the lag of
@@ -223,7 +223,7 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Orbit of a body, for comparison with the anomaly of a pointer."""
+    """Orbit of a body, with which the anomaly of a pointer is compared."""
 
     eccentricity: float
     """Present eccentricity of the orbit."""

@@ -261,5 +261,5 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def not_declared(self) -> Mapping[str, int]:
-        """Cause -> number of pointers for which the size of the cause is unknown."""
+        """Mapping from cause to the number of pointers for which its size is unknown."""
         return {cause: sum(each[cause].degrees is None for each in self.pointers) for cause in CAUSES}

@@ -60,7 +60,7 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
 @dataclass(frozen=True)
 class BudgetQuestion:
-    """Options of an error budget: outputs, time span, run of the input, and trials with cutting errors.
+    """Options of an error budget: outputs, time span, positions of the input, and trials with cutting errors.
 
     Examples
     --------
@@ -71,7 +71,7 @@ class BudgetQuestion:
     outputs: tuple[str, ...] = ()
     """Names of outputs; by default all outputs with a target or a dial, or all outputs if none has one."""
     without: tuple[str, ...] = ()
-    """Names of pairs to ignore; real teeth in every pair could overconstrain a loop."""
+    """Names of pairs to omit, so that the teeth of the remaining pairs do not form a closed loop."""
     span_days: float = SAROS
     """Time span over which drifts are evaluated [d], above 0 and below 1e9; by default one Saros."""
     turns: float = 20.0
@@ -224,7 +224,7 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """Return the theory errors of each pointer's link and of its reference link, each against its body, by pointer."""
+    """Return by pointer the theory errors of its link and of its reference link, each relative to its body."""
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
@@ -259,7 +259,7 @@ YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
 
 
 def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
-    """Return the drift of an output against each of its targets, observed periods first.
+    """Return the drift of an output relative to each of its targets, observed periods first.
 
     unit_days   the train's unit of time [d], None if its unit is not a time
     """

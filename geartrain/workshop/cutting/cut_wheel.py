@@ -41,8 +41,8 @@ _CONSTANTS = ("R1", "R2", "D", "delta", "sin1", "cos1", "sin2", "cos2", "entry",
 class CutWheel:
     """Triangular wheel with cutting errors: each tooth has its own pitch deviation, height and flank angles.
 
-    All arrays have shape (..., z) for z teeth, numbered as they pass while the wheel turns forward. Leading axes are
-    trials.
+    All arrays have shape (..., z) for z teeth, numbered as they pass while the wheel turns forward. Leading axes index
+    the trials.
     """
 
     radius: float
@@ -72,7 +72,7 @@ class CutWheel:
 
     @property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the leading axes; () for a single wheel."""
+        """Shape of the leading (trial) axes of the arrays; () for a single wheel."""
         return np.broadcast_shapes(*(each.shape[:-1] for each in (self.place, self.tip, self.leading, self.trailing)))
 
     @property
@@ -279,7 +279,7 @@ class CutGearPair:
 
     @cached_property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the trials; () for a single pair."""
+        """Shape of the leading (trial) axes of both wheels; () for a single pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     @property

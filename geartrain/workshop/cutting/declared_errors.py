@@ -116,8 +116,8 @@ def _setting(text: str) -> ErrorOverride:
     of, _, kind = key.strip().rpartition(".")
     if not sign or kind not in ERROR_KINDS:
         fix = f"write KIND=SIZE or NAME.KIND=SIZE; KIND is one of {', '.join(ERROR_KINDS)}"
-        why = "an error is set by its kind and its size, such as 'tip=3 %'"
-        raise QuestionError(Problem(f"'{text}' is not a valid setting of an error", why, fix))
+        why = "an error is specified by its kind and its size, such as 'tip=3 %'"
+        raise QuestionError(Problem(f"'{text}' is not a valid error specification", why, fix))
     # errors quoted without a distribution are usually standard deviations
     way: ErrorDistributionKind = "normal"
     for each in ("value", "normal", "uniform"):
@@ -128,7 +128,7 @@ def _setting(text: str) -> ErrorOverride:
         amount = Quantity.parse(said.strip(), unit, plain=True)
     except PydanticCustomError as error:
         fix = str((error.context or {}).get("fix", "give a size"))
-        raise QuestionError(Problem(f"'{text}' is not a valid setting of an error", error.message(), fix)) from None
+        raise QuestionError(Problem(f"'{text}' is not a valid error specification", error.message(), fix)) from None
     if way != "value" and amount.value < 0:
         what = f"the size in '{text}' is negative"
         why = "the standard deviation or half width of a distribution is 0 or more"
@@ -144,7 +144,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
         if each.of and each.of not in known:
             part = "wheel" if each.kind in OF_WHEELS else "pair"
             what = f"{part} '{each.of}' of the error '{each.kind}' is not in the trials"
-            why = f"'{each.kind}' can be set only for a {part} with triangular or conjugate teeth"
+            why = f"'{each.kind}' applies only to a {part} with triangular teeth or with a known path of contact"
             raise QuestionError(Problem(what, why, suggest(each.of, known)))
 
 

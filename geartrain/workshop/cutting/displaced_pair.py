@@ -75,7 +75,7 @@ class DisplacedWheel:
 
     @property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the leading axes; () for a single wheel."""
+        """Shape of the leading (trial) axes of the arrays; () for a single wheel."""
         shapes = (getattr(self, name).shape[:-1] for name in _OF_TEETH)
         return np.broadcast_shapes(*shapes, np.shape(self.e), np.shape(self.towards))
 
@@ -164,7 +164,7 @@ class DisplacedPair:
 
     @cached_property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the trials; () for a single pair."""
+        """Shape of the leading (trial) axes of both wheels; () for a single pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
@@ -207,18 +207,18 @@ class DisplacedPair:
                 yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag beyond the ends of the path of contact, where tips touch [rad]; tips may be raised."""
+        """Return the lag where tips touch beyond the path of contact [rad]; `tip1`, `tip2` are height errors."""
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """Return one column of the contact interpolated linearly at x [rad]; it is constant beyond the ends."""
+        """Return a quantity tabulated along the path of contact at x [rad], interpolated; constant beyond its ends."""
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all columns of the contact at x [rad], interpolated linearly and constant beyond the ends.
+        """Return all quantities tabulated along the path of contact, each at x [rad] as by `_along`.
 
         Order: across, along and tilt of both wheels, normal, even, apart.
         """
@@ -257,7 +257,7 @@ class DisplacedPair:
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
-        """Return the term of an eccentric wheel after each number of pitches [rad of the driven wheel]."""
+        """Return the term of an eccentric wheel for each number n of pitches passed [rad of the driven wheel]."""
         if not np.any(wheel.e):
             return 0.0
         angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + stands

@@ -249,7 +249,8 @@ def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) 
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
     the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
-    next sheet. The longer side of a part is along the width of the sheet if it fits that way, else along its height.
+    next sheet. The longer side of a part is along the width of the sheet if it fits in this orientation, else along
+    its height.
 
     gap   minimum distance between parts, and from the edge [mm]
 

@@ -122,7 +122,7 @@ def run(
     from geartrain.scene import SolidModel
 
     if (to is None) == (out is None):
-        what = "the output is missing" if to is None else "--to and -o are both given"
+        what = "no output file or folder is given" if to is None else "--to and -o are both given"
         why = "an export writes either a folder of files or a single file"
         raise GearTrainError(Problem(what, why, "give --to FOLDER for all files, or -o FILE for one", "export"))
     of_time = {"--rate": rate, "--restitution": restitution, "--time-step": step, "--without": without or None}

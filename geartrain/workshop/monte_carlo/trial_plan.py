@@ -386,8 +386,8 @@ def find_trial_plan(
     Parameters
     ----------
     train : GearTrain
-        Train with triangular or conjugate teeth. It must declare `cutting` or `fitting` errors unless `settings`
-        contains errors.
+        Train in which some pairs have triangular teeth or teeth with a known path of contact. It must declare
+        `cutting` or `fitting` errors unless `settings` contains errors.
     settings : sequence of ErrorOverride
         Errors that replace the declared errors; `read_error_overrides` parses them from strings.
     outputs : sequence of str
@@ -395,7 +395,7 @@ def find_trial_plan(
     state : str, optional
         Name of a declared state. Required if the train declares states.
     without : sequence of str
-        Names of pairs to ignore; real teeth in every pair could overconstrain a loop.
+        Names of pairs to omit, so that the teeth of the remaining pairs do not form a closed loop.
 
     Returns
     -------
@@ -405,7 +405,7 @@ def find_trial_plan(
     Raises
     ------
     QuestionError
-        If the train has no triangular or conjugate teeth, or if no errors are given.
+        If the train has no such pair, or if no errors are given.
     RangeError
         If errors are larger than a tooth.
     GearTrainError

@@ -310,9 +310,9 @@ class FilingStatistics(Result):
     filed: ProbabilityEstimate
     """Probability of a jam before filing."""
     strokes: IntervalEstimate
-    """Mean number of strokes over all trials."""
+    """Mean number of file strokes per trial."""
     teeth: IntervalEstimate
-    """Mean number of teeth filed over all trials."""
+    """Mean number of filed teeth per trial."""
     most: int
     """Maximum number of strokes in one trial."""
     jams: ProbabilityEstimate
@@ -466,7 +466,7 @@ class PointerErrorCourse(Result):
 
     @property
     def count(self) -> int:
-        """Number of trials for which the course was computed."""
+        """Number of trials whose errors were computed."""
         return len(self.errors)
 
     @property

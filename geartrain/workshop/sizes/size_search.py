@@ -249,7 +249,7 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
             return _bisect_to_limit(search, aim, limit, at, probability, refused)
         refused.append(at)
     what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
-    why = "the cutting errors are too large for such teeth"
+    why = "the cutting errors are too large for the clearances of these designs"
     raise QuestionError(
         Problem(what, why, "raise the limit, such as --within stops=10%, or give smaller errors (--cutting)")
     )

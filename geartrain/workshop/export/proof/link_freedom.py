@@ -175,7 +175,7 @@ class _Motion:
 
     @cached_property
     def _fixed_equations(self) -> Floats:
-        """Rows of coefficients of equations of the case: fixed links and links locked together, without the inputs."""
+        """Coefficients of the equations of fixed links (without the inputs) and of links locked together, in rows."""
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame

@@ -209,7 +209,7 @@ def _findings(
     if proof.clearance < _CLEARANCE * module - TOLERANCE:
         what = f"{pair}: the clearance between tips and roots is {proof.clearance:.3g} mm"
         why = "if the clearance is too small, tips touch roots, or dirt jams the pair"
-        fix = f"deepen the roots, to leave {_CLEARANCE * module:.3g} mm"
+        fix = f"deepen the roots, to leave a clearance of {_CLEARANCE * module:.3g} mm"
         yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, why, fix))
     ratio = proof.contact_ratio
     if ratio is not None and ratio < _EASY_RATIO:

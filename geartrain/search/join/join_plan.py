@@ -17,7 +17,7 @@ from math import inf, isinf, log, prod
 import numpy as np
 
 from geartrain.numerics.arrays import Floats, Ints
-from geartrain.numerics.bounded_polynomials import BoundedQuotient, products_of
+from geartrain.numerics.bounded_polynomials import bounded_quotient, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
@@ -318,8 +318,8 @@ class SelectivitySample:
 
     def speeds(self, function: Function) -> Floats:
         """Return the finite values of a function over the sample."""
-        quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
-        values, _ = quotient(products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels]))
+        product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
+        values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)
         return np.asarray(values[np.isfinite(values)])
 

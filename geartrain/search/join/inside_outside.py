@@ -90,7 +90,7 @@ class _Recorder:
         misfit = self._misfit(node, grown)
         children: list[tuple[RecordedNode, Ints]] = []
         for child in node.children:
-            distinct, which = self.join.seen(child, grown)
+            distinct, which = grown.distinct(child.interface)
             below = self.record(child, distinct)
             onward = np.arange(grown.size) if which is None else which
             # transitions to rows without a complete assignment are removed

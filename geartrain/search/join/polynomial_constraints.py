@@ -10,7 +10,7 @@ Each term has its own extremes, whose sum bounds the polynomial.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
@@ -210,15 +210,6 @@ class PolynomialConstraint:
     @property
     def _inequalities(self) -> Iterable[PolynomialInequality]:
         return (inequality for case in self.cases for inequality in case)
-
-    def steps(self, item: int) -> Iterator[int]:
-        """Yield the powers of a variable in all terms, relative to the first term of each polynomial."""
-        sums = [inequality.polynomial.terms for inequality in self._inequalities]
-        if self.function is not None:
-            sums.append(self.function[0].terms + self.function[1].terms)
-        for terms in sums:
-            powers = [dict(monomial).get(item, 0) for _, monomial in terms]
-            yield from (power - powers[0] for power in powers)
 
     def opens(self, item: int) -> bool:
         """Return whether windows can be computed in a variable, which requires at most two powers of it in each

@@ -1,7 +1,7 @@
 """Random sample of combinations of tooth counts: speeds of outputs, likelihoods, and their sums.
 
-The train is solved once, as formulas; each combination then costs a few multiplications per output. Sums are plain data
-that can be added, for tasks of any size and in any order.
+The speeds are formulas in the tooth counts, so that a combination costs a few multiplications per output. Sums over
+parts of the sample are plain data and can be added in any order.
 """
 
 from __future__ import annotations

@@ -65,12 +65,6 @@ class PlanNode:
         for child in self.children:
             yield from child.decided()
 
-    def below(self) -> Iterator[int]:
-        """Yield the variables of this node and its subtree."""
-        yield self.item
-        for child in self.children:
-            yield from child.below()
-
 
 @dataclass(frozen=True)
 class JoinProblem:
@@ -219,8 +213,8 @@ class _Planner:
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3))
             children.append(child)
             cost += more
-        # small subtrees first, because they may reject rows early
-        children.sort(key=lambda child: len(list(child.below())))
+        # subtrees with few constraints first, because they are cheap and may reject rows early
+        children.sort(key=lambda child: len(child.reach))
         prunes = [at for at in active if len(self.scopes[at] & open_) > 1 and at >= len(self.rules)]
         node = PlanNode(
             item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children), tuple(sorted(active))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import sin
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -193,7 +194,6 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 def _sphere_radius(configuration: Configuration, text: str) -> float:
     """Return the radius of the sphere, given directly or by the pitch radius of one kind of gear."""
     from geartrain.spherical.gear_sizes import size_gears
-    from geartrain.spherical.pitch_cones import sphere_radius
 
     kind, wheel, number = text.rpartition("=")
     value = decimal("--radius", number, "radius", "1.25", low=1e-30)
@@ -204,4 +204,5 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
         raise option_error("--radius", f"'{kind}' is not a kind of gear", f"use {kinds}")
     # a pitch radius determines the sphere through the pitch cone angle of its kind
     cones = size_gears(configuration).outer
-    return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
+    # the pitch circle of half-angle rho has the radius R sin rho
+    return value / sin(float(cones[configuration.kinds.index(kind)]))

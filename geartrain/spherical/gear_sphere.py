@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import degrees, pi
+from math import degrees, pi, sin
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
@@ -14,7 +14,6 @@ from geartrain.numerics.results import Key, Result
 from geartrain.spherical.assembly import spherical_divisibility_rule, spherical_phasing
 from geartrain.spherical.configuration import Configuration, kinds_in_order, mesh_kinds, to_train
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
-from geartrain.spherical.pitch_cones import wheel_radius
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
@@ -182,7 +181,7 @@ class GearSphere(Result):
         """Mapping from kind to pitch radius, in the unit of the sphere's radius; all values are None if a tooth number
         is missing.
         """
-        return {kind: None if cone is None else wheel_radius(self.radius, cone) for kind, cone in self.cones.items()}
+        return {kind: None if cone is None else self.radius * sin(cone) for kind, cone in self.cones.items()}
 
     @property
     def angles(self) -> Mapping[str, float]:

@@ -64,20 +64,6 @@ def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
     return np.asarray(np.where(share <= 1, np.arccos(np.minimum(share, 1)), np.nan), dtype=float)
 
 
-def sphere_radius(wheel: float, rho: float) -> float:
-    """Return the radius of a sphere on which a pitch circle of half-angle rho has the radius `wheel`, in the same
-    unit: R = r / sin rho.
-    """
-    return wheel / sin(rho)
-
-
-def wheel_radius(sphere: float, rho: float) -> float:
-    """Return the radius of the pitch circle of half-angle rho on a sphere of radius `sphere`, in the same unit: r = R
-    sin rho.
-    """
-    return sphere * sin(rho)
-
-
 def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
     """Return the virtual tooth number of the spur gear on the back cone (Tredgold), z / cos rho, which determines
     undercut.

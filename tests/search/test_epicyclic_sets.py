@@ -325,14 +325,6 @@ def steps_differ(counts: Mapping[str, int]) -> bool:
     return "p2" not in counts or counts["p1"] != counts["p2"]
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("stepped")] + ["wolfrom", "3k-two-suns"])
-def test_steps_of_a_planet_are_of_two_sizes(name: str) -> None:
-    """Equal ones make the plain planet of another kind, or wheels that do the same."""
-    for wanted in (F(1), F(4)):
-        for found in find_sets(wanted, name, "all", range(12, 41), best=500, spaced=False).solutions:
-            assert steps_differ(found.teeth)
-
-
 def test_one_planet_between_two_rings_of_different_counts_is_found_with_slack() -> None:
     """Ferguson's: equal steps, rings of 60 and 62 teeth cut to one distance; i = (1 + r1/s)/(1 - r1/r2) = 124."""
     found = find_sets(

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 from geartrain import GearTrainError
 from geartrain.spherical import (
     Configuration,
+    SphereSizing,
     from_polyhedron,
     one_pitch,
     ratio_windows,
@@ -25,18 +26,6 @@ from geartrain.spherical import (
     suggest_tooth_counts,
 )
 from geartrain.spherical.assembly import loop_rules, residue
-from geartrain.spherical.configuration import mesh_kinds
-from geartrain.spherical.pitch_cones import (
-    base_pitch,
-    operating_pitch,
-    pitch_cone,
-    pressure_angle,
-    separations,
-    sphere_radius,
-    undercut_limit,
-    virtual_teeth,
-    wheel_radius,
-)
 
 Floats = NDArray[np.float64]
 S53 = atan(3 - sqrt(5))
@@ -77,21 +66,28 @@ def tip_gap(teeth: tuple[int, int], kind: str) -> float:
 # one pair ------------------------------------------------------------------------------------------------------------
 
 
+def pair_of(S: float, z_1: int, z_2: int) -> SphereSizing:
+    """Sizes of two gears whose axes are an angle S [rad] apart."""
+    axes = np.array([[0, 0, 1.0], [sin(S), 0, cos(S)]])
+    return size_gears(Configuration(("a", "b"), axes, ((0, 1),), ("a", "b"), (0, 0), {"a": z_1, "b": z_2}))
+
+
 @given(ratios)
 def test_the_two_cones_touch_and_roll_with_one_pitch(pair: tuple[float, int, int]) -> None:
     S, z_i, z_j = pair
     assume(cos(S) + min(z_i, z_j) / max(z_i, z_j) > 0.05)  # both convex
-    rho_i, rho_j = float(pitch_cone(S, z_i, z_j)), float(pitch_cone(S, z_j, z_i))
-    pitch = float(operating_pitch(S, z_i, z_j))
+    sizing = pair_of(*pair)
+    (rho_i, rho_j), pitch = sizing.cones[0], sizing.pitch
     assert rho_i + rho_j == pytest.approx(S, abs=1e-14)
     assert sin(rho_i) / z_i == pytest.approx(pitch, rel=1e-13)
     assert sin(rho_j) / z_j == pytest.approx(pitch, rel=1e-13)
 
 
 def test_a_crown_gear_and_an_internal_gear_follow_the_same_formula() -> None:
-    assert degrees(pitch_cone(radians(120), 40, 20)) == pytest.approx(90)
-    assert pitch_cone(radians(150), 40, 20) > pi / 2
-    assert virtual_teeth(40, pi / 2) == inf
+    crown = pair_of(radians(120), 40, 20)
+    assert degrees(crown.cones[0, 0]) == pytest.approx(90)
+    assert crown.virtual[0] == inf
+    assert pair_of(radians(150), 40, 20).cones[0, 0] > pi / 2
 
 
 @given(ratios)
@@ -99,22 +95,22 @@ def test_the_pressure_angle_is_that_between_the_line_of_action_and_the_pitch_cir
     pair: tuple[float, int, int],
 ) -> None:
     S, z_1, z_2 = pair
-    pitch = float(operating_pitch(S, z_1, z_2))
-    assume(max(z_1, z_2) * pitch < 0.999)
+    sizing = pair_of(*pair)
+    assume(max(z_1, z_2) * sizing.pitch < 0.999)
     assume(cos(S) + min(z_1, z_2) / max(z_1, z_2) > 0.05)
-    c = 0.93 * pitch
+    c = sizing.base
     n_1, n_2 = np.array([0, 0, 1.0]), np.array([sin(S), 0, cos(S)])
     q = line_of_action(n_1, n_2, np.arcsin(c * z_1), np.arcsin(c * z_2))
-    rho = float(pitch_cone(S, z_1, z_2))
+    rho = sizing.cones[0, 0]
     P = np.array([sin(rho), 0, cos(rho)])
     assert float(q @ P) == pytest.approx(0, abs=1e-9)  # the line of action passes the pitch point
     along, tangent = np.cross(q, P), np.array([0, 1.0, 0])
-    assert acos(min(abs(float(along @ tangent)), 1)) == pytest.approx(float(pressure_angle(c, pitch)), abs=1e-7)
+    assert acos(min(abs(float(along @ tangent)), 1)) == pytest.approx(sizing.pressure[0], abs=1e-7)
 
 
 def test_two_pitches_have_cosines_about_that_of_the_mean() -> None:
-    pitches = np.array([0.0202318890229, 0.0201199562937])
-    alpha = pressure_angle(base_pitch(pitches), pitches)
+    alpha = np.unique(size_gears(from_polyhedron("5-4-3", teeth={"5": 15, "4": 12, "3": 6})).pressure.round(12))
+    assert len(alpha) == 2
     assert np.prod(np.cos(alpha)) == pytest.approx(cos(radians(20)) ** 2)
 
 
@@ -124,11 +120,9 @@ def test_two_pitches_have_cosines_about_that_of_the_mean() -> None:
 def test_the_icosidodecahedron_has_the_printed_sizes() -> None:
     sizing = size_gears(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
     assert sizing.exact
-    assert degrees(mesh_kinds(sizing.configuration)[0].angle) == pytest.approx(37.3773681406497, abs=5e-14)
+    assert degrees(sizing.configuration.angle(*sizing.configuration.meshes[0])) == pytest.approx(37.3773681406497)
     assert np.degrees(sizing.cones[0]) == pytest.approx([23.5224184477318, 13.8549496929179], abs=5e-13)
     assert sizing.module == pytest.approx(0.039910786, abs=5e-10)
-    assert sphere_radius(1.25, sizing.cones[0, 0]) == pytest.approx(3.13198541004301, abs=5e-14)
-    assert wheel_radius(3.13198541004301, sizing.cones[0, 0]) == pytest.approx(1.25, abs=1e-14)
     assert sqrt(34 + 30 * cos(S53)) / (4 * sin(S53)) == pytest.approx(3.13198541004301, abs=5e-14)
 
 
@@ -177,7 +171,6 @@ def test_a_collision_says_who_and_by_how_many_modules() -> None:
 def test_few_teeth_are_undercut() -> None:
     few = size_gears(from_polyhedron("icosidodecahedron", teeth={"5": 10, "3": 6})).undercut
     assert few == pytest.approx({"5": 10.9, "3": 6.2}, abs=0.05)
-    assert undercut_limit(radians(20)) == pytest.approx(17.097, abs=5e-4)
     assert size_gears(from_polyhedron("icosidodecahedron", teeth={"5": 30, "3": 18})).undercut == {}
 
 
@@ -385,9 +378,8 @@ def test_equal_spacing_gives_exact_rules(solid: str, rule: dict[str, Fraction]) 
 def worst_tangency(configuration: Configuration) -> float:
     """Largest | angle between axes - asin(l z_i) - asin(l z_j) | over the meshes, in space."""
     sizing = size_gears(configuration)
-    apart = separations(configuration.axes)
     cones = np.arcsin(sizing.pitch * sizing.teeth)
-    return float(max(abs(apart[i, j] - cones[i] - cones[j]) for i, j in configuration.meshes))
+    return float(max(abs(configuration.angle(i, j) - cones[i] - cones[j]) for i, j in configuration.meshes))
 
 
 def worst_residue(configuration: Configuration) -> float:
@@ -417,7 +409,7 @@ def antiprism_latitude(n: int, cap: int, side: int) -> float:
     def gap(latitude: float) -> float:
         between = pi / 2 - latitude
         apart = acos(cos(latitude) ** 2 * cos(pi / n) - sin(latitude) ** 2)
-        return 2 * float(pitch_cone(between, side, cap)) - apart
+        return 2 * float(np.arctan2(sin(between), cos(between) + cap / side)) - apart
 
     return float(brentq(gap, 0.0, pi / 2 - 1e-9, xtol=1e-16, rtol=1e-15))
 

@@ -8,65 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
-from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
+from geartrain.search.join.product_lists import BLOCK, PartialAssignments, Tallies, find_item
 from geartrain.search.join.wheel_monomials import extent
 
-# Monomials through which some constraints depend on variables: assignments with equal values of all these monomials are
-# equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
-# are merged accordingly as soon as possible (bucket elimination, Dechter 1999).
-
-
-_LARGEST = 1 << 62  # products below this are exact in int64
-
-
-def find_item_monomials(
-    items: Sequence[int], constraints: Sequence[CountConstraint | PolynomialConstraint], lists: Sequence[Item]
-) -> Iterator[ItemMonomial]:
-    """Yield monomials of the variables `items` that determine the constraints, as few as possible, each exact in
-    int64.
-
-    Variables that no constraint depends on are in no monomial. Variables are combined if their powers, relative to the
-    first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of constraints
-    on counts are not combined.
-
-    items   assigned variables of the constraints
-    lists   all variables
-    """
-    alone = {
-        item
-        for rule in constraints
-        if not isinstance(rule, PolynomialConstraint)
-        for item in items
-        if any(wheel in rule.wheels for wheel, _ in lists[item].wheels)
-    }
-    polynomials = [one for one in constraints if isinstance(one, PolynomialConstraint)]
-    yield from (((item, 1),) for item in items if item in alone)
-    steps = ((item, [step for one in polynomials for step in one.steps(item)]) for item in items if item not in alone)
-    for group in proportional_classes(steps).values():
-        yield from _cut(tuple(group.items()), lists)
-
-
-def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:
-    # greedy: combine factors as long as numerator and denominator stay below 2^62
-    held: list[tuple[int, int]] = []
-    largest = [1, 1]
-    for item, power in group:
-        size = int(lists[item].values[-1]) ** abs(power)
-        sizes = [size, 1] if power > 0 else [1, size]
-        grown = [one * size for one, size in zip(largest, sizes, strict=True)]
-        if held and max(grown) >= _LARGEST:
-            yield tuple(held)
-            held, grown = [], sizes
-        held.append((item, power))
-        largest = grown
-    if held:
-        yield tuple(held)
+# Assignments with equal values of all variables that later constraints depend on are equivalent: once x and y are
+# assigned, an output that depends only on x cannot distinguish them by y. Rows are merged accordingly as soon as
+# possible (bucket elimination, Dechter 1999).
 
 
 Slices = Mapping[int, tuple[int, int]]
@@ -100,7 +52,6 @@ class ExactJoin:
             *question.polynomial_constraints,
         ]
         self.wheel_of = {recipe[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe) == 1}
-        self._views: dict[int, tuple[ItemMonomial, ...]] = {}
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
@@ -172,15 +123,6 @@ class ExactJoin:
                 columns = {wheel: known[grown] for wheel, known in columns.items()}
                 columns |= {wheel: counts[at] for wheel, counts in more.items()}
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
-
-    def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
-        """Return the rows that the constraints of a node and its subtree can distinguish, and the index of each
-        original row among them; None if the rows are unchanged.
-        """
-        if id(node) not in self._views:
-            reached = [self.constraints[number] for number in node.reach]
-            self._views[id(node)] = tuple(find_item_monomials(node.interface, reached, self.items))
-        return rows.distinct(node.interface, self._views[id(node)])
 
     def spend(self, steps: int) -> None:
         """Add to the number of steps. Raise `BudgetSpentError` beyond the budget."""
@@ -302,7 +244,7 @@ class ExactJoin:
         later = self.full(node) // self._total(node.item)
         for child in node.children:
             later //= self.full(child)
-            distinct, which = self.seen(child, grown.pick(alive))
+            distinct, which = grown.pick(alive).distinct(child.interface)
             found, gone = self.count(child, distinct)
             for number, numbers in gone.items():
                 spread_out = numbers if which is None else numbers[which]
@@ -315,7 +257,7 @@ class ExactJoin:
     def _with_solutions(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
         """Return the rows that have at least one assignment in the subtree of every child."""
         for child in node.children:
-            distinct, which = self.seen(child, grown)
+            distinct, which = grown.distinct(child.interface)
             found, _ = self.count(child, distinct)
             grown = grown.pick((found if which is None else found[which]) > 0)
         return grown

@@ -36,10 +36,13 @@ CountWeights = Mapping[str, Tallies]
 """Weights of the tooth counts of each wheel, arrays of one dtype."""
 
 
-def _ways(last: ProductStep, row: int) -> Iterator[dict[str, int]]:
+def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
     """Yield each assignment of tooth counts that produces a product, as the index of the count by wheel."""
+    if last is None:
+        yield {}
+        return
     for at in np.flatnonzero(last.children == row):
-        for before in _ways(last.before, int(last.parents[at])) if last.before is not None else ({},):
+        for before in _ways(last.before, int(last.parents[at])):
             yield before | {last.wheel: int(last.choices[at])}
 
 
@@ -87,7 +90,7 @@ class _Recorder:
         misfit = self._misfit(node, grown)
         children: list[tuple[RecordedNode, Ints]] = []
         for child in node.children:
-            distinct, which = self.join.seen(child, grown)
+            distinct, which = grown.distinct(child.interface)
             below = self.record(child, distinct)
             onward = np.arange(grown.size) if which is None else which
             # transitions to rows without a complete assignment are removed

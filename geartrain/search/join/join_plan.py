@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
 from math import inf, isinf, log, prod
 
 import numpy as np
@@ -65,12 +64,6 @@ class PlanNode:
         yield from self.checks
         for child in self.children:
             yield from child.decided()
-
-    def below(self) -> Iterator[int]:
-        """Yield the variables of this node and its subtree."""
-        yield self.item
-        for child in self.children:
-            yield from child.below()
 
 
 @dataclass(frozen=True)
@@ -130,7 +123,7 @@ def find_join_problem(
 ) -> JoinProblem:
     """Return the join with the minimum expected cost.
 
-    Choices of late constraints and orders of variables are compared.
+    Choices of late constraints are compared.
 
     probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
     weights         weights of `JoinProblem`
@@ -166,7 +159,7 @@ def _planned(
     recipes = find_recipes(find_wheel_monomials(tuple(domains), requested, alone), domains)
     polynomials = find_polynomial_constraints(requested, recipes, domains)
     planner = _Planner(domains, recipes, early, polynomials, probabilities)
-    node, steps = min((planner.plan(*way) for way in planner.ways()), key=lambda found: found[1])
+    node, steps = planner.plan()
     steps += sum(planner.sizes)
     steps += sum(forecast(recipe, domains)[1] / 4 for recipe in recipes)
     if late:
@@ -177,7 +170,7 @@ def _planned(
 
 @dataclass
 class _Planner:
-    """Generator of plans with their expected cost, the number of partial assignments."""
+    """Generator of a plan with its expected cost, the number of partial assignments."""
 
     domains: Domains
     recipes: Sequence[Factors]
@@ -195,23 +188,16 @@ class _Planner:
         self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
         self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
-    def ways(self) -> Iterator[tuple[int, bool]]:
-        """Yield pairs: constraint to complete first, and True if variables in many constraints precede variables with
-        few values.
-        """
-        order = sorted(range(len(self.scopes)), key=lambda one: (len(self.scopes[one]), one))
-        # six first constraints and two orders of variables are tried, so that planning takes milliseconds
-        yield from product(order[:6] or [-1], (True, False))
-
-    def plan(self, first: int, shared: bool) -> tuple[PlanNode, float]:
-        node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0, first, shared)
+    def plan(self) -> tuple[PlanNode, float]:
+        """Return the root of the plan, and its expected cost."""
+        node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
-        converged = tuple(at for at, scope in enumerate(self.scopes) if not scope)
-        return replace(node, checks=converged + node.checks, reach=converged + node.reach), cost
+        constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
+        return replace(node, checks=constant + node.checks, reach=constant + node.reach), cost
 
-    def _grow(self, open_: Items, known: Items, rows: float, first: int, shared: bool) -> tuple[PlanNode, float]:
+    def _grow(self, open_: Items, known: Items, rows: float) -> tuple[PlanNode, float]:
         active = [at for at, scope in enumerate(self.scopes) if scope & open_]
-        item = self._next(open_, active, first, shared)
+        item = self._next(open_, active)
         complete = [at for at in active if self.scopes[at] & open_ == {item}]
         guide = self._guide(item, complete)
         checks = [at for at in complete if at != guide]
@@ -224,11 +210,11 @@ class _Planner:
         children, cost = [], rows + (examined if rest or checks or guide < 0 else 0)
         for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
             # a lower limit of the expected rows, because rough estimates would make later nodes appear free
-            child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
+            child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3))
             children.append(child)
             cost += more
-        # small subtrees first, because they may reject rows early
-        children.sort(key=lambda child: len(list(child.below())))
+        # subtrees with few constraints first, because they are cheap and may reject rows early
+        children.sort(key=lambda child: len(child.reach))
         prunes = [at for at in active if len(self.scopes[at] & open_) > 1 and at >= len(self.rules)]
         node = PlanNode(
             item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children), tuple(sorted(active))
@@ -239,9 +225,9 @@ class _Planner:
         """Return the expected fraction of the values of a variable that its guide constraint selects."""
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
-    def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """Select the next variable: a variable that an equation determines, otherwise a variable of the constraint
-        with the lowest cost.
+    def _next(self, open_: Items, active: Sequence[int]) -> int:
+        """Select the next variable: a variable that an equation determines, otherwise the variable in most constraints
+        among those of the constraint with the lowest cost.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -249,16 +235,17 @@ class _Planner:
                 return next(iter(left))
         if not active:
             return min(open_)
-        focus = first if first in active else min(active, key=lambda at: (self._growth(at, open_), at))
+
+        def growth(at: int) -> float:
+            return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
+
+        focus = min(active, key=lambda at: (growth(at), at))
 
         def rank(item: int) -> tuple[int, int, int]:
             touching = sum(item in self.scopes[at] for at in active)
-            return -touching if shared else 0, self.sizes[item], item
+            return -touching, self.sizes[item], item
 
         return min(self.scopes[focus] & open_, key=rank)
-
-    def _growth(self, at: int, open_: Items) -> float:
-        return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
         """Select the equation that determines the variable, otherwise the most selective constraint that has windows in

@@ -10,7 +10,7 @@ Each term has its own extremes, whose sum bounds the polynomial.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
@@ -26,8 +26,7 @@ from geartrain.search.join.product_lists import PartialAssignments
 
 # Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the
 # variables: N/D <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all
-# points. At the others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the
-# magnitude is certainly below 2^63; Python integers decide the rest.
+# points; Python integers decide the rest.
 
 
 Signs = NDArray[np.int8]
@@ -94,33 +93,19 @@ class SignPolynomial:
     def signs(self, rows: PartialAssignments) -> Signs:
         """Return the exact sign of the polynomial at each row, shape (rows,)."""
         value, size = self.values(rows)
-        bound = self.rounding * size
         found: Signs = np.sign(value).astype(np.int8)
-        doubtful = np.flatnonzero(np.abs(value) <= bound)
+        doubtful = np.flatnonzero(np.abs(value) <= self.rounding * size)
         if len(doubtful):
-            found[doubtful] = self._exactly(rows.pick(doubtful), bound[doubtful])
+            found[doubtful] = np.sign(self._whole(rows.pick(doubtful))).astype(np.int8)
         return found
 
-    def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
-        """Return the exact signs of values whose magnitude, relative to the scale, is at most twice `bounds`."""
-        minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
-        found: Signs = np.zeros(rows.size, dtype=np.int8)
-        # a factor of two below the range of int64, because the bound itself is rounded
-        short = minimum < 2.0**62
-        for some, wide in ((short, False), (~short, True)):
-            found[some] = np.sign(self._whole(rows.pick(some), wide)).astype(np.int8)
-        return found
-
-    def _whole(self, rows: PartialAssignments, wide: bool) -> NDArray[Any]:
-        """Return the values as Python integers if `wide`, otherwise modulo 2^64 as int64."""
-        dtype: Any = object if wide else np.int64
-        total = np.zeros(rows.size, dtype=dtype)
+    def _whole(self, rows: PartialAssignments) -> NDArray[Any]:
+        """Return the values as Python integers."""
+        total = np.zeros(rows.size, dtype=object)
         for coefficient, monomial in self.terms:
-            # int64 arrays wrap without a warning; the true magnitude is below 2^63, so the sign is correct
-            first = coefficient if wide else (coefficient + (1 << 63)) % (1 << 64) - (1 << 63)
-            term = np.full(rows.size, first, dtype=dtype)
+            term = np.full(rows.size, coefficient, dtype=object)
             for item, power in monomial:
-                term = term * rows.value(item).astype(dtype) ** power
+                term = term * rows.value(item).astype(object) ** power
             total = total + term
         return total
 
@@ -225,15 +210,6 @@ class PolynomialConstraint:
     @property
     def _inequalities(self) -> Iterable[PolynomialInequality]:
         return (inequality for case in self.cases for inequality in case)
-
-    def steps(self, item: int) -> Iterator[int]:
-        """Yield the powers of a variable in all terms, relative to the first term of each polynomial."""
-        sums = [inequality.polynomial.terms for inequality in self._inequalities]
-        if self.function is not None:
-            sums.append(self.function[0].terms + self.function[1].terms)
-        for terms in sums:
-            powers = [dict(monomial).get(item, 0) for _, monomial in terms]
-            yield from (power - powers[0] for power in powers)
 
     def opens(self, item: int) -> bool:
         """Return whether windows can be computed in a variable, which requires at most two powers of it in each

@@ -200,10 +200,6 @@ def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -
 # ----------------------------------------------------------- rows over some variables, each with the index of its value
 
 
-ItemMonomial = tuple[tuple[int, int], ...]
-"""Pairs (variable, power) with powers of either sign, never 0."""
-
-
 class PartialAssignments:
     """Partial assignments as rows, each with the index of the value of every assigned variable.
 
@@ -239,40 +235,22 @@ class PartialAssignments:
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
-    def distinct(self, items: Sequence[int], seen: Sequence[ItemMonomial]) -> tuple[PartialAssignments, Ints | None]:
+    def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
         """Return the distinct rows on some variables, and the index of each row among them; None if the rows are
         unchanged.
-
-        seen   monomials of these variables that constraints depend on; rows with equal values of all of them are merged
         """
-        if len(seen) == len(items) == len(self.columns):
+        if len(items) == len(self.columns):
             return self, None
         key, most = np.zeros(self.size, dtype=np.int64), 1
-        for code, codes in (pair for monomial in seen for pair in self._codes(monomial)):
-            if most * codes >= 1 << 62:  # renumber the codes before they overflow
+        for item in items:
+            values = len(self.items[item])
+            if most * values >= 1 << 62:  # renumber the keys before they overflow
                 _, key = np.unique(key, return_inverse=True)
                 most = self.size
-            key = key * codes + code  # mixed-radix number of the codes
-            most *= codes
+            key = key * values + self.columns[item]  # mixed-radix number of the indices
+            most *= values
         _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
-
-    def _codes(self, monomial: ItemMonomial) -> Iterator[tuple[Ints, int]]:
-        """Yield integer codes that distinguish the values of a monomial, each with an upper bound of the code."""
-        if len(monomial) == 1:
-            ((item, _),) = monomial
-            yield self.columns[item], len(self.items[item])
-            return
-        above, below = np.ones(self.size, dtype=np.int64), np.ones(self.size, dtype=np.int64)
-        for item, power in monomial:
-            side = above if power > 0 else below
-            for _ in range(abs(power)):
-                side *= self.value(item)
-        # in lowest terms, so that 2/4 and 3/6 are equal; exact if both sides are in int64
-        common = np.gcd(above, below)
-        for side in (above, below):
-            values, code = np.unique(side // common, return_inverse=True)
-            yield code, max(len(values), 1)
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
         """Yield ranges of rows whose `sizes` add up to about `BLOCK`. A larger row is a range by itself."""

@@ -2,7 +2,7 @@
 
 inference_problem    the problem: priors of wheels, observations of outputs, conditions for the train to turn
 inference            choice of the method: weighted join of `search.join`, or sampling; joint posteriors of pairs
-sampled_posterior    likelihood of sampled combinations in blocks: floats with error bounds, integers near the bounds
+sampled_posterior    likelihood of sampled combinations: floats with error bounds, Fractions where they do not decide
 posterior_summary    results common to both methods, and Sobol indices of the outputs
 posterior_result     the result
 """

@@ -1,7 +1,7 @@
 """Random sample of combinations of tooth counts: speeds of outputs, likelihoods, and their sums.
 
-The train is solved once, as formulas; each combination then costs a few multiplications per output. Sums are plain data
-that can be added, for tasks of any size and in any order.
+The speeds are formulas in the tooth counts, so that a combination costs a few multiplications per output. Sums over
+parts of the sample are plain data and can be added in any order.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class PosteriorTally:
         self.batch, self.most = batch, most
         self.examined = self.turning = 0
         self.weight = self.square = 0.0
-        self.by: list[Floats] = [np.zeros(len(batch.domains[wheel])) for wheel in batch.wheels]
+        self.by = [[0.0] * len(batch.domains[wheel]) for wheel in batch.wheels]
         self.sizes: Floats = np.zeros((len(batch.wheels), len(batch.wheels)))
         self.best: list[tuple[float, tuple[int, ...]]] = []
         self.ranked = True
@@ -132,7 +132,7 @@ class PosteriorTally:
         self.turning += other["turning"]
         self.weight += other["weight"]
         self.square += other["square"]
-        self.by = [own + np.array(more) for own, more in zip(self.by, other["by"], strict=True)]
+        self.by = [np.add(own, more).tolist() for own, more in zip(self.by, other["by"], strict=True)]
         self.sizes += np.array(other["sizes"]).reshape(self.sizes.shape)
         self.best = sorted([*self.best, *((misfit, tuple(at)) for misfit, at in other["best"])])
         self.best = self.best[: _with_ties([misfit for misfit, _ in self.best], self.most)]

@@ -1,7 +1,7 @@
 """Search of the denominator products, segment by segment, for the numerator products that match them.
 
-Segments are independent, and their problems and results are plain JSON data. The division into segments does not
-influence the result.
+Segments are independent, and their results are plain JSON data. The division into segments does not influence the
+result.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
         first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
     used = last > first
     if used.any():
-        # products within some window: number of windows opened minus number closed so far
+        # products within some window: number of windows that begin, minus number of windows that end, up to a product
         opened, closed = (np.bincount(ends, minlength=len(p) + 1) for ends in (first, last))
         q, beneaths = question.under.members(*beneath, q[used])
         p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])

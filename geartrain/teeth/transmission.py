@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from math import degrees, inf, nan
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
@@ -32,6 +32,15 @@ _ROUNDING = 1e-14  # of an integral: smaller differences between an interval and
 _DEEPEST, _DEEPEST_SLOW = 40, 2  # maximum number of bisections of an interval
 _END = 1e-9  # of an interval: at its ends the next tooth pair, or the other side of the pitch point, counts too
 _SAMPLES = 1001  # samples of an interval in the search for the minimum efficiency
+
+
+@cache
+def _gauss_nodes() -> tuple[Floats, Floats]:
+    """Return nodes on [-1, 1] and weights of the Gauss-Legendre quadrature of one interval."""
+    import numpy as np
+
+    x, w = np.polynomial.legendre.leggauss(_NODES)
+    return x, w
 
 
 def check_friction(friction: float) -> float:
@@ -253,7 +262,7 @@ class TransmissionFunction(Shown, ABC):
         """
         import numpy as np
 
-        x, w = np.polynomial.legendre.leggauss(_NODES)
+        x, w = _gauss_nodes()
 
         def nodes(low: Floats, high: Floats) -> Floats:
             found: Floats = ((low + high) / 2)[:, None] + ((high - low) / 2)[:, None] * x

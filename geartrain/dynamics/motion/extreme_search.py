@@ -24,6 +24,7 @@ MOST_KINKS = 400_000  # kinks of a run that are all searched, which takes about 
 _BESIDE = 1e-9  # of a narrow step: distance from the end of a piece at which its one-sided limit is taken
 _ULPS = 32  # units in the last place of the turns: minimum distance, so that rounding does not pass a kink
 _BEYOND = 0.1  # of the range in a piece: allowance for a maximum above the parabola through its ends and middle
+_STEEP = 4  # ratio of rise to bend in a piece, above which its values are taken to rise or fall throughout
 _SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
 _ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
 _BATCH = 512  # pieces in which maxima are located at once
@@ -118,11 +119,13 @@ def _signed(found: ErrorSamples) -> Floats:
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
     """Return a value that a smooth maximum hardly exceeds, from values at both ends and in the middle of its piece."""
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
-    bend = 2 * middle - first - last
+    bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
-    inner = np.abs(last - first) < 2 * bend
-    vertex = middle + np.divide((last - first) ** 2, 8 * bend, where=inner, out=np.zeros_like(bend))
-    found: Floats = np.where(inner, vertex, highest) + _BEYOND * (highest - lowest)
+    inner = rise < 2 * bend
+    vertex = middle + np.divide(rise**2, 8 * bend, where=inner, out=np.zeros_like(bend))
+    # values that clearly rise or fall have their maximum at an end, whose value is known
+    allowance = np.where(rise > _STEEP * np.abs(bend), 0.0, _BEYOND * (highest - lowest))
+    found: Floats = np.where(inner, vertex, highest) + allowance
     return found
 
 

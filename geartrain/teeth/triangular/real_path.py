@@ -165,10 +165,10 @@ class RealPath:
         minimum = inf
         for piece in self.pieces:
             first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
-            at = np.array([k for k in range(first, last + 1) if k != besides])
-            if len(at):
-                x = t + at * self.pitch
-                minimum = min(minimum, float(np.min(self.tooth_pair.angle(piece.phase, x, np) - self.ratio * x)))
+            for k in range(first, last + 1):
+                if k != besides:
+                    x = t + k * self.pitch
+                    minimum = min(minimum, self.tooth_pair.angle(piece.phase, x) - self.ratio * x)
         return minimum
 
     # ------------------------------------------------------------------------------------------------- the envelope

@@ -80,10 +80,7 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as a DXF R2010 string, with its title as a custom property.
-
-    Raise `MissingExtraError` if ezdxf is not installed.
-    """
+    """Return a drawing as a DXF R2010 string, its title as a property; raise `MissingExtraError` without ezdxf."""
     try:
         from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment
@@ -176,17 +173,15 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
         return to_dxf(wheel_drawing(wheel))
     if suffix == ".csv":
         return _csv(wheel)
-    what = f"an outline cannot be written as {suffix or 'a file without suffix'}"
-    raise GearTrainError(
-        Problem(what, "the suffix determines the format", f"use one of {', '.join(OUTLINES)}", "--profile")
+    what, fix = (
+        f"an outline cannot be written as {suffix or 'a file without suffix'}",
+        f"use one of {', '.join(OUTLINES)}",
     )
+    raise GearTrainError(Problem(what, "the suffix determines the format", fix, "--profile"))
 
 
 def _csv(wheel: WheelOutline) -> str:
-    """Return the points of the contours as CSV rows.
-
-    Each contour ends at its first point. Arcs are approximated by chords within the wheel's tolerance.
-    """
+    """Return the points of closed contours as CSV rows, with arcs as chords within the wheel's tolerance."""
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):
         points = contour.flattened(wheel.tolerance)

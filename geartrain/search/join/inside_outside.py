@@ -141,7 +141,7 @@ class AssignmentSums:
         return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
 
     def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
-        return WeightedAlternatives(self.root, lambda table: iter([self._alternatives(table, weights)]))
+        return WeightedAlternatives(self.root, lambda table: self._alternatives(table, weights))
 
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
         """Return the rows of a table as alternatives.

@@ -89,7 +89,7 @@ class RubbedTransmission(DerivedTransmission):
         return float(np.average(np.nanmean(each[:, touching], axis=0), weights=weights[touching]))
 
     @cached_property
-    def locks(self) -> bool:  # type: ignore[override]
+    def locks(self) -> bool:
         """True if friction locks the pair at some driver angle."""
         S, _ = self._nodes
         # NaN without contact is not due to friction

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise
 from math import degrees, inf, nan
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
@@ -139,7 +139,7 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
-    slow: ClassVar[bool] = False
+    slow: bool = False
     """True if each evaluation is slow; losses are then computed at few angles."""
 
     def _summary(self) -> str:

@@ -93,10 +93,10 @@ class TriangularContact:
         start, back = start - half, back + half
 
         def backlash(step: float) -> float:
-            return self.lag(ours, start + step) + self.path.g(theirs.phase, back - step)
+            return float(self.lag(ours, start + step)) + self.path.g(theirs.phase, back - step)
 
         def slope(step: float) -> float:
-            return self.speed(ours, start + step) - self.speed(theirs, back - step)
+            return float(self.speed(ours, start + step) - self.speed(theirs, back - step))
 
         ends = min(backlash(0.0), backlash(2 * half))
         if not slope(0.0) < 0 < slope(2 * half):

@@ -546,8 +546,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def rule(self) -> DivisibilityRule | None:
-        """Divisibility rule of the tooth counts; None if a residue is not exact, wheels are compound, or a loop has an odd
-        number of pairs.
+        """Divisibility rule of the tooth counts; None if a residue is not exact, wheels are compound, or a loop has an
+        odd number of pairs.
         """
         forms, kinds = [], self.alike()
         for loop in self.loops:

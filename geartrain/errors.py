@@ -108,9 +108,10 @@ MOST_REPORTED = 20
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
-    """Return up to `MOST_REPORTED` + 1 problems; if there are more, the last one gives the number of omitted problems.
+    """Return up to `MOST_REPORTED` + 1 problems; if there are more, the last one says so.
 
-    `count` is the total number if it is known. An iterator is consumed only until it is known that there are more.
+    `count` is the total number of problems, if it is known; the last problem then gives the number of omitted problems.
+    An iterator is consumed only until it is known that there are more.
     """
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)

@@ -231,6 +231,7 @@ class _Expansion:
             loads=self._loads(self.declared.loads),
             states=FrozenDict({name: state.changed(loads=self._loads(state.loads)) for name, state in states.items()}),
         )
+        parts: dict[str, Sequence[tuple[int, object]]]
         parts = {"revolutes": joints, "gears": gears, "couplings": couplings}
         indices = {key: [index for index, _ in copies] for key, copies in parts.items()}
         # messages about copies name the line of the declared part

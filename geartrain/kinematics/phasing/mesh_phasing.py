@@ -531,7 +531,8 @@ class MeshPhasing(Result):
     @cached_property
     def fits(self) -> bool | None:
         """True if all loops close, or the backlash of each pair absorbs its phase error in `errors`; False if a
-        backlash is too small. None if a loop is unclear, or the backlash of a pair with a phase error is unknown.
+        backlash is too small. None if no loop misses but one is unclear, or if the backlash of a pair with a phase
+        error is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True
@@ -545,7 +546,9 @@ class MeshPhasing(Result):
 
     @cached_property
     def rule(self) -> DivisibilityRule | None:
-        """Divisibility rule of the tooth counts; None if loops are not exact, or if wheels are compound."""
+        """Divisibility rule of the tooth counts; None if a residue is not exact, wheels are compound, or a loop has an
+        odd number of pairs.
+        """
         forms, kinds = [], self.alike()
         for loop in self.loops:
             form = _by_kind(loop.inside, kinds)

@@ -7,10 +7,6 @@ Trees that satisfy the rules get all possible tooth counts and then all possible
 A wheel is `(name, teeth)`; an added wheel has the name "". A node is `(name, driven, dials, drives)`: the name is ""
 for an added arbor, driven is `()` at the input, and drives is a sorted tuple of `(wheel, sorted tuple of nodes)`. The
 entry `DRIVEN` among the driving wheels denotes the driven wheel itself, where idlers are permitted.
-
-A coupling is an edge of the tree between two arbors, written as a mesh of two wheels `COUPLING` that preserves speed
-and sense. Whichever of the coupled arbors is driven, the others are below it. At the end, coupled arbors are merged:
-moving an added wheel or a pointer between them does not give another train.
 """
 
 from __future__ import annotations
@@ -39,9 +35,6 @@ Node = tuple  # (name, driven, dials, drives)
 ADDED = ""
 UNKNOWN = (ADDED, 0)
 DRIVEN = ("=", 0)
-COUPLING: Wheel = ("-", 1)
-Pairs = tuple[tuple[str, str], ...]
-"""Names of arbors that a coupling joins."""
 
 
 class Counts(NamedTuple):
@@ -60,57 +53,38 @@ class Found(NamedTuple):
     solutions: frozenset[Node]
 
 
-def explanations(problem: ReconstructionProblem, pairs: Pairs = ()) -> tuple[Found, ...]:
-    """Return all solutions with 0, 1, ... added wheels; coupled arbors have the name of the first of them in the
-    problem.
-    """
+def explanations(problem: ReconstructionProblem) -> tuple[Found, ...]:
+    """Return all solutions with 0, 1, ... added wheels."""
     return tuple(
         Found(
             Counts(added, len(found), len({bag(tree) for tree in found}), len({ratio_class(tree) for tree in found})),
             found,
         )
-        for added, found in enumerate(_by_added(problem, pairs))
+        for added, found in enumerate(_by_added(problem))
     )
 
 
-def _by_added(problem: ReconstructionProblem, pairs: Pairs) -> list[frozenset[Node]]:
-    names = [arbor.name for arbor in (problem.input, *problem.arbors)]
-    first = {name: min(group(name, pairs), key=names.index) for name in names}
+def _by_added(problem: ReconstructionProblem) -> list[frozenset[Node]]:
     found: list[set[Node]] = [set() for _ in range(problem.additions.wheels + 1)]
     counts = range(problem.additions.minimum, problem.additions.maximum + 1)
-    trees: set[Node] = {coupled(problem.input.name, (), pairs)}
+    trees: set[Node] = {(problem.input.name, (), (), ())}
     while trees:
         for tree in trees:
             if _keeps_rules(tree, problem):
                 for teeth in itertools.product(counts, repeat=added_wheels(tree)):
                     filled = _filled(tree, iter(teeth))
                     if _turns_in_rings(filled, problem):
-                        found[len(teeth)].update(_with_dials(filled, problem, first))
-        grown = {more for tree in trees for more in _grown(tree, problem, pairs)}
+                        found[len(teeth)].update(_with_dials(filled, problem))
+        grown = {more for tree in trees for more in _grown(tree, problem)}
         # a leaf needs a dial, so leaves are never more than dials
-        trees = {tree for tree in grown if len(_ends(_together(tree, first))) <= len(problem.dials)}
+        trees = {tree for tree in grown if len(_ends(tree)) <= len(problem.dials)}
     return [frozenset(solutions) for solutions in found]
-
-
-def group(name: str, pairs: Pairs) -> set[str]:
-    """Return an arbor and all arbors that couplings join to it."""
-    found = {name}
-    for _ in pairs:
-        found.update(*(pair for pair in pairs if found & set(pair)))
-    return found
-
-
-def coupled(name: str, driven: tuple, pairs: Pairs, by: str = "") -> Node:
-    """Return an arbor with the arbors coupled to it, except the arbor by which it is driven."""
-    others = [next(iter({*pair} - {name})) for pair in pairs if name in pair and by not in pair]
-    children = tuple(sorted(coupled(other, COUPLING, pairs, name) for other in others))
-    return name, driven, (), ((COUPLING, children),) if children else ()
 
 
 # growth
 
 
-def _grown(tree: Node, problem: ReconstructionProblem, pairs: Pairs) -> Iterator[Node]:
+def _grown(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
     """Yield the tree with one more mesh, in every way."""
     rules = problem.additions
     here = {node[0] for node in nodes(tree)}
@@ -118,9 +92,9 @@ def _grown(tree: Node, problem: ReconstructionProblem, pairs: Pairs) -> Iterator
     children: list[Node] = [(ADDED, UNKNOWN, (), ())]
     for arbor in problem.arbors:
         if arbor.name not in here:
-            children += [coupled(arbor.name, wheel, pairs) for wheel in _readings(arbor)]
-            if rules.on == "any" and not any(survivors[name].wheels for name in group(arbor.name, pairs)):
-                children.append(coupled(arbor.name, UNKNOWN, pairs))
+            children += [(arbor.name, wheel, (), ()) for wheel in _readings(arbor)]
+            if rules.on == "any" and not arbor.wheels:
+                children.append((arbor.name, UNKNOWN, (), ()))
     for grown in _with_child(tree, children, survivors, problem):
         arbors = sum(arbor[0] == ADDED for arbor in nodes(grown))
         if added_wheels(grown) <= rules.wheels and (rules.arbors is None or arbors <= rules.arbors):
@@ -130,18 +104,18 @@ def _grown(tree: Node, problem: ReconstructionProblem, pairs: Pairs) -> Iterator
 def _with_child(
     node: Node, children: list[Node], survivors: dict[str, SurvivingArbor], problem: ReconstructionProblem
 ) -> Iterator[Node]:
-    """Yield the arbor and its subtree with one more mesh; a coupling drives only the arbors that it joins."""
+    """Yield the arbor and its subtree with one more mesh."""
     name, driven, dials, drives = node
     for at, (wheel, driven_arbors) in enumerate(drives):
         rest = drives[:at] + drives[at + 1 :]
-        for child in children if wheel != COUPLING else ():
+        for child in children:
             yield name, driven, dials, _sorted(*rest, (wheel, _sorted(*driven_arbors, child)))
         for nth, arbor in enumerate(driven_arbors):
             others = driven_arbors[:nth] + driven_arbors[nth + 1 :]
             for grown in _with_child(arbor, children, survivors, problem):
                 yield name, driven, dials, _sorted(*rest, (wheel, _sorted(*others, grown)))
     for wheel in _new_drivers(node, survivors, problem):
-        for child in children if (wheel, driven) != (DRIVEN, COUPLING) else ():
+        for child in children:
             yield name, driven, dials, _sorted(*drives, (wheel, (child,)))
 
 
@@ -247,10 +221,10 @@ def _keeps_rules(tree: Node, problem: ReconstructionProblem) -> bool:
 # dials
 
 
-def _with_dials(tree: Node, problem: ReconstructionProblem, first: dict[str, str]) -> Iterator[Node]:
-    """Yield the tree with dials in every way, coupled arbors as one; every leaf has a dial."""
+def _with_dials(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
+    """Yield the tree with dials in every way; every leaf has a dial."""
     arbors = nodes(tree)
-    turning = speeds(tree, problem.input_speed, {COUPLING[0], *rings_of(problem)})
+    turning = speeds(tree, problem.input_speed, rings_of(problem))
     fitting = [
         [at for at, node in enumerate(arbors) if _at_place(node, dial) and _fits(turning[at], dial)]
         for dial in problem.dials
@@ -259,26 +233,13 @@ def _with_dials(tree: Node, problem: ReconstructionProblem, first: dict[str, str
         shown: dict[int, list[str]] = {}
         for dial, at in zip(problem.dials, places, strict=True):
             shown.setdefault(at, []).append(dial.name)
-        found = _together(_dialled(tree, shown, itertools.count()), first)
+        found = _dialled(tree, shown, itertools.count())
         if all(node[2] for node in _ends(found)):
             yield found
 
 
 def _ends(tree: Node) -> list[Node]:
     return [node for node in nodes(tree) if not node[3]]
-
-
-def _together(node: Node, first: dict[str, str]) -> Node:
-    name, driven, dials, drives = node
-    kept = []
-    for wheel, children in drives:
-        below = [_together(child, first) for child in children]
-        if wheel == COUPLING:
-            dials = _sorted(*dials, *(dial for child in below for dial in child[2]))
-            kept += [drive for child in below for drive in child[3]]
-        else:
-            kept.append((wheel, _sorted(*below)))
-    return first.get(name, name), driven, dials, _sorted(*kept)
 
 
 def _at_place(node: Node, dial: SearchedDial) -> bool:
@@ -557,30 +518,3 @@ def declared(problem: ReconstructionProblem) -> Train:
             "reconstruct": requested,
         }
     )
-
-
-def parted(problem: ReconstructionProblem, seed: int) -> tuple[ReconstructionProblem, Pairs]:
-    """Return the problem with some arbors divided into two or three coupled arbors, in any order; wheels are
-    distributed.
-
-    Evidence on axes is omitted, and so are meshes of wheels whose arbors are now coupled.
-    """
-    chance = random.Random(seed)
-    arbors: list[SurvivingArbor] = []
-    pairs: list[tuple[str, str]] = []
-    homes: dict[str, list[str]] = {}
-    for arbor in (problem.input, *problem.arbors):
-        names = [arbor.name]
-        if chance.random() < 0.7:
-            names += [f"{arbor.name}{end}" for end in "xy"[: chance.randint(1, 2)]]
-        homes[arbor.name] = names
-        wheels = {name: [] for name in names}
-        for wheel in arbor.wheels:
-            wheels[chance.choice(names)].append(wheel)
-        arbors += [SurvivingArbor(name, tuple(some)) for name, some in wheels.items()]
-        pairs += [(names[chance.randrange(at)], names[at]) for at in range(1, len(names))]
-    dials = tuple(
-        replace(dial, place=chance.choice(homes[dial.place])) if dial.place in homes else dial for dial in problem.dials
-    )
-    changed = replace(problem, input=arbors[0], arbors=tuple(arbors[1:]), dials=dials, coaxial=frozenset())
-    return changed, tuple(pairs)

@@ -74,6 +74,14 @@ def as_float(value: Fraction | float) -> float | None:
     return number
 
 
+def nearest_float(value: Fraction) -> float:
+    """Return the nearest float64; 0 or an infinity, with the sign of the value, beyond its range."""
+    number = as_float(value)
+    if number is not None:
+        return number
+    return math.copysign(0.0 if abs(value) < 1 else math.inf, -1 if value < 0 else 1)
+
+
 def decimal(value: Fraction, digits: int = 10) -> str:
     """Format a number of any size in decimal notation.
 

@@ -17,7 +17,7 @@ constraints    further conditions on tooth counts: assembly, planets, interferen
 target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
 stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
-weighted_alternatives   totals, marginals and random samples by the inside-outside algorithm; information in bits
+weighted_alternatives   totals and marginals by the inside-outside algorithm; information in bits
 integer_columns         ranges of integers as arrays
 teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share
 tooth_numbers_report    tooth counts as documents and tables

@@ -103,7 +103,7 @@ def test_all_four_trains_of_the_back_turn_both_pointers_as_the_dials_are_divided
 
 
 def test_the_page_shows_as_many_trains_as_other_programs_found() -> None:
-    said = dict(re.findall(r"^(back-train\S*): (\d+) trains explain it", PAGE, re.M))
+    said = dict(re.findall(r"^(back-train\S*): (\d+) trains explain the evidence", PAGE, re.M))
     assert said == {"back-train": "4", "back-train-exeligmos": "4", "back-train-moon": "12", "back-train-doubt": "22"}
     assert re.search(r"^3 +21 +7 +7$", PAGE, re.M)
     assert re.search(r"^without the sense of any dial +0 +0 +29 +29$", PAGE, re.M)

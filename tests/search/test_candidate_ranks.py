@@ -38,4 +38,4 @@ def test_a_page_shows_intervals_and_what_is_not_counted() -> None:
         for each in describe_reconstruction(ReconstructionAnswer("some", problem, counts, True, (), best)).sections
     }
     assert sections["Counts"].tables[0].rows[1] == ("1", "999999", "not counted", "not counted")
-    assert [row[0] for row in sections["The best"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]
+    assert [row[0] for row in sections["Most probable trains"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]

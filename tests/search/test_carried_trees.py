@@ -1,51 +1,35 @@
-"""Trains on a carrier are those that grow in the frame, and turn there as their dials say by the solver."""
+"""Evidence on a carrier is a problem seen from the carrier, and its trains turn as their dials say by the solver."""
 
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cache
 
 import pytest
-from carried_trees import Node, carried_trains, random_evidence
-from concrete_trees import concrete
+from carried_trees import problem_by_hand, random_evidence
 
 from geartrain import GearTrain
 from geartrain.search.reconstruct import candidate_train, evidence_question, find_reconstructions, read_evidence
 from geartrain.train import declare
 
 
-@cache
-def grown(seed: int, rings: bool = False) -> list[set[Node]]:
-    return carried_trains(random_evidence(seed, rings))
-
-
 @pytest.mark.parametrize("rings", [False, True])
-@pytest.mark.parametrize("seeds", [range(30), pytest.param(range(30, 200), marks=pytest.mark.slow)])
-def test_trains_are_those_that_grow_in_the_frame(seeds: range, rings: bool, subtests: pytest.Subtests) -> None:
-    for seed in seeds:
-        with subtests.test(seed=seed):
-            evidence = random_evidence(seed, rings)
-            expected = grown(seed, rings)
-            found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
-            assert [count.solutions for count in found.counts] == [len(trees) for trees in expected]
-            assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
-
-
-@pytest.mark.parametrize("rings", [False, True])
-def test_most_random_questions_have_answers(rings: bool) -> None:
-    answered = [any(grown(seed, rings)) for seed in range(30)]
-    assert sum(answered) > 15
+def test_the_problem_is_that_seen_from_the_carrier(rings: bool) -> None:
+    for seed in range(200):
+        data = random_evidence(seed, rings)
+        assert evidence_question(declare(data)).problem == problem_by_hand(data), seed
 
 
 @pytest.mark.parametrize("rings", [False, True])
 def test_candidates_turn_as_their_dials_say(rings: bool, subtests: pytest.Subtests) -> None:
     """The solver knows nothing of reconstructions: it finds carriers by itself and solves Willis' equations."""
+    answered = 0
     for seed in range(60):
         with subtests.test(seed=seed):
-            _turn_as_their_dials_say(seed, rings)
+            answered += _turn_as_their_dials_say(seed, rings)
+    assert answered > 30
 
 
-def _turn_as_their_dials_say(seed: int, rings: bool) -> None:
+def _turn_as_their_dials_say(seed: int, rings: bool) -> bool:
     data = random_evidence(seed, rings)
     evidence = declare(data)
     found = find_reconstructions(evidence_question(evidence).problem, listed=10)
@@ -57,6 +41,7 @@ def _turn_as_their_dials_say(seed: int, rings: bool) -> None:
         for name, output in data["outputs"].items():
             assert train.declaration.outputs[name].relative_to == output.get("relative_to")
             assert solved.outputs[name].speed == Fraction(output["expect"])
+    return bool(found.candidates)
 
 
 MARS = """\

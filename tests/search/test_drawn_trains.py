@@ -22,13 +22,13 @@ def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
         plain = random_problem(seed, idlers=True)
         problem = with_rings(plain, seed) if rings else plain
         grown = {tree for found in explanations(problem) for tree in found.solutions}
-        whole, dials = find_reconstructions(problem, listed=0), [dial.name for dial in problem.dials]
+        whole = find_reconstructions(problem, listed=0)
         everything: set[Node] = set()
         for each in whole.topologies[:20]:
             if each.solutions > 12:
                 continue
             one = replace(whole, topologies=(each,))
-            drawn = draw_candidates(one, problem, dials, DRAWS * each.solutions, seed)
+            drawn = draw_candidates(one, problem, DRAWS * each.solutions, seed)
             found = Counter(concrete(train.arbor) for train in drawn)
             assert len(found) == each.solutions
             assert set(found) <= grown
@@ -44,8 +44,8 @@ def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
 def test_trains_of_different_weights_are_drawn_by_them() -> None:
     problem = evidence_question(read_evidence("isfahan-without-pivot"), 3).problem
     found = find_reconstructions(problem, listed=10_000)
-    drawn = draw_candidates(found, problem, [dial.name for dial in problem.dials], DRAWS * 100, 2)
-    assert drawn == draw_candidates(found, problem, [dial.name for dial in problem.dials], DRAWS * 100, 2)
+    drawn = draw_candidates(found, problem, DRAWS * 100, 2)
+    assert drawn == draw_candidates(found, problem, DRAWS * 100, 2)
     listed = {one.arbor: one for one in found.candidates}
     assert sum(one.weight for one in listed.values()) == pytest.approx(1)
     assert all(listed[one.arbor] == one for one in drawn)

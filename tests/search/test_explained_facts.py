@@ -182,10 +182,8 @@ def sections_of(found: explained_facts.CandidateFindings) -> dict[str, Section]:
 
 def test_the_page_tells_what_is_shared_where_trains_differ_and_what_to_look_for() -> None:
     page = sections_of(FOUND)
-    assert list(page["What all of them share"].paragraphs) == [
-        "In all of them: the pointer of sun is on an added arbor."
-    ]
-    meshes, answers, needed = (list(table.rows) for table in page["Where they differ"].tables)
+    assert list(page["Facts common to all trains"].paragraphs) == ["Facts: the pointer of sun is on an added arbor."]
+    meshes, answers, needed = (list(table.rows) for table in page["Facts that differ"].tables)
     assert meshes[:4] == [
         ("a2 > c1", "75 %", "2"),
         ("c2 > new_sun1", "75 %", "2"),
@@ -216,10 +214,10 @@ def test_the_page_tells_what_is_shared_where_trains_differ_and_what_to_look_for(
 
 def test_what_all_share_is_told_in_sentences() -> None:
     page = sections_of(findings(PROBLEM, FOUR[:2], [1, 1]))
-    meshes, needed, besides = page["What all of them share"].paragraphs
-    assert meshes == "In all of them: a2 > c1, c2 > new_sun1, i > a1."
-    assert needed == "All of them need a wheel of 53."
-    assert besides == "Besides: the pointer of sun is on an added arbor; new_sun1 is added with 53 teeth."
+    meshes, needed, besides = page["Facts common to all trains"].paragraphs
+    assert meshes == "Meshes: a2 > c1, c2 > new_sun1, i > a1."
+    assert needed == "All trains add a wheel of 53."
+    assert besides == "Further facts: the pointer of sun is on an added arbor; new_sun1 is added with 53 teeth."
 
 
 def test_a_wide_family_is_cut_and_says_what_is_left_out() -> None:

@@ -1,34 +1,53 @@
-"""Arbors that given couplings join: as many trains as plain growth finds in which they are arbors of their own."""
+"""Arbors that given couplings join are one arbor of the question, and several in a train."""
 
 from __future__ import annotations
 
+import random
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from concrete_trees import concrete, explanations, group, parted, random_problem, with_rings
-from sampling import first_few
+from concrete_trees import random_problem, with_rings
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.search.reconstruct import candidate_train, evidence_question, find_reconstructions, read_evidence
+from geartrain.search.reconstruct import (
+    ReconstructionProblem,
+    SurvivingArbor,
+    candidate_train,
+    evidence_question,
+    find_reconstructions,
+    read_evidence,
+)
 from geartrain.search.reconstruct.link_roles import join_arbors
 
 
-@pytest.mark.parametrize("start", first_few(5, [*range(20, 300, 20), 0]))
-def test_small_questions_with_couplings_have_the_answers_of_plain_growth(start: int) -> None:
-    answered = 0
-    for seed in range(start, start + 20):
-        problem = random_problem(seed, idlers=True)
-        problem, pairs = parted(with_rings(problem, seed) if seed % 3 == 0 else problem, seed)
-        right = [each.solutions for each in explanations(problem, pairs)]
-        names = [arbor.name for arbor in (problem.input, *problem.arbors)]
-        groups = {name: sorted(group(name, pairs), key=names.index) for name in names}
-        joined = {links[0]: tuple(links) for links in groups.values() if len(links) > 1}
-        found = find_reconstructions(join_arbors(problem, joined), listed=20_000)
-        trees = [{concrete(one.arbor) for one in found.candidates if one.added == added} for added in range(len(right))]
-        assert trees == right, seed
-        assert [count.solutions for count in found.counts] == [len(some) for some in right], seed
-        answered += any(right) and bool(pairs)
-    assert answered > 5
+def parted(problem: ReconstructionProblem, seed: int) -> tuple[ReconstructionProblem, dict[str, tuple[str, ...]]]:
+    """The question with some of its arbors in two or three that couplings join; wheels and dials are shared out."""
+    chance = random.Random(seed)
+    homes = {
+        arbor.name: (arbor.name, *(f"{arbor.name}{end}" for end in "xy"[: chance.randint(0, 2)]))
+        for arbor in (problem.input, *problem.arbors)
+    }
+
+    def parts(arbor: SurvivingArbor) -> list[SurvivingArbor]:
+        places = sorted(chance.choice(range(len(homes[arbor.name]))) for _ in arbor.wheels)
+        return [
+            SurvivingArbor(name, tuple(wheel for wheel, place in zip(arbor.wheels, places, strict=True) if place == at))
+            for at, name in enumerate(homes[arbor.name])
+        ]
+
+    first, *others = parts(problem.input)
+    arbors = [part for arbor in problem.arbors for part in parts(arbor)]
+    dials = tuple(replace(dial, place=chance.choice(homes.get(dial.place, (dial.place,)))) for dial in problem.dials)
+    coaxial = frozenset(frozenset(chance.choice(homes[name]) for name in pair) for pair in problem.coaxial)
+    changed = replace(problem, input=first, arbors=(*others, *arbors), dials=dials, coaxial=coaxial)
+    return changed, {name: links for name, links in homes.items() if len(links) > 1}
+
+
+def test_arbors_that_were_parted_are_joined_again() -> None:
+    for seed in range(100):
+        problem = with_rings(random_problem(seed, idlers=True), seed)
+        assert join_arbors(*parted(problem, seed)) == problem
 
 
 COUPLED = """\

@@ -16,7 +16,7 @@ from geartrain.search.reconstruct.candidate_rules import broken_rules
 from geartrain.search.reconstruct.path_choice import PathChoice
 from geartrain.search.reconstruct.path_lists import PathList, WayThrough
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.quotient_keys import QuotientKeys
+from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branching, Chain, Topology
 
 Shape = tuple[object, ...]
@@ -36,13 +36,13 @@ def is_reached(candidate: Arbor, problem: ReconstructionProblem) -> bool:
     if added > problem.additions.wheels or broken_rules(candidate, problem):
         return False
     own = {path.dial: path for path in _paths(candidate, (), Fraction(1))}
-    keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
+    tables = QuotientTables(problem.additions.minimum, problem.additions.maximum)
     dials = sorted(problem.dials, key=lambda dial: dial.name)
-    lists = {dial.name: PathList(dial, problem, keys, own[dial.name].ways) for dial in dials}
+    lists = {dial.name: PathList(dial, problem, tables, own[dial.name].ways) for dial in dials}
     shape, trees = _shape(_branching_of(candidate)), PathTrees(problem, lists)
     return any(
         _shape(topology.root) == shape and _holds(topology, own)
-        for chosen in PathChoice(problem, lists, keys).choices(added)
+        for chosen in PathChoice(problem, lists, tables).choices(added)
         for topology in trees.topologies(chosen, added)
     )
 

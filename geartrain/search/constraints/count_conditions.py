@@ -1,7 +1,7 @@
 """Constraints on tooth counts: linear equations, and conditions that reject candidates.
 
 Centre distances are weighted sums of tooth counts. Conditions with sines of angles are evaluated in floats, and with
-fifty digits if the floats are within their error bound.
+fifty digits if the result in floats is within its error bound of 0.
 """
 
 from __future__ import annotations

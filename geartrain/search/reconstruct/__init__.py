@@ -13,13 +13,13 @@ The problem
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
 - `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
-- `quotient_keys`: sets of quotients of added counts, looked up by additive hashing
-- `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and hashed quotients
-- `path_choice`: backtracking over dials, pruned by hash joins, bit masks and a lower bound (shortest tour)
+- `quotient_tables`: sorted tables of quotients of added counts
+- `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
+- `path_choice`: backtracking over dials, pruned by bit masks and tables of quotients
 - `path_trees`: recursive enumeration of the topologies that have one given path per dial
 - `added_counts`: choices of added counts by variable elimination and tables of products; their sums and random draws
 - `candidate_names`: canonical names of arbors and wheels
-- `arbor_orders`: orders of arbors on chains, by dynamic programming over subsets
+- `arbor_orders`: orders of arbors on chains, enumerated
 - `search_tasks`: independent tasks for any number of processes; their time, extrapolated from a sample
 - `geometry_likelihood`: likelihood of measurements; closed polygons, and layers by dynamic programming over bit masks
 - `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors

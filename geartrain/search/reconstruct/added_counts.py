@@ -8,7 +8,6 @@ of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90 s.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.search.reconstruct.train_topology import AddedWheels, CountLimit, Dials, Quotients
+from geartrain.search.reconstruct.train_topology import AddedKind, AddedWheels, Dials, Quotients
 from geartrain.search.weighted_alternatives import draw_index, sums_by
 
 # Number of choices of added tooth counts with a given quotient of products. For drivers y and driven wheels x, prod y /
@@ -196,7 +195,9 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 
 
 Group = tuple[Dials, int, int]
+"""Dials whose speed a group of added wheels changes, and its numbers of driving and of driven wheels."""
 Wanted = tuple[tuple[str, Quotients], ...]
+"""Required bounds of the quotient of all added wheels on the path to each dial."""
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 """Tooth counts of the driving and of the driven wheels of each group of dials."""
 
@@ -214,11 +215,12 @@ class AddedCounts:
         minimum, maximum = self.range
         return int(self._count(added.groups, alike) * (maximum - minimum + 1) ** added.idle) if alike is not None else 0
 
-    def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
+    def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[AddedKind, ...]) -> int:
         """Count the assignments if some wheels have a smaller maximum count because they mesh with a ring."""
         if not limits:
             return self.count(added, wanted)
         limit, others = limits[0], limits[1:]
+        assert limit.most is not None
         allowed, left = range(self.range[0], limit.most + 1), added.without(limit)
         if not limit.dials:
             return len(allowed) * self.count_limited(left, wanted, others)
@@ -357,33 +359,18 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
 # interchangeable, so each of them has a given count equally often.
 
 
-_FEW = 2000
-"""Maximum number of choices that are enumerated. Below it, enumeration is faster than counting for each tooth count."""
-
-
-class AddedKind(NamedTuple):
-    """Kind of added wheels, which have the same effect on the speeds of dials and are interchangeable."""
-
-    dials: Dials
-    """Dials whose speed the wheels change; empty for wheels that change no speed."""
-    drives: bool
-    """True for driving wheels on the path to these dials, False for driven wheels."""
-    most: int | None = None
-    """Maximum tooth count in a mesh with a ring; None if only the general limit applies."""
-
-
 class OpenCounts(NamedTuple):
     """Added wheels without tooth counts, the quotients required of them, and the limits set by rings, sorted."""
 
     added: AddedWheels
     wanted: Wanted
-    limits: tuple[CountLimit, ...] = ()
+    limits: tuple[AddedKind, ...] = ()
 
     def kinds(self) -> Iterator[tuple[AddedKind, int]]:
         """Yield each kind of added wheels with the number of wheels."""
         limited = {kind: self.limits.count(kind) for kind in self.limits}
         for kind, number in limited.items():
-            yield AddedKind(*kind), number
+            yield kind, number
         groups = [(dials, True, drivers) for dials, drivers, _ in self.added.groups]
         groups += [(dials, False, driven) for dials, _, driven in self.added.groups]
         for dials, drives, number in [*groups, ((), False, self.added.idle)]:
@@ -397,19 +384,12 @@ class OpenCounts(NamedTuple):
         """
         limits = list(self.limits)
         if kind.most is not None:
-            limits.remove(CountLimit(kind.dials, kind.drives, kind.most))
-        added = self.added.without(CountLimit(kind.dials, kind.drives, count))
+            limits.remove(kind)
+        added = self.added.without(kind)
         if not kind.dials:
             return OpenCounts(added, self.wanted, tuple(limits))
         quotient = Fraction(count) if kind.drives else Fraction(1, count)
         return OpenCounts(added, divided(self.wanted, kind.dials, quotient), tuple(limits))
-
-
-class _FewChoices(NamedTuple):
-    """Number of enumerated choices in which a wheel of a kind, or any wheel, has each tooth count."""
-
-    of_kind: dict[AddedKind, Counter[int]]
-    with_any: Counter[int]
 
 
 class AddedCountSums:
@@ -418,7 +398,6 @@ class AddedCountSums:
     def __init__(self, counts: AddedCounts) -> None:
         self._counts = counts
         self.of_kind = lru_cache(maxsize=1 << 16)(self._of_kind)
-        self._listed = lru_cache(maxsize=1 << 12)(self._list)
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
     def total(self, requested: OpenCounts) -> int:
@@ -427,9 +406,6 @@ class AddedCountSums:
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
         """Return for each tooth count the number of choices in which a given wheel of a kind has it, without zeros."""
-        few = self._few(requested)
-        if few is not None:
-            return few.of_kind[kind]
         minimum, maximum = self._counts.range
         most = maximum if kind.most is None else min(kind.most, maximum)
         found = ((count, self.total(requested.with_one(kind, count))) for count in range(minimum, most + 1))
@@ -437,9 +413,6 @@ class AddedCountSums:
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
         """Return for each tooth count the number of choices in which some wheel has it, by inclusion-exclusion."""
-        few = self._few(requested)
-        if few is not None:
-            return few.with_any
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
         whole = self.total(requested)
@@ -462,21 +435,6 @@ class AddedCountSums:
             total = self.total(left)
             if not total:
                 break
-        return found
-
-    def _few(self, requested: OpenCounts) -> _FewChoices | None:
-        """Return the sums over enumerated choices if there are few of them; None otherwise."""
-        if requested.limits or self.total(requested) > _FEW:
-            return None
-        return self._listed(requested)
-
-    def _list(self, requested: OpenCounts) -> _FewChoices:
-        found, kinds = _FewChoices(defaultdict(Counter), Counter()), [kind for kind, _ in requested.kinds()]
-        for counts, idle in self._counts.assignments(requested.added, requested.wanted):
-            wheels = {kind: counts[kind.dials][not kind.drives] if kind.dials else idle for kind in kinds}
-            for kind, own in wheels.items():
-                found.of_kind[kind][own[0]] += 1  # by symmetry the first wheel represents all of its kind
-            found.with_any.update({count for own in wheels.values() for count in own})
         return found
 
     def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:

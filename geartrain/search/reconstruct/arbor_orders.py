@@ -1,33 +1,23 @@
-"""Orders of the arbors on chains: enumerated, or counted and sampled by dynamic programming over subsets."""
+"""Orders of the arbors on chains, and the trains that result from orders and tooth counts."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import NamedTuple
 
-from geartrain.search.reconstruct.added_counts import AddedKind, Counts
-from geartrain.search.reconstruct.candidate_names import (
-    NamedArbor,
-    NamedBranching,
-    NamedChain,
-    NamedWheel,
-    TopologyArbor,
-    TopologyWheel,
-)
+from geartrain.search.reconstruct.added_counts import Counts
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.train_topology import (
     ADDED,
+    AddedKind,
     AddedWheels,
     ArborPass,
     Branching,
     Chain,
-    CountLimit,
     Dials,
     Topology,
 )
-from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives
 
 # A ring meshes only with external wheels of fewer teeth. The order of arbors may therefore limit added tooth counts.
 
@@ -74,23 +64,15 @@ class CountTokens:
         self._owners += [(dials, drives)] * wheels
         return tuple(-at - 1 for at in range(first, first + wheels))
 
-    def limits(self, arbor: Arbor, rings: Rings, maximum: int) -> tuple[CountLimit, ...]:
-        """Return the limits below `maximum` that rings set in a train with tokens, sorted."""
-        most = self.most(arbor, rings, maximum)
-        return tuple(sorted(CountLimit(*self.owner(token), count) for token, count in most.items()))
-
-    def owner(self, token: int) -> tuple[Dials, bool]:
-        """Return the dials whose speed a wheel changes, and whether it is a driving wheel on the path to them."""
-        return self._owners[-token - 1]
-
-    def most(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, int]:
-        """Return the maximum tooth count of each wheel that meshes with a ring, by token, if it is below `maximum`."""
-        minimum: dict[int, int] = {}
+    def kinds(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, AddedKind]:
+        """Return the kind of each added wheel of a train with tokens, with the limits below `maximum` set by rings."""
+        most: dict[int, int] = {}
         for pair in _meshes(arbor):
             for ring, inside in (pair, pair[::-1]):
                 if ring.name in rings and inside.teeth < 0:
-                    minimum[inside.teeth] = min(minimum.get(inside.teeth, maximum), ring.teeth - 1)
-        return {token: count for token, count in minimum.items() if count < maximum}
+                    most[inside.teeth] = min(most.get(inside.teeth, maximum), ring.teeth - 1)
+        limits = {token: count for token, count in most.items() if count < maximum}
+        return {-at: AddedKind(*owner, limits.get(-at)) for at, owner in enumerate(self._owners, 1)}
 
 
 def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:
@@ -104,7 +86,6 @@ def _meshes(arbor: Arbor) -> Iterator[tuple[PlacedWheel, PlacedWheel]]:
 
 
 _Step = tuple[str | None, ArborPass]
-COMPOUND, IDLER = -1, -2
 _COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
 _IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
 _Driving = tuple[str | None, PlacedWheel]
@@ -199,20 +180,6 @@ def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: M
                 yield arbor
 
 
-def in_order(topology: Topology, orders: Mapping[int, list[int]], counts: Counts, idle: tuple[int, ...]) -> Arbor:
-    """Return the train of a topology with a given order of arbors.
-
-    orders   `id` of a chain -> its arbors from the driving wheel on: index of a surviving arbor, `COMPOUND` for an
-             added arbor with two wheels, or `IDLER`
-    """
-    added = {COMPOUND: _COMPOUND, IDLER: _IDLER}
-    steps = {
-        id(chain): tuple(added[at] if at in added else chain.through[at] for at in orders[id(chain)])
-        for chain in topology.chains
-    }
-    return _Assembly(steps, counts, idle).branching(topology.root, ())
-
-
 def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: MeshFacts) -> bool:
     found: _Pairs = frozenset()
     waiting = [(chain, (topology.root.name, driver)) for driver, chains in topology.root.drives for chain in chains]
@@ -276,144 +243,3 @@ class _Assembly:
             assert driver is not None
             below = (Arbor(name, driven, (), ((driver, below),)),)
         return below
-
-
-# Dynamic programming over subsets of the arbors of a chain: marginals over orders, and random orders. From the driving
-# wheel on, a chain continues with one of the remaining arbors. The continuations depend only on the set of remaining
-# arbors and on the driving wheel, so orders are summed without being enumerated.
-
-
-_NamedDriving = tuple[TopologyArbor, TopologyWheel]
-
-
-class NamedMesh(NamedTuple):
-    """Mesh of named parts, of a topology or of a candidate: driving arbor, driving wheel, driven arbor."""
-
-    arbor: TopologyArbor | NamedArbor
-    wheel: TopologyWheel | NamedWheel
-    driven: TopologyArbor | NamedArbor
-
-
-class AddedPlace(NamedTuple):
-    """Added wheel of a topology: its name, and its kind."""
-
-    name: str
-    kind: AddedKind
-
-
-class ChainStep(NamedTuple):
-    """Arbor at a position on a chain: index of a surviving arbor, `COMPOUND` or `IDLER`."""
-
-    chain: NamedChain
-    place: int
-    which: int
-
-
-@dataclass(frozen=True)
-class _ChainState:
-    """State of the dynamic programme: arbors not yet placed, driving wheel, and pairs that must mesh below."""
-
-    chain: NamedChain
-    through: frozenset[int]
-    compounds: int
-    idlers: int
-    driving: _NamedDriving
-    pairs: _Pairs
-
-
-class _BranchingState(NamedTuple):
-    """State of the dynamic programme at a branching, with the pairs of wheels that must mesh below it."""
-
-    branching: NamedBranching
-    pairs: _Pairs
-
-
-def topology_orders(root: NamedBranching, facts: MeshFacts) -> WeightedAlternatives[Hashable]:
-    """Return the orders of arbors of a topology that satisfy the known meshes, each with weight 1."""
-    return WeightedAlternatives(_BranchingState(root, facts.meshes), _Orders(facts).alternatives)
-
-
-@dataclass(frozen=True)
-class _Orders:
-    facts: MeshFacts
-
-    def alternatives(self, node: Hashable) -> Iterator[Alternative[Hashable]]:
-        if not isinstance(node, _ChainState):
-            assert isinstance(node, _BranchingState)
-            branching, pairs = node
-            places = tuple(_added_place(wheel) for wheel in branching.wheels() if wheel.kind is not None)
-            yield from self._from_branching(branching, pairs, places)
-            return
-        for at in node.through:
-            yield from self._step(node, node.chain.through[at], at, node.through - {at}, node.compounds, node.idlers)
-        # names of added arbors depend only on their order, so the first unused name is next
-        added = node.chain.added[len(node.chain.added) - node.compounds - node.idlers :]
-        if node.compounds:
-            yield from self._step(node, added[0][0], COMPOUND, node.through, node.compounds - 1, node.idlers)
-        if node.idlers:
-            yield from self._step(node, added[0][1], IDLER, node.through, node.compounds, node.idlers - 1)
-        if not node.through and not added:
-            yield from self._end(node)
-
-    def _step(
-        self, node: _ChainState, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
-    ) -> Iterator[Alternative[Hashable]]:
-        """Yield the alternative in which a given arbor is next on the chain, if it satisfies the known meshes."""
-        left = self._left(node, arbor)
-        if left is None:
-            return
-        assert arbor.driver is not None
-        place = node.chain.chain.arbors - len(through) - compounds - idlers - 1
-        wheels = dict.fromkeys([arbor.driven, arbor.driver])
-        places = tuple(_added_place(wheel) for wheel in wheels if wheel is not None and wheel.kind is not None)
-        ahead = _ChainState(node.chain, through, compounds, idlers, (arbor, arbor.driver), left)
-        tells = (NamedMesh(*node.driving, arbor), ChainStep(node.chain, place, which), *places)
-        yield Alternative(1, tells, (ahead,))
-
-    def _end(self, node: _ChainState) -> Iterator[Alternative[Hashable]]:
-        end = node.chain.end
-        if not isinstance(end, NamedBranching):
-            yield from self._distributed([(node.driving, chain) for chain in end], node.pairs, ())
-            return
-        left = self._left(node, end.arbor)
-        if left is not None:
-            yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_BranchingState(end, left),))
-
-    def _left(self, node: _ChainState, arbor: TopologyArbor) -> _Pairs | None:
-        """Return the pairs that must still mesh after an arbor is driven; None if its mesh is excluded."""
-        source, wheel = node.driving
-        met = self.facts.met((source.survivor, wheel.placed), arbor.survivor, arbor.driven and arbor.driven.placed)
-        return None if met is None or not met <= node.pairs else node.pairs - met
-
-    def _from_branching(
-        self, branching: NamedBranching, pairs: _Pairs, tells: tuple[Hashable, ...]
-    ) -> Iterator[Alternative[Hashable]]:
-        hung = [((branching.arbor, wheel), chain) for wheel, chains in branching.hanging for chain in chains]
-        yield from self._distributed(hung, pairs, tells)
-
-    def _distributed(
-        self, hung: list[tuple[_NamedDriving, NamedChain]], pairs: _Pairs, tells: tuple[Hashable, ...]
-    ) -> Iterator[Alternative[Hashable]]:
-        """Yield each distribution of the pairs that must mesh over parallel chains."""
-        known = sorted(pairs, key=sorted)
-        # a pair can mesh only if both wheels are on the chain, in its subtree, or driving it
-        inside = [chain.surviving_wheels | {driving[1].name} for driving, chain in hung]
-        able = [[at for at, wheels in enumerate(inside) if pair <= wheels] for pair in known]
-        for owners in product(*able):
-            parts = tuple(
-                _ChainState(
-                    chain,
-                    frozenset(range(len(chain.through))),
-                    chain.chain.compounds,
-                    chain.chain.idlers,
-                    driving,
-                    frozenset(pair for pair, owner in zip(known, owners, strict=True) if owner == at),
-                )
-                for at, (driving, chain) in enumerate(hung)
-            )
-            yield Alternative(1, tells, parts)
-
-
-def _added_place(wheel: TopologyWheel) -> AddedPlace:
-    assert wheel.kind is not None
-    return AddedPlace(wheel.name, wheel.kind)

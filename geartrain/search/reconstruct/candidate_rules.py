@@ -28,7 +28,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingWheel,
     find_unreachable,
 )
-from geartrain.search.reconstruct.spur_tree import DrivenArbor, walk_meshes
+from geartrain.search.reconstruct.spur_tree import DrivenArbor, candidate_arbor, walk_meshes
 from geartrain.train import Train
 
 Rule = Literal[
@@ -80,13 +80,7 @@ def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[Brok
 
     The result is empty if and only if the candidate explains the dials.
 
-    Parameters
-    ----------
-    candidate : Arbor
-        Candidate from its input arbor. Its surviving arbors and wheels have the names of the problem, and it shows no
-        other dials.
-    problem : ReconstructionProblem
-        Reconstruction problem.
+    candidate   input arbor; surviving arbors and wheels have the names of the problem, and there are no other dials
     """
     return (
         *_dial_rules(candidate, problem),
@@ -343,22 +337,13 @@ class KnownTrain:
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:
-    """Read a train as a candidate, with the names of a problem.
+    """Read a train as a candidate of a problem whose arbors turn in the frame.
 
-    Parameters
-    ----------
-    train : Train
-        Known train.
-    problem : ReconstructionProblem
-        Reconstruction problem whose arbors turn in the frame.
-    same : mapping of str to str, optional
-        Name in the problem of wheels and outputs that the train names differently. Other parts must have equal names,
-        except for capitals.
+    same   name in the problem of wheels and outputs that the train names differently; other parts must have equal
+           names, except for capitals
 
-    Raises
-    ------
-    QuestionError
-        If the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel is not known.
+    Raise `QuestionError` if the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel
+    is not known.
     """
     return _TrainReading(train, problem, same or {}).known()
 
@@ -377,10 +362,11 @@ class _TrainReading:
             while link in driven and link not in kept:
                 kept.add(link)
                 link = driven[link].parent
-        arbor = self._arbor(self._source, kept)
+        leading = {link: mesh for link, mesh in driven.items() if link in kept}
+        arbor = candidate_arbor(self._source, leading, self._names, shown, self._placed)
         wheels = [name for link in kept for name in (driven[link].driving, driven[link].driven)]
         counts = {name: self._teeth(name) for name in self.train.wheels if name in wheels}
-        added = {name: teeth for name, teeth in counts.items() if self._survivor(name) is None}
+        added = {name: teeth for name, teeth in counts.items() if name not in self._survivors}
         return KnownTrain(self.train.name, arbor, added, tuple(self._notes()))
 
     # names
@@ -437,9 +423,6 @@ class _TrainReading:
             for wheel in arbor.wheels
             if wheel.name in self._matches and self._link(self._matches[wheel.name]) == self._links.get(arbor.name)
         }
-
-    def _survivor(self, wheel: str) -> str | None:
-        return self._survivors.get(wheel)
 
     def _notes(self) -> Iterator[str]:
         for name, own in self._matches.items():
@@ -517,24 +500,8 @@ class _TrainReading:
             found[link] = found[mesh.parent] * (ratio if inside else -ratio)
         return found
 
-    # the candidate
-
-    def _arbor(self, link: str, kept: set[str]) -> Arbor:
-        own = self._driven[link].driven if link in self._driven else None
-        below: dict[str, list[Arbor]] = {}
-        for child in self._driven:
-            if child in kept and self._driven[child].parent == link:
-                below.setdefault(self._driven[child].driving, []).append(self._arbor(child, kept))
-        return Arbor(
-            self._names.get(link),
-            None if own is None else self._placed(own),
-            tuple(sorted(name for name, at in self._shown.items() if at == link)),
-            tuple((self._placed(wheel), tuple(children)) for wheel, children in below.items() if wheel != own),
-            () if own is None else tuple(below.get(own, ())),
-        )
-
     def _placed(self, wheel: str) -> PlacedWheel:
-        return PlacedWheel(self._survivor(wheel), self._teeth(wheel))
+        return PlacedWheel(self._survivors.get(wheel), self._teeth(wheel))
 
 
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 from geartrain.errors import QuestionError
 from geartrain.numerics.results import Result
 from geartrain.numerics.work import Execution
+from geartrain.search.reconstruct.candidate_rules import BrokenRule, Rule, admitting_question
 from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     ReconstructionProblem,
     SearchedDial,
-    SurvivingArbor,
-    SurvivingWheel,
     find_unreachable,
 )
 from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
@@ -85,36 +83,34 @@ def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
 
 def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
     """Return the problems that result from dropping each dial in turn; empty for a single dial."""
-    if len(problem.dials) < 2:
-        return []
-    return [
-        ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=_without_dial(problem.dials, dial)))
-        for dial in problem.dials
-    ]
+    names = [dial.name for dial in problem.dials] if len(problem.dials) > 1 else []
+    return [ChangedQuestion(*_admitting(problem, "dial", (name,), f"without the dial {name}")) for name in names]
+
+
+def _admitting(
+    problem: ReconstructionProblem, rule: Rule, subject: Sequence[str], change: str, *values: Fraction
+) -> tuple[str, ReconstructionProblem]:
+    """Return the description of a change, and the problem without the rule that the change removes."""
+    return change, admitting_question(problem, [BrokenRule(rule, tuple(subject), "", change, values)])
 
 
 def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
-    left: dict[str, Any]
     measured = frozenset(find_unreachable((problem.input, *problem.arbors), problem.geometry))
-    for name, what in (
-        ("meshes", "that {} mesh"),
-        ("apart", "that {} do not mesh"),
-        ("coaxial", "that {} are coaxial"),
+    rule: Rule
+    for rule, pairs, what in (
+        ("seen", problem.meshes, "that {} mesh"),
+        ("apart", problem.apart - measured, "that {} do not mesh"),
+        ("coaxial", problem.coaxial, "that {} are coaxial"),
     ):
-        pairs: frozenset[frozenset[str]] = getattr(problem, name)
-        for pair in sorted(pairs if name == "coaxial" else pairs - measured, key=sorted):
-            said = what.format(" and ".join(sorted(pair)))
-            left = {name: pairs - {pair}}
-            yield f"without the fact {said}", replace(problem, **left)
+        for pair in sorted(map(sorted, pairs)):
+            yield _admitting(problem, rule, pair, f"without the fact {what.format(' and '.join(pair))}")
     if measured:
         # distances exclude pairs in advance, and restrict chains and layers later
-        left = {"apart": problem.apart - measured, "geometry": replace(problem.geometry, reach=None)}
-        yield "if the distances between axes exclude no meshes", replace(problem, **left)
+        yield _admitting(problem, "distance", (), "if the distances between axes exclude no meshes")
     yield from _senses(problem)
-    for at, dial in enumerate(problem.dials):
+    for dial in problem.dials:
         where = "is lost" if dial.place == NEW else f"is {dial.place}"
-        changed = _with_dial(problem, at, replace(dial, place=None))
-        yield f"without the fact that the arbor of {dial.name} {where}", changed
+        yield _admitting(problem, "place", (dial.name,), f"without the fact that the arbor of {dial.name} {where}")
     yield from _rules(problem)
 
 
@@ -122,7 +118,8 @@ def _senses(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructio
     signed = [at for at, dial in enumerate(problem.dials) if dial.signed]
     for at in signed:
         dial = problem.dials[at]
-        yield f"without the sense of {dial.name}", _with_dial(problem, at, _unsigned(dial))
+        dials = (*problem.dials[:at], _unsigned(dial), *problem.dials[at + 1 :])
+        yield f"without the sense of {dial.name}", replace(problem, dials=dials)
     if len(signed) > 1:
         free = tuple(_unsigned(dial) if dial.signed else dial for dial in problem.dials)
         yield "without the sense of any dial", replace(problem, dials=free)
@@ -155,14 +152,6 @@ def _unsigned(dial: SearchedDial) -> SearchedDial:
     ends = sorted(map(abs, (dial.minimum, dial.maximum)))
     minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
     return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
-
-
-def _with_dial(problem: ReconstructionProblem, at: int, dial: SearchedDial) -> ReconstructionProblem:
-    return replace(problem, dials=(*problem.dials[:at], dial, *problem.dials[at + 1 :]))
-
-
-def _without_dial(dials: tuple[SearchedDial, ...], left_out: SearchedDial) -> tuple[SearchedDial, ...]:
-    return tuple(dial for dial in dials if dial != left_out)
 
 
 # Reasons why nothing explains the evidence: dials that fail without the others, and single changes that would help.
@@ -235,15 +224,5 @@ def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]
             near = {count + step for count in counts for step in range(-MISREAD, MISREAD + 1)}
             for count in sorted(near - counts, key=lambda one: (min(abs(one - old) for old in counts), one)):
                 if count > 0:
-                    changed = replace(arbor, wheels=tuple(_read(each, wheel, count) for each in arbor.wheels))
-                    yield ChangedQuestion(f"if {wheel.name} has {count} teeth", _with_arbor(problem, arbor, changed))
-
-
-def _read(wheel: SurvivingWheel, changed: SurvivingWheel, count: int) -> SurvivingWheel:
-    return replace(wheel, counts=((count, Fraction(1)),)) if wheel is changed else wheel
-
-
-def _with_arbor(problem: ReconstructionProblem, old: SurvivingArbor, new: SurvivingArbor) -> ReconstructionProblem:
-    if old is problem.input:
-        return replace(problem, input=new)
-    return replace(problem, arbors=tuple(new if arbor is old else arbor for arbor in problem.arbors))
+                    change = f"if {wheel.name} has {count} teeth"
+                    yield ChangedQuestion(*_admitting(problem, "count", (wheel.name,), change, Fraction(count)))

@@ -14,12 +14,11 @@ from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Key, Result
-from geartrain.search.reconstruct.arbor_orders import AddedPlace, NamedMesh
-from geartrain.search.reconstruct.candidate_names import NamedArbor
+from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, topology_prior
-from geartrain.search.reconstruct.search_tasks import OrderPart, TopologyTrains
+from geartrain.search.reconstruct.search_tasks import TopologyTrains
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.search.reconstruct.train_topology import Topology
 from geartrain.search.weighted_alternatives import entropy
@@ -163,15 +162,9 @@ class FactTally:
 class ExplainedFacts:
     """Marginals of all facts, and groups of facts that partition the trains in the same way.
 
-    Parameters
-    ----------
-    weighed : WeighedTrains
-        All trains, or the best.
-    problem : ReconstructionProblem
-        Reconstruction problem.
-    tally : FactTally, optional
-        Sums over all trains, if known. Facts are then equivalent if they partition `weighed` in the same way and have
-        equal sums.
+    weighed   all trains, or the best
+    tally     sums over all trains, if known; facts are then equivalent if they partition `weighed` in the same way and
+              have equal sums
     """
 
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
@@ -225,21 +218,33 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
 
     Tooth counts of surviving wheels are facts only for wheels in `doubtful`, pointers only for dials in `lost`.
     """
-    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
+    yield from _order_facts(train, doubtful, lost)
+    added = _added_wheels(train)
+    yield from ((Fact("added", wheel.name), str(wheel.teeth)) for wheel in added)
+    yield from ((Fact("needed", str(teeth)), YES) for teeth in {wheel.teeth for wheel in added})
+
+
+def _order_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
+    """Yield the facts that do not depend on the tooth counts of added wheels."""
     for arbor in train.arbors():
         for dial in lost.intersection(arbor.dials):
             yield Fact("pointer", dial), AN_ADDED_ARBOR if arbor.added else arbor.name
-    for wheel in wheels:
-        if wheel.added:
-            yield Fact("added", wheel.name), str(wheel.teeth)
-        else:
-            yield Fact("used", wheel.name), YES
-        if wheel.name in doubtful:
-            yield Fact("count", wheel.name), str(wheel.teeth)
-    for teeth in {wheel.teeth for wheel in wheels if wheel.added}:
-        yield Fact("needed", str(teeth)), YES
-    for mesh in train.meshes():
-        yield from _mesh_facts(NamedMesh(*mesh))
+        for wheel in arbor.wheels():
+            if not wheel.added:
+                yield Fact("used", wheel.name), YES
+            if wheel.name in doubtful:
+                yield Fact("count", wheel.name), str(wheel.teeth)
+    for driving, wheel, arbor in train.meshes():
+        assert arbor.driven is not None
+        yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
+        if not (wheel.added or arbor.driven.added):
+            yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
+        if not arbor.added:
+            yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
+
+
+def _added_wheels(train: NamedArbor) -> list[NamedWheel]:
+    return [wheel for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added]
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
@@ -276,56 +281,26 @@ MOST_SUMMED = 20_000_000
 
 
 def sum_facts(
-    weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, dials: Sequence[str]
+    weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, evidence: Train
 ) -> FactTally:
     """Sum the facts of all trains of some topologies, each given with the prior weight of one of its trains."""
-    trains, sums = TopologyTrains(problem, dials), FactTally(problem)
+    trains, sums = TopologyTrains(problem), FactTally(problem)
     lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
-        parts = [part for part in trains.parts(topology) if part.choices and part.orders.total]
-        number = sum(part.choices * part.orders.total for part in parts)
-        sums.add_trains(weight, number)
-        for fact, answer in _topology_facts(topology, lost, doubtful):
-            sums.add(fact, answer, weight, number)
-        for part in parts:
-            for fact, answer, own in _part_facts(part, trains):
-                sums.add(fact, answer, weight, own)
+        for part in trains.parts(topology):
+            if not part.choices:
+                continue
+            sums.add_trains(weight, part.trains)
+            for order in part.orders:
+                named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
+                for fact, answer in _order_facts(named, doubtful, lost):
+                    sums.add(fact, answer, weight, part.choices)
+                for wheel in _added_wheels(named):
+                    for count, choices in trains.counts.of_kind(part.open, kinds[wheel.teeth]).items():
+                        sums.add(Fact("added", wheel.name), str(count), weight, choices)
+            for count, choices in trains.counts.with_any(part.open).items():
+                sums.add(Fact("needed", str(count)), YES, weight, len(part.orders) * choices)
     return sums
-
-
-def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
-    """Yield the facts that are true of every train of a topology."""
-    for branching in topology.branchings:
-        for dial in lost.intersection(branching.here):
-            yield Fact("pointer", dial), branching.name or AN_ADDED_ARBOR
-    for wheel in topology.used:
-        assert wheel.name is not None
-        yield Fact("used", wheel.name), YES
-        if wheel.name in doubtful:
-            yield Fact("count", wheel.name), str(wheel.teeth)
-
-
-def _part_facts(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
-    """Yield the facts that are true of some trains of a part, with the number of these trains."""
-    for fact_key, orders in part.orders.marginals.items():
-        if isinstance(fact_key, NamedMesh):
-            for fact, answer in _mesh_facts(fact_key):
-                yield fact, answer, int(orders) * part.choices
-        elif isinstance(fact_key, AddedPlace):
-            for count, choices in trains.counts.of_kind(part.open, fact_key.kind).items():
-                yield Fact("added", fact_key.name), str(count), int(orders) * choices
-    for count, choices in trains.counts.with_any(part.open).items():
-        yield Fact("needed", str(count)), YES, int(part.orders.total) * choices
-
-
-def _mesh_facts(mesh: NamedMesh) -> Iterator[tuple[Fact, str]]:
-    driving, wheel, arbor = mesh
-    assert arbor.driven is not None
-    yield Fact("mesh", f"{wheel.name} > {arbor.driven.name}"), YES
-    if not (wheel.added or arbor.driven.added):
-        yield Fact("pair", " and ".join(sorted((wheel.name, arbor.driven.name)))), YES
-    if not arbor.added:
-        yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
 
 
 # ------------------------------------------------------------------------------------------------------ the family tree
@@ -486,7 +461,7 @@ def find_facts(
     tally = None
     if found.topologies and sum(each.solutions for each in found.topologies) <= MOST_SUMMED:
         every = ((each.topology, topology_prior(each.topology, problem)) for each in found.topologies)
-        tally = sum_facts(every, problem, tuple(evidence.outputs))
+        tally = sum_facts(every, problem, evidence)
     facts = ExplainedFacts(weighed, problem, tally)
     marginals = facts.marginals()
     differ = {fact.subject for fact in marginals if fact.kind == "count" and len(fact.answers) > 1}

@@ -85,17 +85,6 @@ def find_telling_facts(
     """Find facts that distinguish one explanation from all others.
 
     Return None unless all explanations are listed and there are 2 to 2000 of them.
-
-    Parameters
-    ----------
-    evidence : Train
-        Declared evidence.
-    problem : ReconstructionProblem
-        Reconstruction problem of the evidence.
-    found : Reconstructions
-        All explanations of the problem.
-    candidate : Arbor
-        One of the explanations.
     """
     if not is_all_listed(found) or not 1 < len(found.candidates) <= _MOST_TRAINS:
         return None
@@ -235,14 +224,7 @@ class RankedQuestion:
 def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:
     """Rank a known train among the explanations of a problem.
 
-    Parameters
-    ----------
-    train : Train
-        Known train.
-    question : RankedQuestion
-        Problem with all its explanations.
-    same : mapping of str to str, optional
-        Name in the problem of each part that the train names differently; see `find_known_train`.
+    same   name in the problem of each part that the train names differently; see `find_known_train`
     """
     problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)

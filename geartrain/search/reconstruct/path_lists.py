@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import QuestionError
-from geartrain.search.reconstruct.quotient_keys import Bounds, QuotientKeys, QuotientRanges, prime_powers
+from geartrain.numerics.arrays import Bools, Floats
+from geartrain.search.reconstruct.quotient_tables import Bounds, QuotientTables, prime_powers
 from geartrain.search.reconstruct.reconstruction_problem import (
     NEW,
     PlacedWheel,
@@ -34,7 +35,7 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_
 # component on it are consecutive, and the path uses their known meshes.
 
 
-_Fits = NDArray[np.bool_]
+_Fits = Bools
 """Compatibility matrix of the passes of two arbors, by their codes; code 0 means that the path avoids the arbor."""
 
 
@@ -67,15 +68,8 @@ def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str
 class SeenMeshes:
     """Compatibility of the passes of a path through different arbors, from the known meshes.
 
-    Parameters
-    ----------
-    passes : sequence
-        Passes of each arbor, the input first.
-
-    Attributes
-    ----------
-    order : tuple of int
-        Indices of the arbors. Arbors of one component are adjacent, and components with many passes come first.
+    passes   passes of each arbor, the input first
+    order    indices of the arbors; arbors of one component are adjacent, and components with many passes come first
     """
 
     def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:
@@ -96,7 +90,7 @@ class SeenMeshes:
             ]
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
-    def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> NDArray[np.bool_] | None:
+    def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> Bools | None:
         """Return a mask of the paths that may take a given pass of one more arbor; None if all paths may."""
         if not self._fits[at]:
             return None
@@ -136,8 +130,8 @@ class PathGrowth:
 
     codes: NDArray[np.uint16]
     """Code of the pass of each arbor, from 1; 0 if the path avoids the arbor."""
-    keys: NDArray[np.uint64]
-    """Hash key of the quotient that the added wheels must have."""
+    ratio: Floats
+    """Speed of the end of the path without the added wheels, as a magnitude [turns per unit]."""
     powers: NDArray[np.int8]
     """Exponents of the large primes in the quotient of tooth counts that the added wheels must provide, shape (paths,
     primes).
@@ -152,16 +146,16 @@ class PathGrowth:
     """Number of surviving wheels on the arbors of the path that the path does not use."""
     need: NDArray[np.int8]
     """Number of added wheels that must contain a large prime, because no later arbor contains it."""
-    ended: NDArray[np.bool_]
+    ended: Bools
     """True if the path ends at one of the arbors."""
 
     @staticmethod
-    def start(arbors: int, key: int, powers: NDArray[np.int8]) -> PathGrowth:
+    def start(arbors: int, speed: float, powers: NDArray[np.int8]) -> PathGrowth:
         """Return the single path through no arbor, from which the enumeration starts."""
         none = np.zeros(1, dtype=np.int8)
         return PathGrowth(
             np.zeros((1, arbors), dtype=np.uint16),
-            np.array([key], dtype=np.uint64),
+            np.array([speed]),
             powers[None, :],
             *(none,) * 5,
             np.zeros(1, dtype=bool),
@@ -170,21 +164,21 @@ class PathGrowth:
     def columns(self) -> tuple[NDArray[Any], ...]:
         """Return all arrays, each with one row per path."""
         numbers = self.drivers, self.driven, self.added, self.idle, self.need
-        return self.codes, self.keys, self.powers, *numbers, self.ended
+        return self.codes, self.ratio, self.powers, *numbers, self.ended
 
     @staticmethod
     def joined(parts: list[PathGrowth]) -> PathGrowth:
         """Join the paths of several parts into one set of arrays."""
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
-    def kept(self, rows: NDArray[np.bool_] | np.bool_ | slice) -> PathGrowth:
+    def kept(self, rows: Bools | np.bool_ | slice) -> PathGrowth:
         """Return the selected rows of all arrays."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 
     def along(
         self,
         closing: Sequence[int],
-        lost: NDArray[np.bool_],
+        lost: Bools,
         each: ArborPass | None,
         powers: NDArray[np.int8],
         limits: tuple[int, int | None],
@@ -210,13 +204,13 @@ class PathGrowth:
                 good &= self.idle <= debts - each.idle
         return replace(self, need=need).kept(good)
 
-    def through(self, at: int, code: int, each: ArborPass, key: np.uint64, powers: NDArray[np.int8]) -> PathGrowth:
+    def through(self, at: int, code: int, each: ArborPass, ratio: float, powers: NDArray[np.int8]) -> PathGrowth:
         """Return the paths extended by a pass of one more arbor. Paths that have ended must already be excluded."""
         codes = self.codes.copy()
         codes[:, at] = code
         return PathGrowth(
             codes,
-            self.keys + key,
+            self.ratio * ratio,
             self.powers + powers,
             self.drivers + np.int8(each.added_drivers),
             self.driven + np.int8(each.added_driven),
@@ -262,20 +256,18 @@ class PathList:
     ends_new             True if the arbor of the dial is added
     compounds, idlers    numbers of added arbors before the last
     wheels, new          numbers of added wheels and of added arbors
-    wanted               hash key of the quotient of the added wheels, if the dial is exact
-    powers               power of each large prime of `primes` in that quotient, shape (rows, primes)
+    bounds               minimum and maximum quotient of the added wheels, up to rounding
     """
 
     def __init__(
         self,
         dial: SearchedDial,
         problem: ReconstructionProblem,
-        keys: QuotientKeys,
+        tables: QuotientTables,
         along: Mapping[str, WayThrough] | None = None,
     ) -> None:
-        self.dial, self.problem, self.keys = dial, problem, keys
+        self.dial, self.problem, self.tables = dial, problem, tables
         self._along = along
-        self.ranges = QuotientRanges(problem.additions.minimum, problem.additions.maximum)
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
         self._seen = SeenMeshes(problem, self.passes)
@@ -289,9 +281,8 @@ class PathList:
         self.compounds = np.array([plan.compounds for plan in plans], dtype=np.int64)[taken]
         self.idlers = np.array([plan.idlers for plan in plans], dtype=np.int64)[taken]
         self.wheels = growth.added[rows] + self.ends_new + 2 * self.compounds + self.idlers
-        self.wanted = growth.keys[rows]
-        self.powers = growth.powers[rows]
         self.new = self.compounds + self.idlers + self.ends_new
+        self.bounds = self._bounds(growth.ratio[rows], self._turned(self.codes, self.new))
 
     def __len__(self) -> int:
         return len(self.codes)
@@ -309,9 +300,9 @@ class PathList:
 
     # extension by one arbor at a time
 
-    def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, NDArray[np.bool_]]:
+    def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, Bools]:
         """Return the paths through all arbors, and a matrix of the plans of added arbors that are possible for each."""
-        growth = PathGrowth.start(len(self.passes), self.keys.key(self._wanted), self._powers(self._wanted))
+        growth = PathGrowth.start(len(self.passes), float(abs(self.problem.input_speed)), self._powers(self._wanted))
         self._examined = 0
         found = []
         for piece in self._grown(growth, self._seen.order):
@@ -353,8 +344,9 @@ class PathList:
             if each is None:
                 parts.append(own.along(closing, self._lost, None, np.zeros(len(self.primes), dtype=np.int8), limits))
             else:
-                key, powers = self._step(each)
-                parts.append(own.along(closing, self._lost, each, powers, limits).through(at, code, each, key, powers))
+                ratio, powers = self._step(each)
+                allowed = own.along(closing, self._lost, each, powers, limits)
+                parts.append(allowed.through(at, code, each, ratio, powers))
         if self._examined > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
             raise QuestionError(too_wide(self.problem, what))
@@ -367,12 +359,12 @@ class PathList:
         arbor = (self.problem.input, *self.problem.arbors)[at]
         return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
 
-    def _step(self, each: ArborPass) -> tuple[np.uint64, NDArray[np.int8]]:
-        """Return the changes that a pass makes to the hash key and to the powers of large primes."""
+    def _step(self, each: ArborPass) -> tuple[float, NDArray[np.int8]]:
+        """Return the speed ratio of a pass, and its changes of the powers of large primes."""
         if each.idler:
-            return np.uint64(0), np.zeros(len(self.primes), dtype=np.int8)
-        ratio = Fraction(_known_count(each.driven), _known_count(each.driver))
-        return np.uint64(self.keys.key(ratio)), self._powers(ratio)
+            return 1.0, np.zeros(len(self.primes), dtype=np.int8)
+        ratio = Fraction(_known_count(each.driver), _known_count(each.driven))
+        return float(ratio), self._powers(1 / ratio)
 
     # large primes: an added tooth count contains at most one of them
 
@@ -399,7 +391,7 @@ class PathList:
         return np.array([up.get(prime, 0) - down.get(prime, 0) for prime in self.primes], dtype=np.int8)
 
     @cached_property
-    def _lost(self) -> NDArray[np.bool_]:
+    def _lost(self) -> Bools:
         """Mask of the primes that are larger than the maximum tooth count."""
         return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
 
@@ -413,7 +405,7 @@ class PathList:
 
     # added arbors on a path
 
-    def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
+    def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
         """Return a boolean matrix of which plans of added arbors are possible on which paths."""
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
@@ -448,41 +440,24 @@ class PathList:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
 
-    def _may_be_quotient(
-        self, growth: PathGrowth, compounds: int, turned: NDArray[np.bool_], requested: NDArray[np.bool_]
-    ) -> NDArray[np.bool_]:
+    def _may_be_quotient(self, growth: PathGrowth, compounds: int, turned: Bools, requested: Bools) -> Bools:
         found = requested.copy()
         # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
         kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
         for kind in np.unique(kinds[requested]):
             rows = np.flatnonzero(requested & (kinds == kind))
             drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
-            if self.dial.is_exact:
-                found[rows] = self.keys.may_be_quotients(growth.keys[rows], drivers, driven)
-            else:
-                found[rows] = self.ranges.may_hold(self._bounds(growth.codes[rows], turned[rows]), drivers, driven)
+            found[rows] = self.tables.may_hold(self._bounds(growth.ratio[rows], turned[rows]), drivers, driven)
         return found
 
     # speed of a path
 
-    @cached_property
-    def bounds(self) -> Bounds:
-        """Minimum and maximum quotient of the added wheels on each path, up to rounding."""
-        return self._bounds(self.codes, self._turned(self.codes, self.new))
-
-    def _bounds(self, codes: NDArray[np.uint16], turned: NDArray[np.bool_]) -> Bounds:
-        known = np.full(len(codes), float(abs(self.problem.input_speed)))
-        for at, passes in enumerate(self.passes):
-            ratios = [
-                1.0,
-                *(1.0 if one.idler else _known_count(one.driver) / _known_count(one.driven) for one in passes),
-            ]
-            known *= np.array(ratios)[codes[:, at]]
+    def _bounds(self, ratio: Floats, turned: Bools) -> Bounds:
         (low, high), (turned_low, turned_high) = self._magnitudes(False), self._magnitudes(True)
         minimum = np.where(turned, float(turned_low), float(low))
-        return minimum / known, np.where(turned, float(turned_high), float(high)) / known
+        return minimum / ratio, np.where(turned, float(turned_high), float(high)) / ratio
 
-    def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> NDArray[np.bool_]:
+    def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> Bools:
         """Return for each path whether the dial turns opposite to the input, for given numbers of added arbors."""
         return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 

@@ -47,6 +47,7 @@ def dial_partitions(
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
+    ways     exits by which the path to each dial may leave the arbor
     arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay in one block
     """
     for chosen in product(*(ways[dial] for dial in dials)):
@@ -369,6 +370,7 @@ def _with_ends(
 
 
 def _ways_from_added(path: DialPath) -> Iterator[str]:
+    """Yield the exits by which a path may leave an added arbor."""
     if path.is_at_end and path.ends_new:
         yield HERE
     if path.compounds:

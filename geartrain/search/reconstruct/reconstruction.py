@@ -263,8 +263,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
     listed = () if request.counts_only else found.candidates[: request.best]
-    dials = tuple(evidence.outputs)
-    drawn = draw_candidates(found, problem, dials, request.sample, request.seed) if request.sample else ()
+    drawn = draw_candidates(found, problem, request.sample, request.seed) if request.sample else ()
     return ReconstructionAnswer(
         evidence.name,
         problem,
@@ -355,7 +354,7 @@ def _findings(
         return CandidateFindings(assumptions=dropped)
     if found.complete and not any(count.solutions for count in found.counts):
         missing = None
-        with run.part("reasons why nothing fits") as execution:
+        with run.part("reasons why no train explains the evidence") as execution:
             missing = explain_missing(problem, execution)
         return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, found, dropped)

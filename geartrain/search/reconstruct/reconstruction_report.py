@@ -29,7 +29,6 @@ from geartrain.search.reconstruct.known_rank import (
     KnownRank,
     TellingFact,
     TellingFacts,
-    TrainPlace,
 )
 from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
 from geartrain.search.reconstruct.reconstruction_problem import NEW, SearchedDial
@@ -75,8 +74,8 @@ _USE = {
 _NOT_COUNTED = "not counted"
 _TURNING = "An underlined rank or end of the family tree shows its animated train."
 _OF_KNOWN = (
-    "Rank of each train by weight among all explanations, and among those with the same number of added wheels; and "
-    "the weight of the best train as a multiple of its weight."
+    "Rank of each train by weight among all explanations, and among the explanations with an equal number of added "
+    "wheels. The last column is the weight of the best train divided by the weight of this train."
 )
 
 
@@ -118,10 +117,10 @@ def _summary(found: ReconstructionAnswer) -> Iterator[str]:
     yield f"Rules: {added}; {_USE[problem.use]}; {idlers}; every arbor at an end carries a pointer."
     some = next((count for count in found.counts if count.solutions), None)
     if some is None:
-        yield f"No train explains it with {plural(limits.wheels, 'added wheel')} or fewer."
+        yield f"No train with at most {plural(limits.wheels, 'added wheel')} explains the evidence."
     else:
-        said = "1 train explains it" if found.total == 1 else f"{found.total} trains explain it"
-        yield f"{said}; at least {plural(some.added, 'wheel')} must be added."
+        said = "1 train explains" if found.total == 1 else f"{found.total} trains explain"
+        yield f"{said} the evidence; at least {plural(some.added, 'wheel')} must be added."
     if found.original is not None:
         first, last = found.original
         rank = f"rank {first}" if first == last else f"ranks {first} to {last}, which have equal weights"
@@ -205,13 +204,13 @@ def _best(found: ReconstructionAnswer, turning: int) -> Section:
     more = [f"{len(rows)} of {found.total} trains."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("Parentheses give the ranks that trains of equal weight share.")
-    return Section("The best", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
+    return Section("Most probable trains", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
 
 
 def _drawn(found: ReconstructionAnswer) -> Section:
     rows = [(str(one.rank), ranks_text(one.ranks), *_contents(one)) for one in found.drawn]
     table = filled_table(("draw", "ranks", *_CONTENTS), rows, 4)
-    return Section("Drawn", ["Drawn at random, in proportion to their weight."], [table])
+    return Section("Random trains", ["Each train is drawn in proportion to its weight."], [table])
 
 
 _CONTENTS = ("added wheels", "meshes", "uncertain counts")
@@ -236,7 +235,7 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
     """Yield sections on the ranks of known trains, the rules that they break, and their ranks without these rules."""
     if not known:
         return
-    header = ("train", "added wheels", "arbors", "rank", "with as many", "weight", "outweighed")
+    header = ("train", "added wheels", "added arbors", "rank", "rank, equal wheels", "weight", "maximum / weight")
     yield Section("Known trains", [_OF_KNOWN], [Table(header, [_row(one) for one in known])])
     for one in known:
         if one.broken:
@@ -294,16 +293,12 @@ def _row(one: KnownRank) -> tuple[str, ...]:
         _ranks(place.ranks, place.trains),
         _ranks(place.ranks_alike, place.trains_alike),
         share_text(place.weight),
-        _times(place),
+        figure(place.dearer),
     )
 
 
 def _ranks(ranks: tuple[int, int], trains: int) -> str:
     return f"{ranks_text(ranks)} of {trains}"
-
-
-def _times(place: TrainPlace) -> str:
-    return "by none" if place.dearer == 1 else f"{figure(place.dearer)} times"
 
 
 def _note_sentences(one: KnownRank) -> Iterator[str]:
@@ -330,7 +325,9 @@ def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
         trains = f"the trains by added wheels are {', '.join(listed)}" if listed else "nothing fits"
         return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
     place = admitted.place
-    outweighed = "no train weighs more" if place.dearer == 1 else f"the best weighs {_times(place)} as much"
+    outweighed = (
+        "no train weighs more" if place.dearer == 1 else f"the best weighs {figure(place.dearer)} times as much"
+    )
     return (
         f"{begins}. Trains by added wheels: {', '.join(listed)}. It ranks {_ranks(place.ranks, place.trains)}, and "
         f"{_ranks(place.ranks_alike, place.trains_alike)} with the same number of wheels; {outweighed}."
@@ -345,24 +342,24 @@ def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
-    yield Section("What all of them share", agreed or ["Nothing: the trains agree in no fact."])
+    yield Section("Facts common to all trains", agreed or ["No fact is common to all trains."])
     parted = [fact for fact in marginals if len(fact.answers) > 1]
     tables = [table for table in (_meshes(parted), _answers(parted), _needed(parted)) if table.rows]
     if tables:
         line = "Each answer with its share of the weight and its number of trains."
-        yield Section("Where they differ", [line], tables)
+        yield Section("Facts that differ", [line], tables)
 
 
 def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
     sure = [fact for fact in marginals if len(fact.answers) == 1]
     meshes = [fact.subject for fact in sure if fact.kind == "mesh"]
     if meshes:
-        yield f"In all of them: {', '.join(meshes)}."
+        yield f"Meshes: {', '.join(meshes)}."
     needed = [fact.subject for fact in sure if fact.kind == "needed"]
-    yield from (f"All of them need a wheel of {count}." for count in needed)
+    yield from (f"All trains add a wheel of {count}." for count in needed)
     others = [_AGREED[fact.kind](fact) for fact in sure if fact.kind not in ("mesh", "needed", "driver")]
     if others:
-        yield f"{'Besides' if meshes or needed else 'In all of them'}: {'; '.join(others)}."
+        yield f"{'Further facts' if meshes or needed else 'Facts'}: {'; '.join(others)}."
 
 
 def _meshes(facts: Sequence[FactMarginal]) -> Table:
@@ -451,9 +448,11 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     """Yield sections on the reasons why nothing explains the evidence; `most` is the maximum number of added wheels."""
     if found is None:
         return
-    line = "Each dial without the others; surviving arbors that do not lead to it need not be used."
+    line = "Result for each dial by itself. Surviving arbors that do not lead to this dial need not be used."
     rows = [(dial.dial, _lone_dial_text(dial, most)) for dial in found.dials]
-    yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
+    yield Section(
+        "Why no train explains the evidence", [line], [Table(("dial", "result without the other dials"), rows)]
+    )
     uncertainties = [(one.change, str(one.fewest), str(one.total)) for one in found.uncertainties]
     tried = (
         f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard fact is dropped, or a "
@@ -471,7 +470,7 @@ def _lone_dial_text(dial: LoneDial, most: int) -> str:
     if dial.refused is not None:
         return dial.refused
     if dial.fewest is None:
-        return f"fails: no train with {plural(most, 'added wheel')} or fewer"
+        return f"not explained with at most {plural(most, 'added wheel')}"
     return f"explained with {plural(dial.fewest, 'added wheel')}"
 
 

@@ -273,7 +273,7 @@ def _weighed_one_by_one(
 
 
 def draw_candidates(
-    found: Reconstructions, problem: ReconstructionProblem, dials: Sequence[str], number: int, seed: int
+    found: Reconstructions, problem: ReconstructionProblem, number: int, seed: int
 ) -> tuple[Candidate, ...]:
     """Draw candidate reconstructions independently and with replacement, according to their posterior probabilities.
 
@@ -283,8 +283,6 @@ def draw_candidates(
         All explanations of the problem.
     problem : ReconstructionProblem
         Reconstruction problem.
-    dials : sequence of str
-        Dials in the order of the evidence.
     number : int
         Number of draws, at least 0.
     seed : int
@@ -303,7 +301,7 @@ def draw_candidates(
     --------
     >>> from geartrain.search.reconstruct import evidence_question, read_evidence
     >>> problem = evidence_question(read_evidence("metonic-l-m")).problem
-    >>> [each.added for each in draw_candidates(find_reconstructions(problem), problem, ["metonic"], 3, seed=1)]
+    >>> [each.added for each in draw_candidates(find_reconstructions(problem), problem, 3, seed=1)]
     [1, 1, 1]
     """
     if not found.topologies:
@@ -316,7 +314,7 @@ def draw_candidates(
     whole = whole_multiple(weights)
     shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]
     ranks = weight_ranks((weight, each.solutions) for weight, each in zip(weights, found.topologies, strict=True))
-    trains, probability = TopologyTrains(problem, dials), Random(seed)
+    trains, probability = TopologyTrains(problem), Random(seed)
     drawn = []
     for _ in range(number):
         at = draw_index(shares, probability)

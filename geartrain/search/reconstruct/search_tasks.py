@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate
@@ -15,34 +15,19 @@ from typing import Any, NamedTuple
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
-from geartrain.search.reconstruct.added_counts import AddedCounts, AddedCountSums, AddedKind, OpenCounts
-from geartrain.search.reconstruct.arbor_orders import (
-    AddedPlace,
-    ChainStep,
-    CountTokens,
-    MeshFacts,
-    NamedMesh,
-    arranged,
-    in_order,
-    rings_limit,
-    topology_orders,
-)
-from geartrain.search.reconstruct.candidate_names import (
-    NamedArbor,
-    name_topology,
-    name_train,
-)
+from geartrain.search.reconstruct.added_counts import AddedCounts, AddedCountSums, OpenCounts
+from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
 from geartrain.search.reconstruct.path_choice import PathChoice
 from geartrain.search.reconstruct.path_lists import PathList
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.quotient_keys import QuotientKeys
+from geartrain.search.reconstruct.quotient_tables import QuotientTables
 from geartrain.search.reconstruct.reconstruction_problem import (
     Arbor,
     PlacedWheel,
     ReconstructionProblem,
 )
-from geartrain.search.reconstruct.train_topology import TOPOLOGIES, Topology
-from geartrain.search.weighted_alternatives import Alternative, WeightedAlternatives, draw_index
+from geartrain.search.reconstruct.train_topology import TOPOLOGIES, AddedKind, Topology
+from geartrain.search.weighted_alternatives import draw_index
 
 QUICK = 2
 """Maximum number of added wheels for which a search is not divided into parts."""
@@ -61,94 +46,60 @@ _LONGEST = 100 * _YEAR
 _GOLDEN = (5**0.5 - 1) / 2
 """Golden ratio conjugate. The fractional parts of its multiples are evenly distributed, and select the timed parts."""
 
-# The trains of a topology as a product of orders and choices of tooth counts: marginals and random draws. Orders and
-# counts are independent unless rings limit counts in some orders. Orders are then partitioned by these limits, and are
-# independent of the counts in each part.
+# The trains of a topology as products of orders of arbors and choices of tooth counts. Orders and counts are
+# independent unless rings limit the counts in some orders. The orders are therefore partitioned by these limits.
 
 
 class OrderPart(NamedTuple):
-    """Orders of one topology that all have the same choices of added tooth counts.
+    """Orders of the arbors of a topology that have the same choices of added tooth counts.
 
-    A train is one of the orders with one of the choices. The marginals of the orders are `NamedMesh` and `AddedPlace`.
+    Each order with each choice is one train.
     """
 
     open: OpenCounts
     choices: int
-    orders: WeightedAlternatives[Hashable]
+    orders: list[Arbor]
+    """Trains with tokens instead of the tooth counts of added wheels, one for each order."""
+
+    @property
+    def trains(self) -> int:
+        """Number of trains."""
+        return self.choices * len(self.orders)
 
 
 class TopologyTrains:
-    """Sums over the trains of the topologies of a problem, and random draws from them.
+    """Sums over the trains of the topologies of a problem, and random draws from them."""
 
-    Parameters
-    ----------
-    problem : ReconstructionProblem
-        Reconstruction problem.
-    dials : sequence of str
-        Dials in the order of the evidence.
-    """
-
-    def __init__(self, problem: ReconstructionProblem, dials: Sequence[str]) -> None:
-        limits, arbors = problem.additions, (problem.input, *problem.arbors)
+    def __init__(self, problem: ReconstructionProblem) -> None:
+        limits = problem.additions
         self.counts = AddedCountSums(AddedCounts(limits.minimum, limits.maximum))
         self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
-        links, wheels = {arbor.name for arbor in arbors}, {wheel.name for arbor in arbors for wheel in arbor.wheels}
-        self._names = tuple(dials), links, wheels
 
     def count(self, topology: Topology) -> int:
         """Count the trains of a topology."""
-        return sum(part.choices * part.orders.total for part in self.parts(topology))
+        return sum(part.trains for part in self.parts(topology))
 
     def parts(self, topology: Topology) -> list[OrderPart]:
         """Partition the trains of a topology by the tooth-count limits that rings impose."""
-        if not rings_limit(topology, self._facts.rings, self._maximum):
-            orders = topology_orders(name_topology(topology, *self._names), self._facts)
-            return [self._part(OpenCounts(topology.added, topology.wanted), orders)]
         tokens = CountTokens(topology.added)
         by_limits: dict[OpenCounts, list[Arbor]] = defaultdict(list)
         for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
-            limits = tokens.limits(arbor, self._facts.rings, self._maximum)
-            by_limits[OpenCounts(topology.added, topology.wanted, limits)].append(arbor)
-        return [self._part(requested, self._listed(tokens, arbors)) for requested, arbors in by_limits.items()]
+            limits = (kind for kind in self.kinds(topology, arbor).values() if kind.most is not None)
+            by_limits[OpenCounts(topology.added, topology.wanted, tuple(sorted(limits)))].append(arbor)
+        return [OrderPart(requested, self.counts.total(requested), arbors) for requested, arbors in by_limits.items()]
 
-    def _part(self, requested: OpenCounts, orders: WeightedAlternatives[Hashable]) -> OrderPart:
-        return OrderPart(requested, self.counts.total(requested), orders)
-
-    def _listed(self, tokens: CountTokens, arbors: list[Arbor]) -> WeightedAlternatives[Hashable]:
-        """Return listed orders as alternatives. Each order is given as a train with tokens for tooth counts."""
-
-        def each(_: Hashable) -> Iterator[Alternative[Hashable]]:
-            for arbor in arbors:
-                named = name_train(arbor, *self._names)
-                meshes = (NamedMesh(*mesh) for mesh in named.meshes())
-                yield Alternative(1, (*meshes, *self._places(tokens, arbor, named), arbor))
-
-        return WeightedAlternatives((), each)
-
-    def _places(self, tokens: CountTokens, arbor: Arbor, named: NamedArbor) -> Iterator[AddedPlace]:
-        kinds = self._kinds(tokens, arbor)
-        for wheel in (wheel for each in named.arbors() for wheel in each.wheels() if wheel.added):
-            yield AddedPlace(wheel.name, kinds(wheel.teeth))
-
-    def _kinds(self, tokens: CountTokens, arbor: Arbor) -> Callable[[int], AddedKind]:
-        most = tokens.most(arbor, self._facts.rings, self._maximum)
-        return lambda token: AddedKind(*tokens.owner(token), most.get(token))
+    def kinds(self, topology: Topology, arbor: Arbor) -> dict[int, AddedKind]:
+        """Return the kind of each added wheel of one order, by the token that replaces its tooth count."""
+        return CountTokens(topology.added).kinds(arbor, self._facts.rings, self._maximum)
 
     def draw(self, topology: Topology, probability: Random) -> Arbor:
         """Draw one of the trains of a topology with equal probability."""
         parts = self.parts(topology)
-        part = parts[draw_index([part.choices * part.orders.total for part in parts], probability)]
-        drawn, tokens = part.orders.draw(probability), CountTokens(topology.added)
-        arbor = next((one for one in drawn if isinstance(one, Arbor)), None)
-        if arbor is None:
-            steps = sorted((one for one in drawn if isinstance(one, ChainStep)), key=lambda one: one.place)
-            orders: dict[int, list[int]] = {id(chain): [] for chain in topology.chains}
-            for step in steps:
-                orders[id(step.chain.chain)].append(step.which)
-            arbor = in_order(topology, orders, tokens.counts, tokens.idle)
-        kinds, requested, counts = self._kinds(tokens, arbor), part.open, dict[int, int]()
+        part = parts[draw_index([part.trains for part in parts], probability)]
+        arbor = probability.choice(part.orders)
+        kinds, requested, counts = self.kinds(topology, arbor), part.open, dict[int, int]()
         for token in _tokens(arbor):
-            counts[token], requested = self.counts.draw(requested, kinds(token), probability)
+            counts[token], requested = self.counts.draw(requested, kinds[token], probability)
         return _with_counts(arbor, counts)
 
 
@@ -180,11 +131,11 @@ class TopologySearch:
     """
 
     def __init__(self, problem: ReconstructionProblem) -> None:
-        keys = QuotientKeys(problem.additions.minimum, problem.additions.maximum)
+        tables = QuotientTables(problem.additions.minimum, problem.additions.maximum)
         dials = sorted(problem.dials, key=lambda dial: dial.name)
-        self.paths = {dial.name: PathList(dial, problem, keys) for dial in dials}
-        self._choice, self._trees = PathChoice(problem, self.paths, keys), PathTrees(problem, self.paths)
-        self._trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
+        self.paths = {dial.name: PathList(dial, problem, tables) for dial in dials}
+        self._choice, self._trees = PathChoice(problem, self.paths, tables), PathTrees(problem, self.paths)
+        self._trains = TopologyTrains(problem)
 
     def counted(self, task: TopologyTask) -> Iterator[CountedTopology]:
         """Yield the topologies of one part of the search that have trains."""

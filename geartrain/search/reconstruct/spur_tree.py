@@ -192,29 +192,43 @@ class SpurTree:
             if arbor not in lost and mesh.parent not in lost
         )
 
-    def arbor(self, lost: Collection[str] = (), link: str | None = None) -> Arbor:
-        """Return the tree as a candidate.
-
-        lost   arbors that do not survive, and so have no names
-        link   arbor at which the tree begins; the default is the first arbor
-        """
-        link = self.source if link is None else link
-        own = self.driven[link].driven if link in self.driven else None
-        below: dict[str, list[Arbor]] = {name: [] for name in self.wheels_of(link)}
-        for child, mesh in self.driven.items():
-            if mesh.parent == link:
-                below[mesh.driving].append(self.arbor(lost, child))
+    def arbor(self, lost: Collection[str] = ()) -> Arbor:
+        """Return the tree as a candidate. The arbors in `lost` do not survive, and so have no names."""
+        owner = {wheel: arbor for arbor in self.arbors for wheel in self.wheels_of(arbor)}
 
         def placed(wheel: str) -> PlacedWheel:
-            return PlacedWheel(None if link in lost else wheel, self.counts[wheel])
+            return PlacedWheel(None if owner[wheel] in lost else wheel, self.counts[wheel])
 
-        return Arbor(
-            None if link in lost else link,
-            None if own is None else placed(own),
-            tuple(sorted(name for name, at in self.pointers.items() if at == link)),
-            tuple((placed(wheel), tuple(children)) for wheel, children in below.items() if children and wheel != own),
-            () if own is None else tuple(below[own]),
-        )
+        names = {arbor: None if arbor in lost else arbor for arbor in self.arbors}
+        return candidate_arbor(self.source, self.driven, names, self.pointers, placed)
+
+
+def candidate_arbor(
+    link: str,
+    driven: Mapping[str, DrivenArbor],
+    names: Mapping[str, str | None],
+    pointers: Mapping[str, str],
+    placed: Callable[[str], PlacedWheel],
+) -> Arbor:
+    """Return an arbor of a train with the arbors that it drives, as a candidate.
+
+    driven    mesh by which each arbor is driven
+    names     name of each surviving arbor in the candidate; None or absent for an added arbor
+    pointers  arbor of each dial
+    placed    function that returns a wheel of the train as a wheel of the candidate
+    """
+    own = driven[link].driven if link in driven else None
+    below: dict[str, list[Arbor]] = {}
+    for child, mesh in driven.items():
+        if mesh.parent == link:
+            below.setdefault(mesh.driving, []).append(candidate_arbor(child, driven, names, pointers, placed))
+    return Arbor(
+        names.get(link),
+        None if own is None else placed(own),
+        tuple(sorted(name for name, at in pointers.items() if at == link)),
+        tuple((placed(wheel), tuple(children)) for wheel, children in below.items() if wheel != own),
+        () if own is None else tuple(below.get(own, ())),
+    )
 
 
 # Parts of a train that a reconstruction can find, each a tree of arbors on the frame or on one carrier. The first part
@@ -284,7 +298,7 @@ def _check_input(train: Train) -> None:
 
 @dataclass
 class _Base:
-    """Joined links and meshes that turn on the frame or on one carrier."""
+    """Arbors that turn on the frame or on one carrier: links that form one arbor, and meshes."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Links that couplings join to each link, including the link, in the order of the train."""
@@ -293,6 +307,8 @@ class _Base:
 
 
 class _Parts:
+    """Search for the parts of a train. `loop` describes the last loop of meshes, which excludes a part."""
+
     def __init__(self, train: Train) -> None:
         self.train, self.loop = train, ""
         self._solved = GearTrain(train)

@@ -215,14 +215,15 @@ Quotients = tuple[Fraction, Fraction]
 """Minimum and maximum quotient of products of tooth counts, equal if the quotient is exact."""
 
 
-class CountLimit(NamedTuple):
-    """Maximum tooth count of one added wheel, imposed by its mesh with a ring."""
+class AddedKind(NamedTuple):
+    """Kind of added wheels, which have the same effect on the speeds of dials and are interchangeable."""
 
     dials: Dials
-    """Dials whose speed the wheel changes; empty for a wheel that changes no speed."""
+    """Dials whose speed the wheels change; empty for wheels that change no speed."""
     drives: bool
-    """True for a driving wheel on the path to these dials, False for a driven wheel."""
-    most: int
+    """True for driving wheels on the path to these dials, False for driven wheels."""
+    most: int | None = None
+    """Maximum tooth count in a mesh with a ring; None if only the general limit applies."""
 
 
 @dataclass(frozen=True)
@@ -234,12 +235,12 @@ class AddedWheels:
     idle: int
     """Number of added wheels that change no speed."""
 
-    def without(self, limit: CountLimit) -> AddedWheels:
-        """Return the added wheels without one wheel to which the limit applies."""
-        if not limit.dials:
+    def without(self, kind: AddedKind) -> AddedWheels:
+        """Return the added wheels without one wheel of a kind."""
+        if not kind.dials:
             return AddedWheels(self.groups, self.idle - 1)
         left = [
-            (dials, drivers - limit.drives, driven - (not limit.drives)) if dials == limit.dials else group
+            (dials, drivers - kind.drives, driven - (not kind.drives)) if dials == kind.dials else group
             for group in self.groups
             for dials, drivers, driven in [group]
         ]

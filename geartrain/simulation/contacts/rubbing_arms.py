@@ -48,14 +48,14 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
         coefficient = losses.by
 
     def table(way: int) -> TabledFunction:
-        def term(S: Floats, rubbing: ContactRubbing) -> Floats:
-            return _friction_term(transmission.speed(S), rubbing, coefficient, way, mesh.label)
+        def term(S: Floats) -> Floats:
+            return _friction_term(transmission.speed(S), transmission.rubbing(S), coefficient, way, mesh.label)
 
-        nodes = transmission.rubbing_nodes()
-        if nodes is None:
-            return tabled_function(lambda S: term(S, transmission.rubbing(S)), transmission)
-        # functions that are slow to evaluate are interpolated between the nodes at which their sliding is known
-        S, more = np.mod(nodes[0], transmission.period), term(nodes[0], nodes[2])
+        if not transmission.slow:
+            return tabled_function(term, transmission)
+        # functions that are slow to evaluate are interpolated between few nodes
+        nodes, _ = transmission.graded_nodes(transmission.speed)
+        S, more = np.mod(nodes, transmission.period), term(nodes)
         return tabled_function(lambda at: np.interp(at, S, more, period=transmission.period), transmission, _ROUGH)
 
     return table(1), table(-1)

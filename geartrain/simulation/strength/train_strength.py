@@ -9,7 +9,6 @@ from math import hypot, inf, pi, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
-from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.dynamics.torques.train_torques import solve
 from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
@@ -56,7 +55,7 @@ def solve_strength(
     found, loads = solve(train, state), train.load_case(state)
     if not found.verdict or loads is None:
         return TrainStrength(found.state, found.verdict)
-    if not has_torque_units(train.declaration, found.state):
+    if not train.declaration.has_torque_units(found.state):
         what = "the loads have no unit"
         why = "stresses are computed from torques in N m"
         raise QuestionError(Problem(what, why, "declare the loads with a unit, such as `-0.5 N m`"))

@@ -52,8 +52,8 @@ def section(helix: float) -> tuple[float, float, float, float]:
 
 def counted(contact_ratio: float, overlap: float) -> float:
     """Fewest tooth pairs: a pair touches from 0 to the contact ratio, and slices lag by up to the overlap."""
-    slices = np.linspace(0, overlap, 4001)
-    phases = [phase - slices for phase in np.linspace(0, 1, 401)]
+    slices = np.linspace(0, overlap, 2001)
+    phases = [phase - slices for phase in np.linspace(0, 1, 301)]
     return min(float((np.floor(at) - np.ceil(at - contact_ratio) + 1).mean()) for at in phases)
 
 

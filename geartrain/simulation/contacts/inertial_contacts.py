@@ -92,7 +92,7 @@ class InertialContacts:
 
     @cached_property
     def _response(self) -> Floats:
-        """Response R: angles of the links to a unit error of each pair, shape (links, pairs)."""
+        """Response R: angles of the links for an error of 1 rad of each pair, shape (links, pairs)."""
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:

@@ -17,9 +17,9 @@ class WearRange(NamedTuple):
     """Values of one wear result for the minimum and for the maximum wear coefficient."""
 
     minimum: float
-    """Value for the minimum wear coefficient."""
+    """Value for the minimum wear coefficient, in the unit of the result."""
     maximum: float
-    """Value for the maximum wear coefficient."""
+    """Value for the maximum wear coefficient, in the unit of the result."""
 
 
 NO_WEAR = WearRange(0.0, 0.0)

@@ -151,8 +151,7 @@ class StrengthQuestion:
     meshes: Sequence[GearMesh]
     """Pairs with a tooth form, with their drivers in this load case."""
     scale: float | None
-    """Total revolutions per unit of relative speed; None if wear is not requested. `turns` is the number for the input.
-    """
+    """Revolutions per unit of relative speed; None if wear is not requested. `turns` are those of the input."""
     turns: float | None
     wear: WearRange
     """Minimum and maximum wear coefficient."""

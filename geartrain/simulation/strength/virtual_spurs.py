@@ -48,7 +48,7 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class ConeMiddle:
-    """Pitch cones of a pair at mid-width of its teeth: docs/strength.md (23). Lengths in one unit."""
+    """Pitch cones of a pair at mid-width of its teeth: docs/strength.md (23). All lengths have the same unit."""
 
     cones: PitchSurfaces
     """Pitch cones of gears 1 and 2."""

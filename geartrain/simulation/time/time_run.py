@@ -322,9 +322,9 @@ class ConvergedFigure(Result):
     unit: str
     """Unit of the values; empty for a fraction."""
     coarse: float
-    """Value with the time step h."""
+    """Value with the time step h, in `unit`."""
     fine: float
-    """Value with the time step h/2."""
+    """Value with the time step h/2, in `unit`."""
     kind: Literal["mean", "extreme"]
     """Kind of result, "mean" or "extreme".
 

@@ -191,6 +191,7 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
     if value.denominator <= most:
         return value, value
     # no numerator of a neighbour exceeds this, so only the denominators are bounded
+    # the ends of the last run are the nearest fractions within the bounds, one on each side of `value`
     *_, last = runs(value, ((int(value) + 1) * most, most))
     low, high = sorted((last.at(last.length), Fraction(*last.far)))
     return low, high

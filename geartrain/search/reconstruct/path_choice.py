@@ -219,6 +219,7 @@ class PathChoice:
         if self._idlers:  # the count of an added idler at which paths separate affects only one of them
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
+        # shared wheels count twice in `whole`, wheels of one path once in `whole` and once in `far`
         return np.asarray(whole + far <= 2 * self._added)
 
 

@@ -30,7 +30,6 @@ class PathColumns:
     codes          code of the pass, 0 if the arbor is avoided, shape (arbors, rows)
     driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
     driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
-    ends           bit of the surviving arbor that shows the dial, for each row
     passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row
     """
@@ -44,7 +43,6 @@ class PathColumns:
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
         self.driver = np.zeros(self.codes.shape, dtype=np.int16)
         self.used = paths.arbors.copy()
-        self.ends = np.zeros(len(paths), dtype=np.int64)
         self.passes_added = paths.idlers > 0
         for at, passes in enumerate(paths.passes):
             taken = self.codes[at]
@@ -56,9 +54,6 @@ class PathColumns:
             wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
             self.used |= np.array(wheels, dtype=np.int64)[taken]
             self.passes_added |= np.array([False, *(each.idler and each.driven == ADDED for each in passes)])[taken]
-            if at:
-                last = np.array([False, *(each.driver is None for each in passes)])
-                self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
 
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
         """Return whether each path can be in one tree with a path to another dial.
@@ -67,7 +62,7 @@ class PathColumns:
         by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
-        good = self._end_in(rows, both, other, row)
+        good = np.ones(len(rows), dtype=bool)
         parted = np.zeros(len(rows), dtype=np.int8)
         for at in np.flatnonzero(other.codes[:, row]).tolist():
             codes = self.codes[at][rows]
@@ -80,18 +75,6 @@ class PathColumns:
             if not at:
                 good &= ~left | (both == 0)
         return good & (parted <= 1)
-
-    def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int) -> Bools:
-        """Return for each path whether the path that ends at an arbor of the other path, if any, is a part of the
-        other path.
-        """
-        mine, theirs = self.paths, other.paths
-        ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
-        compounds = mine.compounds[rows] - theirs.compounds[row]
-        idlers = mine.idlers[rows] - theirs.idlers[row]
-        good = ~ends | ((both == mine.arbors[rows]) & (compounds <= 0) & (idlers <= 0))
-        good &= ~their_end | ((both == theirs.arbors[row]) & (compounds >= 0) & (idlers >= 0))
-        return np.asarray(good)
 
 
 def all_to_use(problem: ReconstructionProblem) -> int:

@@ -129,15 +129,12 @@ class PathChoice:
 
         share   distribution of the next paths over the parts of the search; None if an earlier path was distributed
         """
-        missing = self._must & ~reduce(or_, (int(self._columns[dial].used[row]) for dial, row in chosen.items()), 0)
-        # a part that must be used is on no remaining path
-        if missing & ~reduce(or_, (self._reach(dial, rows) for dial, rows in lists.items()), 0):
-            return
         dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
         rows = lists[dial]
         others = {other: some for other, some in lists.items() if other != dial}
         if not others:
-            rows = rows[np.int64(missing) & ~self._columns[dial].used[rows] == 0]
+            used = reduce(or_, (int(self._columns[each].used[at]) for each, at in chosen.items()), 0)
+            rows = rows[np.int64(self._must & ~used) & ~self._columns[dial].used[rows] == 0]
         # few paths are not distributed evenly; the paths to the next dial are distributed then
         own = share if not others or len(rows) >= _EVEN_SHARES else None
         for row in rows.tolist():
@@ -147,10 +144,6 @@ class PathChoice:
                 yield {**chosen, dial: row}
             elif (kept := self._fitting(dial, row, others, chosen)) is not None:
                 yield from self._extended({**chosen, dial: row}, kept, None if own else share)
-
-    def _reach(self, dial: str, rows: Rows) -> int:
-        """Return the bit mask of the arbors and wheels that some of the paths use."""
-        return int(np.bitwise_or.reduce(self._columns[dial].used[rows]))
 
     def _fitting(self, dial: str, row: int, lists: Mapping[str, Rows], chosen: Choice) -> dict[str, Rows] | None:
         """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has

@@ -80,7 +80,7 @@ class Problem:
     """
 
     what: str
-    """Description of the problem in a few words."""
+    """Description of the problem as a clause."""
     why: str = ""
     """Rule or cause; empty if it is obvious."""
     fix: str = ""

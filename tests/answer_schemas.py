@@ -1,4 +1,4 @@
-"""Whether an answer has the shape that the shipped schema tells of its question."""
+"""Schemas of JSON results for the tests, without keys that the shipped schema does not name."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from geartrain.report import answer_schema
 
 
 def closed(schema: Any) -> Any:
-    """The schema with no room for keys that it does not name: what the tests hold answers against."""
+    """Return the schema with additional keys forbidden."""
     if isinstance(schema, list):
         return [closed(each) for each in schema]
     if not isinstance(schema, Mapping):

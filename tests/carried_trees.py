@@ -1,4 +1,9 @@
-"""Random small evidence on a carrier, and the problem that it defines, by hand."""
+"""Enumeration of all trains on a carrier by growth of concrete trees in the frame: Willis equation, mesh by mesh.
+
+This program is independent: it reads plain data and imports nothing from the package. Trees have the form of
+`concrete_trees`, so that they can be compared. All counts are chosen from the start, speeds are relative to the frame,
+and a link that turns as fast as the carrier is not a special case.
+"""
 
 from __future__ import annotations
 
@@ -51,10 +56,11 @@ def problem_by_hand(evidence: Evidence) -> ReconstructionProblem:
 
 
 def random_evidence(seed: int, rings: bool = False) -> Evidence:
-    """A small question that mostly has an answer: a random train on a carrier, of which some wheels are lost.
+    """Return a small problem that usually has a solution: a random train on a carrier from which some wheels are
+    removed.
 
-    seed   of the question
-    rings  whether some of the wheels that survive are rings
+    seed   seed of the problem
+    rings  whether some of the surviving wheels are rings
     """
     chance = random.Random(seed)
     minimum = chance.randint(5, 9)

@@ -1,4 +1,6 @@
-"""Work for others to do: tasks that note where they ran, wait at a gate, kill their worker; and a small cluster."""
+"""Tasks for the tests of parallel runs, which record their process, wait at a gate or kill their worker; a small
+cluster.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ PATIENCE = 60.0  # s: for what is certain to come, on however busy a machine
 
 
 def until(condition: Any, what: str) -> Any:
-    """Wait for something to be true."""
+    """Wait until a condition is true."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         if found := condition():
@@ -25,14 +27,14 @@ def until(condition: Any, what: str) -> Any:
 
 
 def next_line(stream: IO[str]) -> str:
-    """The next line that a process writes into a pipe, which is empty so far."""
+    """Return the next line that a process writes to a pipe that is empty so far."""
     ready, _, _ = select.select([stream], [], [], PATIENCE)
     assert ready, f"no line in {PATIENCE:g} s"
     return stream.readline()
 
 
 def alive(pid: int) -> bool:
-    """True if there is such a process, and it is not one that only waits to be buried."""
+    """Return True if the process exists and is not a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0] != "Z"
     except OSError:
@@ -40,7 +42,7 @@ def alive(pid: int) -> bool:
 
 
 def note(folder: str, number: int) -> None:
-    """Write down that a task is begun, and by which process: one write, whole or not at all."""
+    """Record, in one atomic write, that a task has begun and in which process."""
     descriptor = os.open(Path(folder) / "begun", os.O_WRONLY | os.O_APPEND | os.O_CREAT)
     try:
         os.write(descriptor, f"{number} {os.getpid()}\n".encode())
@@ -49,26 +51,26 @@ def note(folder: str, number: int) -> None:
 
 
 def begun(folder: Path) -> list[tuple[int, int]]:
-    """Which tasks were begun by which processes, in time."""
+    """Return the tasks that have begun and their processes, in order of time."""
     path = folder / "begun"
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
     return [(int(number), int(pid)) for number, pid in (line.split() for line in lines)]
 
 
 def mixed(number: int) -> dict[str, Any]:
-    """A result with all that JSON has, and the longest work first."""
+    """Return a result with every type of JSON; the first task takes longest."""
     time.sleep(0.02 if number == 0 else 0)
     return {"n": number, "third": number / 3, "huge": number**40, "pair": (number, None), "text": "Zähne\n", "no": []}
 
 
 def slow(seconds: float) -> tuple[float, int]:
-    """The time it takes, and the process that took it."""
+    """Return the time that the task took and its process."""
     time.sleep(seconds)
     return seconds, os.getpid()
 
 
 def gated(task: tuple[str, int, int]) -> int:
-    """The square; tasks from `free` on wait until the folder has a gate that is open, or is gone with its test."""
+    """Return the square; tasks from `free` on wait until the gate in the folder is open or the folder is deleted."""
     folder, number, free = task
     note(folder, number)
     end = time.monotonic() + 2 * PATIENCE
@@ -79,7 +81,7 @@ def gated(task: tuple[str, int, int]) -> int:
 
 
 def deadly(task: tuple[str, int, int]) -> int:
-    """The square; task 5 kills its process the first `times` times."""
+    """Return the square; task 5 kills its process the first `times` times."""
     folder, number, times = task
     note(folder, number)
     if number == 5 and sum(each == 5 for each, _ in begun(Path(folder))) <= times:
@@ -88,14 +90,14 @@ def deadly(task: tuple[str, int, int]) -> int:
 
 
 class AwkwardError(Exception):
-    """An exception that pickles and does not unpickle, as many do."""
+    """An exception that can be pickled but not unpickled, like many exceptions of libraries."""
 
     def __init__(self, first: str, second: str) -> None:
         super().__init__(f"{first} and {second}")
 
 
 def failing(task: tuple[str, int, str]) -> int:
-    """The number; task 5 raises."""
+    """Return the number; task 5 raises an exception."""
     from geartrain.errors import Problem, QuestionError
 
     folder, number, kind = task
@@ -110,13 +112,13 @@ def failing(task: tuple[str, int, str]) -> int:
 
 
 def not_plain(number: int) -> set[int]:
-    """What JSON does not have."""
+    """Return an object that JSON cannot represent."""
     return {number}
 
 
 @contextmanager
 def small_cluster() -> Iterator[Any]:
-    """Two workers, each a process of its own, under a scheduler in this one."""
+    """Yield a cluster of two worker processes with a scheduler in this process."""
     import dask
     import distributed
 

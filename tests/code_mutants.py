@@ -1,13 +1,13 @@
-"""Mutation testing of the package: one small fault at a time, and whether the tests of its folder find it.
+"""Mutation testing of the package: changes one operator or constant and records which test fails.
 
     python tests/code_mutants.py --number 200 --seed 0 --out before.jsonl
     python tests/code_mutants.py --again before.jsonl --out after.jsonl
 
 A mutant is the package with one operator or constant changed: the sign of a term, a product for a quotient, a
-comparison at its boundary, `and` for `or`, a whole number off by one. Places are drawn at random, from a seed, in
-kinematics, dynamics, teeth and numerics. A mutant is killed if a test of the folder of the same name fails or does not
-end; the files that import the mutated module run first, and with `--near` only those. `--again` tries the mutants of an
-earlier run by the tests there are now: those that were killed then, or with `--all` every one.
+comparison at its boundary, `and` for `or`, an integer off by one. The changed places are drawn at random, from a seed,
+in kinematics, dynamics, teeth and numerics. A mutant is killed if a test of the folder of the same name fails or does
+not end; the files that import the mutated module run first, and with `--near` only these files. `--again` runs the
+mutants of an earlier run with the present tests: those that were killed, or all of them with `--all`.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ SWAPPED: dict[type[ast.AST], type[ast.AST]] = {
 
 @dataclass(frozen=True)
 class Fault:
-    """A part of a file, given by offsets in bytes, and the text that replaces it."""
+    """A part of a file, given by byte offsets, and the text that replaces it."""
 
     path: str
     line: int
@@ -59,7 +59,7 @@ class Fault:
 
 
 def faults(path: Path) -> Iterator[Fault]:
-    """All faults of a module, in the order of its syntax tree."""
+    """Return all faults of a module in the order of its syntax tree."""
     source = path.read_bytes()
     starts = [0]
     for line in source.splitlines(keepends=True):
@@ -78,7 +78,7 @@ def faults(path: Path) -> Iterator[Fault]:
 
 
 def _not_computed(tree: ast.Module) -> set[int]:
-    """Nodes of annotations and decorators, which compute nothing, and of formatted text."""
+    """Return the nodes of annotations, decorators and formatted text, which are not evaluated as arithmetic."""
     found: set[int] = set()
     for node in ast.walk(tree):
         parts: list[ast.AST | None] = []
@@ -99,7 +99,7 @@ def _not_computed(tree: ast.Module) -> set[int]:
 
 
 def _others(node: ast.expr) -> Iterator[ast.expr]:
-    """What an expression becomes by each single fault at its top."""
+    """Yield the expressions that result from a single change at the top of an expression."""
     match node:
         case ast.BinOp(left, op, right) if type(op) in SWAPPED:
             yield ast.BinOp(left, SWAPPED[type(op)](), right)  # type: ignore[arg-type]
@@ -114,7 +114,7 @@ def _others(node: ast.expr) -> Iterator[ast.expr]:
 
 
 def drawn(number: int, seed: int, rooms: tuple[str, ...], near_only: bool) -> list[Fault]:
-    """Faults drawn at random: as many in each room, or nearly."""
+    """Return faults drawn at random, nearly the same number for each package."""
     random, found = Random(seed), []
     for at, room in enumerate(rooms):
         paths = sorted((ROOT / "geartrain" / room).rglob("*.py"))
@@ -126,7 +126,7 @@ def drawn(number: int, seed: int, rooms: tuple[str, ...], near_only: bool) -> li
 
 
 def near(root: Path, path: Path) -> list[Path]:
-    """Files of tests, in the folder of the same name, that name a module of the package."""
+    """Return the test files, in the folder of the same name, that name a module of the package."""
     module = str(path.with_suffix("")).replace("/", ".").removesuffix(".__init__")
     every = sorted((root / "tests" / path.parts[1]).glob("test_*.py"))
     return [each for each in every if re.search(rf"\b{re.escape(module)}\b", each.read_text(encoding="utf-8"))]
@@ -145,14 +145,14 @@ class Trial:
                 shutil.copy(part, folder / name)
 
     def files(self, path: str, near_only: bool) -> list[list[str]]:
-        """Files of tests for a module of the package: those that name it, then the others of its folder."""
+        """Return the test files for a module: those that name it, then the other files of the folder."""
         first = near(self.folder, Path(path))
         every = sorted((self.folder / "tests" / Path(path).parts[1]).glob("test_*.py"))
         others = [] if near_only else [each for each in every if each not in first]
         return [[str(each) for each in some] for some in (first, others) if some]
 
     def test(self, files: list[str], patience: float) -> tuple[str, float]:
-        """The first test that fails, `timeout`, or nothing; and the seconds it took."""
+        """Return the first test that fails, "timeout" or an empty string, and the run time [s]."""
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", "--tb=no", *files]
         environment = os.environ | {"PYTHONPATH": str(self.folder), "PYTHONDONTWRITEBYTECODE": "1"}
         begun = time.monotonic()
@@ -169,7 +169,7 @@ class Trial:
         return (failed[0] if failed else "collection"), taken
 
     def killer(self, fault: Fault, patience: float, near_only: bool) -> str:
-        """The test that finds a fault, or nothing."""
+        """Return the test that finds a fault, or an empty string."""
         path = self.folder / fault.path
         source = path.read_bytes()
         path.write_bytes(source[: fault.start] + fault.after.encode() + source[fault.end :])

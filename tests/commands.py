@@ -1,4 +1,4 @@
-"""The command as tests call it, and the declarations and numbers they share."""
+"""Functions that run commands for the tests, and shared declarations and numbers."""
 
 from __future__ import annotations
 
@@ -58,7 +58,9 @@ main()
 
 
 def call(*arguments: object) -> Result:
-    """The result of a command in this process; errors of the input have the text and code of the console script."""
+    """Return the result of a command run in this process; input errors have the text and exit code of the console
+    script.
+    """
     result = CliRunner().invoke(app, [str(argument) for argument in arguments])
     if isinstance(result.exception, GearTrainError):
         said = "".join(f"error: {problem}\n" for problem in result.exception.problems).encode()
@@ -69,7 +71,7 @@ def call(*arguments: object) -> Result:
 
 
 def ended(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """How the console script ends, in this process: exit code, standard output, standard error."""
+    """Return exit code, standard output and standard error of the console script run in this process."""
     words = ["geartrain", *map(str, arguments)]
     out, err, code = StringIO(), StringIO(), None
     with patch.object(sys, "argv", words), redirect_stdout(out), redirect_stderr(err):
@@ -88,7 +90,7 @@ def without(*missing: str, arguments: list[object]) -> subprocess.CompletedProce
 
 
 def interrupt_after(count: int, patch: pytest.MonkeyPatch) -> list[int]:
-    """Interrupts this process when a progress bar advances for the `count`-th time; the advances, as they come."""
+    """Interrupt this process at the `count`-th step of a progress bar, and return the list of steps so far."""
     from geartrain.cli.long_runs import ProgressBar
 
     told: list[int] = []
@@ -103,14 +105,14 @@ def interrupt_after(count: int, patch: pytest.MonkeyPatch) -> list[int]:
 
 
 def imported_by(code: str) -> set[str]:
-    """The top-level modules loaded in a fresh interpreter after `code`."""
+    """Return the top-level modules that are loaded in a fresh interpreter after `code`."""
     tail = "\nimport sys, json; print(json.dumps(sorted({name.split('.')[0] for name in sys.modules})))"
     done = subprocess.run([sys.executable, "-c", code + tail], capture_output=True, text=True, check=True, timeout=120)
     return set(json.loads(done.stdout.splitlines()[-1]))
 
 
 def verbs() -> Iterator[tuple[str, Any]]:
-    """Every command there is, groups among them, by its full name, from the application itself."""
+    """Return every command and group of commands by its full name, read from the application."""
 
     def walk(name: str, command: Any) -> Iterator[tuple[str, Any]]:
         yield name, command
@@ -121,5 +123,5 @@ def verbs() -> Iterator[tuple[str, Any]]:
 
 
 def functions() -> Iterator[tuple[str, Callable[..., None]]]:
-    """Every verb that is no group, and the function that it runs."""
+    """Return every command that is not a group, and the function that it runs."""
     return ((name, inspect.unwrap(each.callback)) for name, each in verbs() if not hasattr(each, "commands"))

@@ -1,12 +1,12 @@
-"""Every explanation of a reconstruction by plain growth of concrete trees kept in a set: slow, and hard to get wrong.
+"""Enumeration of all reconstructions by growth of concrete trees that are kept in a set: slow, but simple.
 
-An independent program: it takes from the package the words of a question alone. A tree grows by one mesh at a time, in
-every way that the rules allow, with 0 for the count of an added wheel; equal trees fall together in a set. Those that
-keep the rules get counts of teeth in every way, then dials in every way, and again equal trees fall together.
+This program is independent: from the package it takes only the classes that declare a problem. A tree grows by one mesh
+at a time, in every way that the rules permit; an added wheel first has the count 0. Equal trees coincide in the set.
+Trees that satisfy the rules get all possible tooth counts and then all possible dials, and equal trees coincide again.
 
-A wheel is `(name, teeth)`, with the name "" of an added one. A node is `(name, driven, dials, drives)`: name "" of an
-added arbor, driven `()` at the input, drives a sorted tuple of `(wheel, sorted tuple of nodes)`. `DRIVEN` among the
-wheels that drive is the driven wheel itself, where idlers are allowed.
+A wheel is `(name, teeth)`; an added wheel has the name "". A node is `(name, driven, dials, drives)`: the name is ""
+for an added arbor, driven is `()` at the input, and drives is a sorted tuple of `(wheel, sorted tuple of nodes)`. The
+entry `DRIVEN` among the driving wheels denotes the driven wheel itself, where idlers are permitted.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ DRIVEN = ("=", 0)
 
 
 class Counts(NamedTuple):
-    """What is found with just so many added wheels."""
+    """Numbers of solutions with a given number of added wheels."""
 
     added: int
     solutions: int
@@ -47,14 +47,14 @@ class Counts(NamedTuple):
 
 
 class Found(NamedTuple):
-    """All solutions with just so many added wheels, and their counts."""
+    """All solutions with a given number of added wheels, and their numbers."""
 
     counts: Counts
     solutions: frozenset[Node]
 
 
 def explanations(problem: ReconstructionProblem) -> tuple[Found, ...]:
-    """Everything with 0, 1, ... added wheels."""
+    """Return all solutions with 0, 1, ... added wheels."""
     return tuple(
         Found(
             Counts(added, len(found), len({bag(tree) for tree in found}), len({ratio_class(tree) for tree in found})),
@@ -85,7 +85,7 @@ def _by_added(problem: ReconstructionProblem) -> list[frozenset[Node]]:
 
 
 def _grown(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
-    """The tree with one mesh more, in every way."""
+    """Yield the tree with one more mesh, in every way."""
     rules = problem.additions
     here = {node[0] for node in nodes(tree)}
     survivors = {arbor.name: arbor for arbor in (problem.input, *problem.arbors)}
@@ -104,7 +104,7 @@ def _grown(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
 def _with_child(
     node: Node, children: list[Node], survivors: dict[str, SurvivingArbor], problem: ReconstructionProblem
 ) -> Iterator[Node]:
-    """The arbor and all below it with one mesh more."""
+    """Yield the arbor and its subtree with one more mesh."""
     name, driven, dials, drives = node
     for at, (wheel, driven_arbors) in enumerate(drives):
         rest = drives[:at] + drives[at + 1 :]
@@ -120,7 +120,7 @@ def _with_child(
 
 
 def _new_drivers(node: Node, survivors: dict[str, SurvivingArbor], problem: ReconstructionProblem) -> Iterator[Wheel]:
-    """Wheels of an arbor that drive nothing yet, and wheels that might be added to it."""
+    """Return the wheels of an arbor that drive nothing yet, and the wheels that may be added to it."""
     name, driven, _, drives = node
     driving = {wheel[0] for wheel, _ in drives}
     if problem.idlers and driven and DRIVEN[0] not in driving:
@@ -137,7 +137,7 @@ def _readings(arbor: SurvivingArbor) -> list[Wheel]:
 
 
 def _filled(node: Node, teeth: Iterator[int]) -> Node:
-    """The arbor and all below it with counts for added wheels."""
+    """Yield the arbor and its subtree with tooth counts for the added wheels."""
     name, driven, dials, drives = node
     wheel = (ADDED, next(teeth)) if driven == UNKNOWN else driven
     filled = []
@@ -155,17 +155,17 @@ def _sorted(*parts: tuple) -> tuple:
 
 
 def nodes(node: Node) -> list[Node]:
-    """The arbor and all below it."""
+    """Yield the arbor and all arbors below it."""
     return [node, *(below for _, children in node[3] for child in children for below in nodes(child))]
 
 
 def added_wheels(tree: Node) -> int:
-    """How many wheels are added."""
+    """Return the number of added wheels."""
     return sum((node[1][:1] == (ADDED,)) + sum(wheel[0] == ADDED for wheel, _ in node[3]) for node in nodes(tree))
 
 
 def meshes(node: Node) -> list[tuple[Wheel, Wheel]]:
-    """Wheels that drive with those that they drive."""
+    """Yield driving wheels with the wheels that they drive."""
     found = []
     for wheel, children in node[3]:
         for child in children:
@@ -175,7 +175,7 @@ def meshes(node: Node) -> list[tuple[Wheel, Wheel]]:
 
 
 def speeds(node: Node, speed: Fraction, rings: Collection[str] = ()) -> list[Fraction]:
-    """Speeds of `nodes`, in their order; a mesh with a ring keeps the sense."""
+    """Return the speeds of `nodes`, in their order; a mesh with a ring preserves the sense."""
     found = [speed]
     for wheel, children in node[3]:
         name, teeth = node[1] if wheel == DRIVEN else wheel
@@ -187,12 +187,12 @@ def speeds(node: Node, speed: Fraction, rings: Collection[str] = ()) -> list[Fra
 
 
 def rings_of(problem: ReconstructionProblem) -> set[str]:
-    """Names of surviving rings."""
+    """Return the names of surviving rings."""
     return {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if wheel.internal}
 
 
 def _turns_in_rings(tree: Node, problem: ReconstructionProblem) -> bool:
-    """Whether each ring meshes with wheels alone that have fewer teeth."""
+    """Return True if each ring meshes only with wheels that have fewer teeth."""
     rings = rings_of(problem)
     for pair in meshes(tree):
         inside = [teeth for name, teeth in pair if name not in rings]
@@ -222,7 +222,7 @@ def _keeps_rules(tree: Node, problem: ReconstructionProblem) -> bool:
 
 
 def _with_dials(tree: Node, problem: ReconstructionProblem) -> Iterator[Node]:
-    """The tree with dials in every way, no end of it without a dial."""
+    """Yield the tree with dials in every way; every leaf has a dial."""
     arbors = nodes(tree)
     turning = speeds(tree, problem.input_speed, rings_of(problem))
     fitting = [
@@ -261,7 +261,7 @@ def _dialled(node: Node, shown: dict[int, list[str]], numbers: Iterator[int]) ->
 
 
 def _paths(node: Node, before: tuple = ()) -> Iterator[tuple[str, tuple]]:
-    """Each dial with the arbors on its path: `(arbor, driven wheel, driving wheel)`, the last one with `()`."""
+    """Return each dial with the arbors on its path: `(arbor, driven wheel, driving wheel)`, the last one with `()`."""
     for dial in node[2]:
         yield dial, (*before, (node[0], node[1], ()))
     for wheel, children in node[3]:
@@ -270,12 +270,12 @@ def _paths(node: Node, before: tuple = ()) -> Iterator[tuple[str, tuple]]:
 
 
 def bag(tree: Node) -> tuple:
-    """For every dial, the multiset of oriented arbors on its path."""
+    """Return, for every dial, the multiset of oriented arbors on its path."""
     return _sorted(*((dial, _sorted(*path)) for dial, path in _paths(tree)))
 
 
 def ratio_class(tree: Node) -> tuple:
-    """For every dial, the multisets of driving and of driven wheels on its path."""
+    """Return, for every dial, the multisets of driving and of driven wheels on its path."""
     return _sorted(
         *(
             (dial, _sorted(*(step[2] for step in path[:-1])), _sorted(*(step[1] for step in path[1:])))
@@ -288,7 +288,7 @@ def ratio_class(tree: Node) -> tuple:
 
 
 def concrete(arbor: Arbor) -> Node:
-    """A candidate of the package as a tree of this module."""
+    """Convert a candidate of the package to a tree of this module."""
     driven = _wheel(arbor.driven) if arbor.driven else ()
     drives = [(_wheel(wheel), _sorted(*map(concrete, children))) for wheel, children in arbor.drives]
     if arbor.passes:
@@ -301,7 +301,7 @@ def _wheel(wheel: PlacedWheel) -> Wheel:
 
 
 def package_arbor(tree: Node) -> Arbor:
-    """A concrete tree as a candidate of the package."""
+    """Convert a concrete tree to a candidate of the package."""
     name, driven, dials, drives = tree
     placed = PlacedWheel(driven[0] or None, driven[1]) if driven else None
     children = [(key, tuple(map(package_arbor, below))) for key, below in drives]
@@ -311,7 +311,7 @@ def package_arbor(tree: Node) -> Arbor:
 
 
 def plain_prior(tree: Node, problem: ReconstructionProblem) -> Fraction:
-    """The product of what every part of a concrete tree weighs."""
+    """Return the prior weight of a concrete tree, the product of the weights of its parts."""
     factors, limits = problem.factors, problem.additions
     weights = {one.name: dict(one.counts) for arbor in (problem.input, *problem.arbors) for one in arbor.wheels}
     weight, unused = Fraction(1), set(weights)
@@ -329,7 +329,7 @@ def plain_prior(tree: Node, problem: ReconstructionProblem) -> Fraction:
 
 
 def sure_arbor(name: str, **teeth: int) -> SurvivingArbor:
-    """A surviving arbor whose counts are sure."""
+    """Return a surviving arbor whose counts are certain."""
     wheels = (SurvivingWheel(wheel, ((count, Fraction(1)),)) for wheel, count in teeth.items())
     return SurvivingArbor(name, tuple(wheels))
 
@@ -337,21 +337,21 @@ def sure_arbor(name: str, **teeth: int) -> SurvivingArbor:
 def exact_dial(
     name: str, speed: Fraction | int | str, *, signed: bool = True, place: str | None = None
 ) -> SearchedDial:
-    """A dial of one speed; the magnitude alone is kept where the sense is not known."""
+    """Return a dial with a single speed; only the magnitude is kept if the sense is not known."""
     wanted = Fraction(speed) if signed else abs(Fraction(speed))
     return SearchedDial(name, wanted, wanted, signed, place)
 
 
 def random_problem(seed: int, *, wheels: int = 2, idlers: bool = False) -> ReconstructionProblem:
-    """A small question that mostly has an answer: a random train, of which some wheels are then lost.
+    """Return a small problem that usually has a solution: a random train from which some wheels are removed.
 
     Parameters
     ----------
     seed : int
     wheels : int, default 2
-        The most wheels that may be added.
+        Maximum number of added wheels.
     idlers : bool, default False
-        Whether a driven wheel may drive, in half of the questions.
+        Whether a driven wheel may drive, in half of the problems.
     """
     chance = random.Random(seed)
     minimum = chance.randint(6, 12)
@@ -454,7 +454,7 @@ def _random_dial(chance: random.Random, arbor: _Grown, speed: Fraction) -> Searc
 
 
 def with_rings(problem: ReconstructionProblem, seed: int) -> ReconstructionProblem:
-    """The question with some of its surviving wheels as rings, and senses that one of its explanations may have."""
+    """Return the problem with some surviving wheels as rings, and with senses that one of its solutions can have."""
     chance = random.Random(seed)
     arbors = []
     for arbor in (problem.input, *problem.arbors):
@@ -469,7 +469,9 @@ def with_rings(problem: ReconstructionProblem, seed: int) -> ReconstructionProbl
 
 
 def declared(problem: ReconstructionProblem) -> Train:
-    """A small question as evidence; targets carry what is wanted, so that either sense will do where it may."""
+    """Return a small problem as declared evidence. Speeds become targets, so that either sense is accepted where
+    permitted.
+    """
     arbors = (problem.input, *problem.arbors)
     counts = {
         arbor.name: {

@@ -1,4 +1,4 @@
-"""What all tests share: the slow marker, Hypothesis without a clock, and two ways to hand a train in."""
+"""Shared parts of all tests: the marker `slow`, Hypothesis without time limits, and fixtures that load declarations."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 class Passed:
-    """Keeps in pytest's cache which tests passed, for `--rest`."""
+    """Plugin that records in pytest's cache which tests passed, for `--rest`."""
 
     def __init__(self, config: pytest.Config) -> None:
         self.config, self.names = config, set[str]()
@@ -84,7 +84,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object | None:
-    """Each worker takes whole files, so that what a file's tests share is made once."""
+    """Let each worker run whole files, so that data shared by the tests of a file are computed once."""
     if config.getoption("dist") != "load":
         return None
     from xdist.scheduler import LoadFileScheduling
@@ -93,7 +93,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object | 
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Deselect the tests marked slow, unless `--slow` is given, and with `--rest` what passed before."""
+    """Deselect tests marked slow unless `--slow` is given, and tests that passed before if `--rest` is given."""
     slow, rest = config.getoption("--slow"), config.getoption("--rest")
     passed = set(config.cache.get(PASSED, ())) if rest and config.cache else set()
     done = [item for item in items if item.nodeid in passed and not (slow and has_more_samples(item))]
@@ -109,7 +109,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def has_more_samples(item: pytest.Item) -> bool:
-    """True of a test that tries more random samples with `--slow`."""
+    """Return True if a test uses more random samples with `--slow`."""
     drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
     return drawn or not {"seeds", "mutant_seeds"}.isdisjoint(getattr(item, "fixturenames", ()))
 
@@ -123,7 +123,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def one_core() -> Iterator[None]:
-    """Commands that run in the process of the tests start no others, however long they take."""
+    """Prevent commands that run in the test process from starting other processes."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("geartrain.numerics.work.executors.cores", lambda: 1)
         yield
@@ -131,20 +131,21 @@ def one_core() -> Iterator[None]:
 
 @pytest.fixture
 def seeds(request: pytest.FixtureRequest) -> range:
-    """The seeds of the random trains, from `--first-train` on."""
+    """Return the seeds of the random trains, from `--first-train` on."""
     return _seeds(request.config, "--first-train", "--trains")
 
 
 @pytest.fixture
 def mutant_seeds(request: pytest.FixtureRequest) -> range:
-    """The seeds of the corrupted declarations, from `--first-mutant` on."""
+    """Return the seeds of the corrupted declarations, from `--first-mutant` on."""
     return _seeds(request.config, "--first-mutant", "--mutants")
 
 
 def _seeds(config: pytest.Config, first: str, number: str) -> range:
-    """Seeds from an option on, as many as another option says: 300 by default, 1000 with `--slow`.
+    """Return seeds from the value of one option on; another option gives their number, by default 300, or 1000 with
+    `--slow`.
 
-    With `--slow --rest` only those after the first 300, which ran before.
+    With `--slow --rest`, only the seeds after the first 300 are returned.
     """
     start, slow = config.getoption(first), config.getoption("--slow")
     stop = start + (config.getoption(number) or (1000 if slow else FEW))
@@ -154,7 +155,7 @@ def _seeds(config: pytest.Config, first: str, number: str) -> range:
 
 @pytest.fixture
 def train_file(tmp_path: Path) -> Callable[..., Path]:
-    """Writes YAML into a file of its own and returns the path."""
+    """Return a function that writes YAML to a new file and returns its path."""
 
     def write(text: str, name: str = "train.yaml") -> Path:
         path = tmp_path / name
@@ -167,7 +168,9 @@ def train_file(tmp_path: Path) -> Callable[..., Path]:
 
 @pytest.fixture
 def refused(train_file: Callable[..., Path]) -> Callable[..., GearTrainError]:
-    """Loads YAML that must be refused; the error has a place, a what, a why and a fix in every problem."""
+    """Return a function that loads invalid YAML; each problem of the error must have a place, a what, a why and
+    a fix.
+    """
 
     def refuse(text: str, *said: str, line: int | None = None, name: str = "train.yaml") -> GearTrainError:
         path = train_file(text, name)
@@ -190,5 +193,5 @@ def refused(train_file: Callable[..., Path]) -> Callable[..., GearTrainError]:
 
 @pytest.fixture
 def accepted(train_file: Callable[..., Path]) -> Callable[[str], GearTrain]:
-    """Loads YAML from a file."""
+    """Return a function that loads YAML from a file."""
     return lambda text: load(train_file(text))

@@ -1,8 +1,8 @@
-"""Extreme trains and their answers in 50 digits: what the floats are judged by, and how far off they are.
+"""Extreme trains with references in 50-digit arithmetic, and the errors of floating-point results.
 
-A train's angles are found from the laws of `sorge`, as the solution of all of them at once; the tooth sizes in floats
-are taken as exact. Torques are balanced in fractions, from the statics of each wheel. `CASES` measures each train
-against its reference; the tests bound the errors, and a page of the documentation lists them.
+The angles of a train are found from the transmission functions of `sorge`, which are solved simultaneously; tooth sizes
+given as floats are treated as exact. Torques are balanced in fractions, from the statics of each wheel. `CASES`
+compares each train with its reference; the tests bound the errors, and a page of the documentation lists them.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ EPS = 2.0**-53
 
 @dataclass(frozen=True)
 class Wheels:
-    """Two external wheels, and how their teeth are declared; without a form they are ideal."""
+    """Two external wheels and the declaration of their teeth, which are ideal without a form."""
 
     z1: int
     z2: int
@@ -43,12 +43,12 @@ class Wheels:
 
     @property
     def form(self) -> str:
-        """As a pair declares it."""
+        """Text of the tooth form in the declaration of a pair."""
         return f", {self.teeth}" if self.teeth else ""
 
 
 def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "equal_depth") -> str:
-    """A tooth form, as a pair or a train declares it."""
+    """Return a tooth form in the syntax of a declaration."""
     return f"tooth_form: {{form: triangular, half_angle: {half_angle} deg, window: {window}, radii: {radii}}}"
 
 
@@ -56,7 +56,7 @@ def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "
 
 
 def contact(tooth_pair: Couple, S: Any) -> tuple[Segment, Any]:
-    """Which couple drives at the forward angle S, and its alpha_1."""
+    """Return the tooth pair that drives at the forward angle S, and its alpha_1."""
     for segment in tooth_pair.path:
         over = mp.floor((segment.start + S) / tooth_pair.p1 - segment.k) + segment.k
         x = over * tooth_pair.p1 - S
@@ -67,29 +67,29 @@ def contact(tooth_pair: Couple, S: Any) -> tuple[Segment, Any]:
 
 @cache
 def tooth_pair_of(sizes: TriangularSizes) -> Couple:
-    """Of some sizes, with its path, made once."""
+    """Return the tooth pair of the given sizes with its path; cached."""
     return Couple.of(sizes)
 
 
 class Toothed:
-    """The law of triangular teeth."""
+    """Transmission function of triangular teeth."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
         self.tooth_pair = tooth_pair_of(sizes)
         self.mean = mp.mpf(sizes.z1) / sizes.z2
 
     def angle(self, S: Any) -> Any:
-        """Driven angle."""
+        """Return the driven angle."""
         return self.mean * S + self.tooth_pair.error(S)
 
     def speed(self, S: Any) -> Any:
-        """tau; 0 in a standstill."""
+        """Return tau, which is 0 in a dwell."""
         segment, x = contact(self.tooth_pair, S)
         return mp.mpf(0) if segment.held is not None else self.tooth_pair.speed(x, segment.phase)
 
 
 class Pinned:
-    """The law of a pin at radius r in a slot whose axis is e away, r > e."""
+    """Transmission function of a pin at the radius r in a slot whose axis is at the offset e, r > e."""
 
     mean = mp.mpf(1)
 
@@ -97,44 +97,44 @@ class Pinned:
         self.r, self.e = mp.mpf(r), mp.mpf(e)
 
     def angle(self, S: Any) -> Any:
-        """Direction of the pin from the slot's axis, turn after turn."""
+        """Return the direction of the pin from the slot's axis, continuous over turns."""
         return S + mp.atan2(self.e * mp.sin(S), self.r - self.e * mp.cos(S))
 
     def speed(self, S: Any) -> Any:
-        """Its derivative."""
+        """Return the derivative of the angle."""
         r, e = self.r, self.e
         return r * (r - e * mp.cos(S)) / (r * r + e * e - 2 * r * e * mp.cos(S))
 
 
 class Even:
-    """Ideal teeth."""
+    """Transmission function of ideal teeth."""
 
     def __init__(self, by: Wheels | Slot) -> None:
         self.mean = mp.mpf(1) if isinstance(by, Slot) else mp.mpf(by.z1) / by.z2
 
     def angle(self, S: Any) -> Any:
-        """The mean ratio times S."""
+        """Return the mean ratio times S."""
         return self.mean * S
 
     def speed(self, S: Any) -> Any:
-        """The mean ratio."""
+        """Return the mean ratio."""
         return self.mean
 
 
 @dataclass(frozen=True)
 class Set:
-    """A law whose driver is counted from S, where it stands at the start."""
+    """A transmission function whose driver starts at the angle S."""
 
     transmission: Any
     S: Any
     mean = property(lambda self: self.transmission.mean)
 
     def angle(self, S: Any) -> Any:
-        """Driven angle."""
+        """Return the driven angle."""
         return self.mean * self.S + self.transmission.angle(S - self.S)
 
     def speed(self, S: Any) -> Any:
-        """Ratio of speeds."""
+        """Return the speed ratio."""
         return self.transmission.speed(S - self.S)
 
 
@@ -142,7 +142,7 @@ class Set:
 
 
 class Exactly:
-    """A train's angles in 50 digits. Tooth sizes are those of the loaded train; everything else is worked out here."""
+    """Angles of a train in 50 digits. Tooth sizes are those of the loaded train; everything else is computed here."""
 
     def __init__(self, train: Train, loaded: Any) -> None:
         self.train = train
@@ -178,7 +178,7 @@ class Exactly:
 
     @cached_property
     def senses(self) -> list[tuple[int, int]]:
-        """Of each pair, the signs of its forward angles S and q."""
+        """Signs of the forward angles S and q of each pair."""
         found = []
         for pair in self.train.pairs:
             driver, carrier = (self.means[self.train.at[link]] for link in (pair.driver, pair.carrier))
@@ -187,7 +187,9 @@ class Exactly:
         return found
 
     def _solved(self, ratios: Sequence[Any], ahead: Sequence[Any], turning: Any) -> list[Any]:
-        """Speeds of all links, each driven side so much ahead of its ratio to the driver, as seen from the carrier."""
+        """Return the speeds of all links if each driven side is ahead of its ratio by `ahead`, relative to the
+        carrier.
+        """
         train, size = self.train, len(self.train.at)
         rows, right = [], []
         for pair, ratio, more in zip(train.pairs, ratios, ahead, strict=True):
@@ -203,18 +205,18 @@ class Exactly:
         return eliminated(rows, right, size)
 
     def forward(self, angles: Sequence[Any], number: int) -> tuple[Any, Any]:
-        """Forward angles S and q of one pair."""
+        """Return the forward angles S and q of one pair."""
         pair, (first, second), at = self.train.pairs[number], self.senses[number], self.train.at
         carrier = angles[at[pair.carrier]]
         return first * (angles[at[pair.driver]] - carrier), second * (angles[at[pair.driven]] - carrier)
 
     def misfits(self, angles: Sequence[Any]) -> list[Any]:
-        """How far each driven side is behind what its law asks for."""
+        """Return the amount by which each driven side is behind the angle given by its transmission function."""
         places = [self.forward(angles, number) for number in range(len(self.transmissions))]
         return [transmission.angle(S) - q for transmission, (S, q) in zip(self.transmissions, places, strict=True)]
 
     def ratios(self, angles: Sequence[Any]) -> list[Any]:
-        """Instantaneous ratios, driven over driver as seen from the carrier, signed."""
+        """Return the signed instantaneous ratios, driven by driver, relative to the carrier."""
         speeds = [
             transmission.speed(self.forward(angles, number)[0])
             for number, transmission in enumerate(self.transmissions)
@@ -222,12 +224,12 @@ class Exactly:
         return [first * second * tau for (first, second), tau in zip(self.senses, speeds, strict=True)]
 
     def moved(self, turns: float, errors: Sequence[float]) -> list[Any]:
-        """All angles with these errors where the lead has made so many turns."""
+        """Return all angles for given transmission errors at a number of turns of the input."""
         turned = 2 * mp.pi * mp.mpf(turns)
         return [mean * turned + mp.mpf(error) for mean, error in zip(self.means, errors, strict=True)]
 
     def at(self, turns: float, guess: Sequence[float]) -> list[Any]:
-        """All angles where the lead has made so many turns: Newton's steps, from a guess of the errors."""
+        """Return all angles at a number of turns of the input, by Newton's method from a guess of the errors."""
         angles = self.moved(turns, guess)
         for _ in range(60):
             misfits = self.misfits(angles)
@@ -239,17 +241,17 @@ class Exactly:
         raise AssertionError("no angles fit all laws")
 
     def errors(self, turns: float, angles: Sequence[Any]) -> list[Any]:
-        """Angles less their mean motion."""
+        """Return the angles minus their mean motion."""
         turned = 2 * mp.pi * mp.mpf(turns)
         return [angle - mean * turned for angle, mean in zip(angles, self.means, strict=True)]
 
     def rates(self, angles: Sequence[Any]) -> list[Any]:
-        """Speeds of all links over the lead's."""
+        """Return the speeds of all links divided by the speed of the input."""
         return self._solved(self.ratios(angles), [mp.mpf(0)] * len(self.transmissions), 1)
 
 
 def eliminated(rows: Sequence[dict[int, Any]], right: Sequence[Any], size: int) -> list[Any]:
-    """The solution of sparse equations by elimination with the largest pivot of each row in turn."""
+    """Return the solution of sparse equations by elimination with the largest pivot of each row in turn."""
     rows, right, order = [dict(row) for row in rows], list(right), []
     left = list(range(size))
     while left:
@@ -272,7 +274,7 @@ def eliminated(rows: Sequence[dict[int, Any]], right: Sequence[Any], size: int) 
 
 
 def composed(transmissions: Sequence[Any], turns: float) -> tuple[Any, Any, Any]:
-    """The last wheel of a plain chain: its error, its speed over the mean, and radians of it per error of each pair."""
+    """Return error, relative speed, and sensitivity to the error of each pair, of the last wheel of a chain."""
     S, hung, mean, gain, summed = 2 * mp.pi * mp.mpf(turns), mp.mpf(0), mp.mpf(1), mp.mpf(1), mp.mpf(0)
     for each in transmissions:
         transmission = Set(each, hung)
@@ -287,11 +289,12 @@ def composed(transmissions: Sequence[Any], turns: float) -> tuple[Any, Any, Any]
 
 @dataclass(frozen=True)
 class Run:
-    """A run of a train in floats beside its reference at some positions; rad, and speeds over the greatest of a link.
+    """Floating-point results of a train and their reference at some positions; angles in rad, speeds relative to the
+    maximum speed of each link.
 
-    off        greatest difference of each link's transmission error, and `speed_off` of its speed
-    misfit     how far the float angles miss the laws, in 50 digits
-    refused    what the train says where it cannot be followed
+    off        maximum difference of the transmission error of each link; `speed_off` for its speed
+    misfit     residual of the float angles in the transmission functions, in 50 digits
+    refused    message if the train cannot be computed
     """
 
     found: dict[str, Any]
@@ -302,7 +305,9 @@ class Run:
 
 
 def hung(motion: Motion, turns: float, samples: int) -> dict[str, TransmissionErrorCurve]:
-    """The ripple of every output as its teeth hold it, no pointer set: what the equations below say."""
+    """Return the motion of every output as the teeth give it, without setting pointers, as the equations below
+    describe.
+    """
     composition, at = motion._unset, np.arange(samples)
     parts = [composition.at(turns * (each / (samples - 1))) for each in np.split(at, range(30_000, samples, 30_000))]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
@@ -314,7 +319,7 @@ def hung(motion: Motion, turns: float, samples: int) -> dict[str, TransmissionEr
 
 
 def run(train: Train, turns: float, samples: int, places: int) -> Run:
-    """Positions from 0 to `turns`, compared at so many of them."""
+    """Compare `count` positions from 0 to `turns`."""
     loaded = load(declared(train))
     motion = loaded.motion()
     since = perf_counter()
@@ -336,7 +341,7 @@ def run(train: Train, turns: float, samples: int, places: int) -> Run:
 
 
 class Measured(NamedTuple):
-    """An error against 50 digits, and the seconds the floats took."""
+    """An error relative to 50 digits, and the run time of the floating-point computation [s]."""
 
     error: float
     seconds: float
@@ -346,10 +351,10 @@ class Measured(NamedTuple):
 class Case:
     """One extreme train.
 
-    extreme   how extreme
-    of        what the error is of, and in which unit
-    bound     what the roundings of float64 come to, times what the train makes of them
-    why       where it stops, and why
+    extreme   description of the extreme
+    of        quantity and unit of the error
+    bound     rounding error of float64 times its amplification in the train
+    why       reason why the train is rejected, if it is
     slow      takes longer than a quick test should
     """
 
@@ -363,13 +368,13 @@ class Case:
 
 
 def power(value: float) -> str:
-    """One digit and a power of ten; plain if that is shorter."""
+    """Format a number as one digit and a power of ten, or plainly if that is shorter."""
     digit, exponent = f"{value:.0e}".split("e")
     return f"{value:g}" if 0.01 < value < 1000 else f"{digit}e{int(exponent)}"
 
 
 def timed(work: Callable[[], Any]) -> tuple[Any, float]:
-    """What it gives, and the seconds it takes."""
+    """Return the result of a function and its run time [s]."""
     since = perf_counter()
     found = work()
     return found, perf_counter() - since
@@ -379,7 +384,7 @@ def timed(work: Callable[[], Any]) -> tuple[Any, float]:
 
 
 def suns(counts: tuple[int, int, int, int], inputs: dict[str, float], form: str = "") -> Train:
-    """Two suns and a planet with two wheels on an arm: left, planet; planet, right."""
+    """Return two suns and a planet with two wheels on an arm: pairs (left, planet) and (planet, right)."""
     left, p, q, right = counts
     form = form or triangular()
     pairs = (Pair("left", "planet", ARM, Wheels(left, p, form)), Pair("planet", "right", ARM, Wheels(q, right, form)))
@@ -387,21 +392,23 @@ def suns(counts: tuple[int, int, int, int], inputs: dict[str, float], form: str 
 
 
 def near_locking(teeth: int, turns: float) -> Measured:
-    """The arm turns, one sun is held, and the other moves by 1/(teeth^2 - 1) of the arm's speed."""
+    """Return a set whose arm turns while one sun is held; the other sun moves by 1/(teeth^2 - 1) of the arm's speed."""
     train = suns((teeth, teeth + 1, teeth, teeth - 1), {ARM: 1, "left": 0})
     found = run(train, turns, 997, 9)
     return Measured(found.off["right"], found.seconds)
 
 
 def at_rest(turns: float) -> Measured:
-    """As before with a ratio of exactly 1: the second sun stands still but for the errors of its teeth."""
+    """Return the same set with a ratio of exactly 1: the second sun moves only by the errors of its teeth."""
     found = run(suns((100, 50, 50, 100), {ARM: 1, "left": 0}), turns, 997, 9)
     assert not found.found["right"].mean
     return Measured(found.off["right"], found.seconds)
 
 
 def pin_of_ratio_one(offset: float, turns: float) -> Measured:
-    """A pin and slot on an arm between two pairs of equal wheels: all mean ratios seen from the arm are 1 or -1."""
+    """Return a pin and slot on an arm between two pairs of equal wheels: all mean ratios relative to the arm are 1 or
+    -1.
+    """
     bases = {ARM: (FRAME, "A"), "sun": (FRAME, "A"), "p": (ARM, "P"), "s": (ARM, "Q"), "out": (FRAME, "A")}
     even = Wheels(50, 50, triangular())
     pairs = (Pair("sun", "p", ARM, even), Pair("p", "s", ARM, Slot(1.0, offset)), Pair("s", "out", ARM, even))
@@ -410,7 +417,9 @@ def pin_of_ratio_one(offset: float, turns: float) -> Measured:
 
 
 def hanging(window: float, last: tuple[int, int]) -> Measured:
-    """An arm turned by the wheel that its own planet turns, at many positions: how far all laws are missed."""
+    """Return the residuals of all transmission functions, at many positions, of an arm driven by a wheel that its own
+    planet drives.
+    """
     form = triangular(window)
     pairs = (
         *suns((40, 20, 18, 44), {}, form).pairs,
@@ -425,7 +434,7 @@ def hanging(window: float, last: tuple[int, int]) -> Measured:
 
 
 def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
-    """So many pairs one after another."""
+    """Return a chain of `count` pairs in series."""
     bases = {f"s{at}": (FRAME, f"A{at}") for at in range(pairs + 1)}
     meshing = (Wheels(*kinds[at % len(kinds)], form) for at in range(pairs))
     pairs_of = tuple(Pair(f"s{at}", f"s{at + 1}", FRAME, by) for at, by in enumerate(meshing))
@@ -433,7 +442,9 @@ def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
 
 
 def twelve(teeth: tuple[int, int], turns: float) -> Measured:
-    """Twelve pairs of 10 to 1 or 1 to 10: the error of the last wheel over its own greatest."""
+    """Return the error of the last wheel of twelve pairs of 10 to 1 or 1 to 10, relative to the wheel's maximum
+    error.
+    """
     found = run(chain([teeth], 12, triangular()), turns, 97, 7)
     return Measured(found.off["s12"] / float(np.abs(found.found["s12"].error).max()), found.seconds)
 
@@ -442,7 +453,9 @@ KINDS = ((100, 101), (103, 102), (99, 100), (101, 100))
 
 
 def long_chain(pairs: int, places: Sequence[int]) -> Measured:
-    """Many pairs in a row, only the last wheel asked for: the greatest difference of its error, over that error."""
+    """Return the maximum difference of the error of the last wheel of a long chain, relative to that error; only this
+    wheel is requested.
+    """
     last, train = f"s{pairs}", chain(KINDS, pairs, triangular())
     every = ", ".join(f"{link}: {{}}" for link in train.bases)
     loaded = load(declared(train).replace(f"outputs: {{{every}}}", f"outputs: {{{last}: {{}}}}"))
@@ -462,7 +475,9 @@ def _sizes(loaded: Any) -> list[Any]:
 
 
 def at_the_edge(window: float) -> Measured:
-    """Price's train to the Moon with each pair so far into its own window of clearance, over the common period."""
+    """Return Price's train to the Moon, over the common period, with each pair at the same position in its clearance
+    window.
+    """
     form = triangular(repr(window))
     bases = {"crank": (FRAME, "A"), "sun": (FRAME, "B"), "c": (FRAME, "C"), "d": (FRAME, "D"), "moon": (FRAME, "E")}
     counts, links = ((45, 225), (64, 38), (48, 24), (127, 32)), list(bases)
@@ -477,13 +492,13 @@ DRAWN = [0.013, 0.29, 0.41, 0.67, 0.83, 0.999]  # of a pitch
 
 
 def thirty(z1: int, z2: int, excess: float) -> TriangularSizes:
-    """Equally deep teeth of 30 degrees."""
+    """Return teeth of equal depth with half angles of 30 degrees."""
     beta = radians(30)
     return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
 def almost_apart(share: float) -> Measured:
-    """48 and 96 teeth at nearly the clearance where tips cease to touch: the error of the law, in driven pitches."""
+    """Return the error, in driven pitches, for 48 and 96 teeth near the clearance at which tips no longer touch."""
     sizes = thirty(48, 96, 0.01)
     sizes = sizes.at(sizes.maximum_excess * share)
     transmission, tooth_pair = TriangularTransmission(sizes), tooth_pair_of(sizes)
@@ -494,7 +509,7 @@ def almost_apart(share: float) -> Measured:
 
 
 def near_friction_locking(teeth: tuple[int, int], digits: int, at_load: bool) -> Measured:
-    """The mean efficiency with friction a little below the one that locks, relative."""
+    """Return the relative error of the mean efficiency with friction just below the locking friction."""
     sizes = thirty(*teeth, 0.01)
     friction = TriangularTransmission(sizes).locking_friction * (1 - 10.0**-digits)
     transmission = TriangularTransmission(sizes, friction)
@@ -504,7 +519,7 @@ def near_friction_locking(teeth: tuple[int, int], digits: int, at_load: bool) ->
 
 
 def locking(teeth: tuple[int, int]) -> Measured:
-    """The friction that locks: flank and friction before the line of centres, relative."""
+    """Return the relative error of the locking friction before the line of centres."""
     sizes = thirty(*teeth, 0.01)
     tooth_pair = tooth_pair_of(sizes)
     mine, seconds = timed(lambda: TriangularTransmission(sizes).locking_friction)
@@ -514,7 +529,9 @@ def locking(teeth: tuple[int, int]) -> Measured:
 
 
 def pin_near_offset(more: float, turns: float) -> Measured:
-    """A pin at r = (1 + more) e, each turn a little further past the place where it is fast: the error of the slot."""
+    """Return the error of the slot of a pin at r = (1 + more) e, each turn slightly further past the fastest
+    position.
+    """
     train = Train(
         {"pin": (FRAME, "B"), "slot": (FRAME, "C")}, (Pair("pin", "slot", FRAME, Slot(1 + more, 1.0)),), {"pin": 1}
     )
@@ -528,10 +545,11 @@ CIRCULATING = (50, 45, 40, 44)  # basic ratio 100/99: the right sun makes 1/99 t
 
 
 def balanced(counts: tuple[int, int, int, int], etas: Sequence[Mapping[int, Fraction]]) -> list[Fraction]:
-    """Efficiencies from the arm, at one turn, to the right sun, the left held: one for each way power can flow.
+    """Return the efficiencies from the arm to the right sun with the left sun held, one for each direction of power
+    flow.
 
-    Moments of one pair on its two wheels have one sign and the ratio of the teeth, times eta where the first wheel
-    drives as seen from the arm (1), over eta where the second does (-1).
+    The torques of a pair on its two wheels have the same sign and the ratio of the teeth, multiplied by eta if the
+    first wheel drives relative to the arm (1), and divided by eta if the second wheel drives (-1).
     """
     left_teeth, p, q, r = counts
     left = Fraction(-1)
@@ -551,12 +569,12 @@ def balanced(counts: tuple[int, int, int, int], etas: Sequence[Mapping[int, Frac
 
 
 def circulating(teeth: str) -> Any:
-    """The set with the arm driving, its torques to be asked for."""
+    """Return the set with its arm driving, for the computation of torques."""
     return load(declared(suns(CIRCULATING, {ARM: 1}, teeth)) + "\nfixed: [left]")
 
 
 def lost_in_circulation(friction: float) -> Measured:
-    """Efficiency from the arm to the slow sun, of teeth that rub: relative."""
+    """Return the relative error of the efficiency from the arm to the slow sun for teeth with friction."""
     train = circulating(f"{triangular()}, friction: {friction}")
     torques, seconds = timed(lambda: train.driven("right", ARM))
     means = [tooth_pair_of(sizes).mean_efficiency(mp.mpf(friction)) for sizes in _sizes(train)]
@@ -566,7 +584,9 @@ def lost_in_circulation(friction: float) -> Measured:
 
 
 def amplified(turns: float) -> Measured:
-    """A pair with real teeth ahead of ideal wheels that make 99 turns of one: the arm's error, over its greatest."""
+    """Return the error of an arm, relative to its maximum, for a pair with real teeth followed by ideal wheels of ratio
+    99.
+    """
     left_teeth, p, q, r = CIRCULATING
     pairs = (
         Pair("crank", "right", FRAME, Wheels(60, 60, triangular())),
@@ -584,7 +604,9 @@ RADIANS, SHARE, PITCHES = "rad of the output", "relative", "driven pitches"
 
 
 def plain(periods: float) -> float:
-    """Roundings of a period in a mean angle that is a plain product; none where whole periods are taken off first."""
+    """Return the rounding error of a mean angle computed as a plain product, which the subtraction of whole periods
+    avoids.
+    """
     return periods if periods <= 2048 else 0
 
 

@@ -1,6 +1,6 @@
-"""Stress at the root of a tooth by plane finite elements on its outline (scikit-fem): an oracle for Lewis's formula.
+"""Stress at the root of a tooth by plane finite elements on its outline (scikit-fem), a reference for Lewis's formula.
 
-The plate is filled with triangles that are fine where it matters: Delaunay's triangulation of graded points (scipy).
+The plate is divided into triangles by the Delaunay triangulation (scipy) of points that are denser near the root.
 """
 
 from __future__ import annotations
@@ -18,20 +18,21 @@ if TYPE_CHECKING:
     Floats, Integers = NDArray[np.float64], NDArray[np.int64]
 
 Spacing = Callable[["Floats"], "Floats"]
-"""The length of an edge wanted at each of (n, 2) points."""
+"""Function that gives the required edge length at each of (n, 2) points."""
 
 _DEEP = 2.5  # modules under the root circle, where the rim is held
 _ROOT = 0.35  # of the height of a tooth: where its root ends
 _COARSE = 0.1  # modules: longest edge
 _GRADE = 0.05  # by how much an edge grows with the distance from where it is fine
 FINE = 0.03
-"""Edges at the root [module]; coarser ones change stresses by less than 1 in 200."""
+"""Edge length at the root [modules]; coarser edges change stresses by less than 1 in 200."""
 
 
 def root_stress_factor(side: Any, z: float, load: Any, poisson: float, fine: float = FINE) -> float:
-    """Maximum tension along the fillet of the loaded side, over torque/(width module^2): docs/strength.md, section 6.
+    """Return the maximum tension along the fillet of the loaded side, divided by torque/(width module^2).
 
-    Three teeth on a rim held inside and at its ends, plane stress, quadratic triangles; Young's modulus cancels.
+    See docs/strength.md, section 6. Three teeth on a rim that is clamped inside and at its ends; plane stress,
+    quadratic triangles; Young's modulus cancels.
     """
     polygon, root = _sector(side, z)
     spot = load.radius * np.array([cos(half := side.half(load.radius)), sin(half)])
@@ -43,14 +44,14 @@ def root_stress_factor(side: Any, z: float, load: Any, poisson: float, fine: flo
 
 
 class _Held:
-    """Where the rim is held: its inner circle, and both of its cuts."""
+    """The clamped part of the rim: its inner circle and both of its cuts."""
 
     def __init__(self, side: Any, z: float) -> None:
         self.radius = side.root - side.outward * _DEEP
         self.angle = 3 * pi / z
 
     def __call__(self, points: Floats) -> Floats:
-        """Which points (2, n) are held."""
+        """Return True for each of the (2, n) points that is clamped."""
         radius, angle = np.hypot(*points), np.arctan2(points[1], points[0])
         found = np.abs(radius - self.radius) < 1e-2
         found |= np.abs(np.abs(angle) - self.angle) * radius < 1e-6
@@ -58,7 +59,7 @@ class _Held:
 
 
 def _sector(side: Any, z: float) -> tuple[Floats, Floats]:
-    """Three teeth on their rim, anticlockwise, and the round at the loaded side of the middle one."""
+    """Return three teeth on their rim, anticlockwise, and the fillet at the loaded side of the middle tooth."""
     half = side.points[side.points[:, 1] > 1e-9]
     r, angle = np.hypot(*half.T), np.arctan2(half[:, 1], half[:, 0])
     pitch = pi / z
@@ -78,9 +79,10 @@ def _sector(side: Any, z: float) -> tuple[Floats, Floats]:
 def plane_stress(
     polygon: Floats, spot: Floats, force: Floats, stretch: Floats, held: Any, poisson: float, fine: float
 ) -> float:
-    """Greatest tension along the border near `stretch` (n, 2) of a plate of unit thickness under a force at a spot.
+    """Return the maximum tension along the border near `stretch` (n, 2) of a plate of unit thickness under a point
+    force.
 
-    polygon   (k, 2); `held` says which points (2, n) do not move
+    polygon   (k, 2); `held` returns which points (2, n) do not move
     """
     import skfem
     from skfem.models.elasticity import lame_parameters, linear_elasticity
@@ -108,7 +110,7 @@ def plane_stress(
 def _tension(
     skfem: Any, mesh: Any, basis: Any, moved: Floats, lame: tuple[float, float], near: Any, reach: float
 ) -> float:
-    """Greatest stress along the border near some points."""
+    """Return the maximum stress along the border near some points."""
     facets = mesh.boundary_facets()
     middle = mesh.p[:, mesh.facets[:, facets]].mean(axis=1)
     facets = facets[near.query(middle.T)[0] < reach]
@@ -133,10 +135,11 @@ _FLAT = 1e-3  # of an equilateral triangle's height: flatter ones are left out
 
 
 def triangles(polygon: Floats, spacing: Spacing, kept: Floats) -> tuple[Floats, Integers]:
-    """Points (n, 2) and triangles (m, 3) that fill a polygon (k, 2).
+    """Return points (n, 2) and triangles (m, 3) that fill a polygon (k, 2).
 
-    No point inside lies in the circle over an edge of the border as its diameter, so that the border's edges are
-    Delaunay's (Gabriel graph). `kept` are points of the border that stay as they are, such as where a load acts.
+    No interior point is inside the circle that has an edge of the border as its diameter, so that the edges of the
+    border are Delaunay edges (Gabriel graph). `kept` are points of the border that do not move, such as the point of a
+    load.
     """
     border = _border(polygon, spacing, kept)
     inner = _graded(border, spacing)
@@ -159,7 +162,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def inside(polygon: Floats, points: Floats) -> NDArray[np.bool_]:
-    """Which points lie in a polygon: a ray to the right crosses its border an odd number of times."""
+    """Return which points are inside a polygon: a ray to the right crosses its border an odd number of times."""
     x, y = points.T
     found = np.zeros(len(points), dtype=bool)
     for (x1, y1), (x2, y2) in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
@@ -171,7 +174,7 @@ def inside(polygon: Floats, points: Floats) -> NDArray[np.bool_]:
 
 
 def _border(polygon: Floats, spacing: Spacing, kept: Floats) -> Floats:
-    """The border again, its edges as long as wanted; corners and kept points stay."""
+    """Return the border divided into edges of the required length; corners and kept points remain."""
     closed = np.concatenate((polygon, polygon[:1]))
     s = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))))
     fixed = np.union1d(s[_kinks(polygon)], [_along(closed, s, point) for point in kept])
@@ -189,14 +192,14 @@ def _border(polygon: Floats, spacing: Spacing, kept: Floats) -> Floats:
 
 
 def _kinks(polygon: Floats) -> Integers:
-    """Points at which a polygon turns by more than some 15 degrees."""
+    """Return the points at which a polygon turns by more than about 15 degrees."""
     ahead, behind = np.roll(polygon, -1, axis=0) - polygon, polygon - np.roll(polygon, 1, axis=0)
     turn = np.arctan2(_cross(behind, ahead), (behind * ahead).sum(axis=1))
     return np.flatnonzero(np.abs(turn) > 0.25)
 
 
 def _along(closed: Floats, s: Floats, point: Floats) -> float:
-    """Length along a closed line of its place next to a point."""
+    """Return the position along a closed line that is nearest to a point."""
     start, edge = closed[:-1], np.diff(closed, axis=0)
     share = np.clip(((point - start) * edge).sum(axis=1) / (edge * edge).sum(axis=1), 0, 1)
     off = np.hypot(*(start + share[:, None] * edge - point).T)
@@ -205,13 +208,13 @@ def _along(closed: Floats, s: Floats, point: Floats) -> float:
 
 
 def _dense(border: Floats) -> Floats:
-    """Eight points on each edge."""
+    """Return eight points on each edge."""
     ahead = np.roll(border, -1, axis=0)
     return np.concatenate([border + (ahead - border) * k / 8 for k in range(8)])
 
 
 def _graded(border: Floats, spacing: Spacing) -> Floats:
-    """Centres of squares that are halved until each is as small as is wanted there."""
+    """Return the centres of squares that are halved until each is as small as required at its place."""
     low, high = border.min(axis=0), border.max(axis=0)
     size = float((high - low).max()) / 4
     counts = np.ceil((high - low) / size).astype(int)

@@ -1,4 +1,4 @@
-"""Epicyclic sets declared planet by planet, and counts as columns: what the tests of a fitter's rules share."""
+"""Epicyclic sets declared planet by planet, and tooth counts as columns, for the tests of assembly rules."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.train import Train
 
 Central = Mapping[str, tuple[int, bool]]
-"""Central wheel -> (teeth, is it a ring)."""
+"""Mapping of central wheel to (teeth, True for a ring)."""
 
 Places = Sequence[tuple[float, float]]
-"""For each planet of a set the distance of its axis from the central one, and its azimuth (turns)."""
+"""Distance of each planet's axis from the central axis, and its azimuth [turns]."""
 
 
 def epicyclic(
@@ -28,7 +28,7 @@ def epicyclic(
     copies: int = 1,
     places: Places | None = None,
 ) -> dict[str, Any]:
-    """Central wheels on links of their own, planets with their wheels on an arm; copies are a part of a turn apart."""
+    """Return a declaration with central wheels on separate links and planets on an arm; copies are evenly spaced."""
     links: dict[str, Any] = {"frame": {}, "arm": {}}
     links |= {f"L{name}": {"wheels": {name: {"teeth": z, "internal": ring}}} for name, (z, ring) in central.items()}
     revolutes = [{"pair": ["frame", link], "axis": "main"} for link in links if link != "frame"]
@@ -53,7 +53,7 @@ def declared(data: Mapping[str, Any]) -> Train:
 
 
 def rules_of(train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **requested: Any) -> tuple[Any, ...]:
-    """The rules with some wheels free, by default all."""
+    """Return the rules with some wheels variable, by default all."""
     found = train if isinstance(train, Train) else declared(train)
     wheels = found.wheels if free is None else free
     return find_constraints(
@@ -66,13 +66,13 @@ def columns(**counts: Any) -> dict[str, NDArray[np.int64]]:
 
 
 def passed(rules: Sequence[Any], **counts: int) -> bool:
-    """True if a set of counts keeps all rules."""
+    """Return True if a set of counts satisfies all rules."""
     one = columns(**counts)
     return all(bool(rule.holds(one)[0]) for rule in rules)
 
 
 def box(**ranges: Sequence[int]) -> dict[str, NDArray[np.int64]]:
-    """All combinations."""
+    """Return all combinations of counts."""
     grids = np.meshgrid(*(np.array(counts, dtype=np.int64) for counts in ranges.values()), indexing="ij")
     return dict(zip(ranges, (grid.ravel() for grid in grids), strict=True))
 

@@ -1,4 +1,4 @@
-"""A page of HTML as another reader finds it: a parser that knows nothing of geartrain."""
+"""A parser of HTML pages that is independent of geartrain."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 
 
 class Read(HTMLParser):
-    """All elements with their attributes, the text outside of scripts and styles, and the text of each script."""
+    """All elements with their attributes, the text outside scripts and styles, and the text of each script."""
 
     def __init__(self, page: str) -> None:
         super().__init__()

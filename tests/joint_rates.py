@@ -1,11 +1,11 @@
-"""An oracle in joint rates: one unknown for every turning pair, vectors for axes, elimination of its own.
+"""A reference solver in joint rates: one unknown for every turning pair, vectors for axes, and its own elimination.
 
-Nothing is taken from the package under test, and no Willis row is written. A link's angular velocity is the sum of the
-rates of the joints on its way from the frame, each times the unit vector of its axis. A gear pair says that the two
-pitch surfaces have one velocity at the pitch point, with the carrier at rest. Two links are one body if the twist of
-the one against the other vanishes: all six components of it, with every axis at a place of its own.
+Nothing is imported from the package under test, and the Willis equation is not used. The angular velocity of a link is
+the sum of the rates of the joints on its path from the frame, each times the unit vector of its axis. At a gear pair,
+the two pitch surfaces have the same velocity at the pitch point, relative to the carrier. Two links are one body if the
+relative twist vanishes in all six components, with every axis at its own position.
 
-Speeds are turns a second where inputs have units.
+Speeds are in turns per second if inputs have units.
 """
 
 from __future__ import annotations
@@ -32,11 +32,13 @@ TURNS_A_SECOND = {
 
 
 class LinkageError(Exception):
-    """A rigid connection closes a chain of turning pairs that may move, with a ratio that varies."""
+    """A rigid connection closes a chain of turning pairs that may move with a variable ratio."""
 
 
 class Space:
-    """Rows in echelon form, reduced: what is known of the joint rates. The last column is the right side."""
+    """Rows in reduced echelon form that represent the known relations of the joint rates. The last column is the right
+    side.
+    """
 
     def __init__(self, width: int) -> None:
         self.width = width
@@ -49,7 +51,7 @@ class Space:
         return other
 
     def reduce(self, row: Sequence[Fraction]) -> Row:
-        """What is left of a row when all that is known is put in."""
+        """Return the remainder of a row after substitution of all known relations."""
         left = list(row)
         for column, known in self.rows.items():
             factor = left[column]
@@ -76,7 +78,7 @@ class Space:
         return len(self.rows)
 
     def value(self, row: Sequence[Fraction]) -> Fraction | None:
-        """The value of a functional of the rates, or None where it is not determined."""
+        """Return the value of a linear form of the rates, or None if it is not determined."""
         left = self.reduce(row)
         return None if any(left[:-1]) else left[-1]
 
@@ -106,7 +108,7 @@ class Skeleton:
                         todo.append(far)
 
     def path(self, base: str, of: str) -> list[tuple[int, int, str]]:
-        """From `base` to `of`: each joint, its sense (1 outwards), and the link behind it."""
+        """Return, from `base` to `of`, each joint, its sense (1 outwards), and the link behind it."""
         down, up = self._chain(of), self._chain(base)
         while down and up and down[-1] == up[-1]:
             down.pop()
@@ -123,13 +125,14 @@ class Skeleton:
         return found
 
     def own(self, link: str) -> Unit:
-        """The unit vector about which a link's speed is told: that of its joint towards the frame."""
+        """Return the unit vector about which a link's speed is given: that of its joint towards the frame."""
         return self.unit[self.axis[self._up[link][1]]] if link in self._up else (Fraction(0), Fraction(0), Fraction(1))
 
     def spin(self, base: str, of: str, about: Unit | None = None) -> Row | None:
-        """The speed of a link against another about a direction; None if the axes between are not all parallel to it.
+        """Return the speed of a link relative to another about a direction; None if an axis on the path is not parallel
+        to it.
 
-        Such a sum would be no rotation.
+        Such a sum would not be a rotation.
         """
         row = [Fraction(0)] * (self.count + 1)
         about = about or self.own(of)
@@ -144,7 +147,7 @@ class Skeleton:
         return row
 
     def carrier(self, i: str, j: str) -> str:
-        """The link where the axis changes on the way from i to j."""
+        """Return the link at which the axis changes on the path from i to j."""
         path = self.path(i, j)
         (found,) = [here[2] for here, there in itertools.pairwise(path) if self.axis[here[0]] != self.axis[there[0]]]
         return found
@@ -152,7 +155,7 @@ class Skeleton:
 
 @dataclass
 class Motion:
-    """What a train does in one state.
+    """Motion of a train in one state.
 
     kind   determined, free, locked, contradictory; or refused, for a linkage
     """
@@ -163,25 +166,27 @@ class Motion:
     links: Sequence[str] = field(default_factory=tuple)
 
     def speed(self, of: str, base: str | None = None) -> Fraction | None:
-        """Speed of a link about its own axis, absolute or seen from another; None where it is not determined."""
+        """Return the speed of a link about its own axis, absolute or relative to another link; None if it is not
+        determined.
+        """
         row = self.skeleton.spin(base or self.skeleton.frame, of)
         assert row is not None, "no rotation: ask `is_rotation` first"
         return self.space.value(row)
 
     def is_rotation(self, of: str, base: str | None = None) -> bool:
-        """Whether the speed is one about an axis, and no sum over axes in several directions."""
+        """Return True if the speed is about one axis, and not a sum over axes with several directions."""
         return self.skeleton.spin(base or self.skeleton.frame, of) is not None
 
     def is_free(self, link: str) -> bool:
-        """Whether a link that turns about one axis in the frame has no speed yet."""
+        """Return True if a link that turns about one axis in the frame has an undetermined speed."""
         return self.is_rotation(link) and self.speed(link) is None
 
 
 @dataclass
 class Resting:
-    """A train in one state with nothing driven: what its pairs and rigid connections leave of the joint rates.
+    """A train in one state without inputs: the freedom that its pairs and rigid connections leave to the joint rates.
 
-    refused   some of them are a linkage
+    refused   True if some connections form a linkage
     """
 
     skeleton: Skeleton
@@ -191,7 +196,7 @@ class Resting:
 
 
 def rest(train: RandomTrain, state: str | None = None) -> Resting:
-    """What holds whatever is driven."""
+    """Return the relations that are independent of the inputs."""
     data, skeleton = train.data, Skeleton(train)
     bodies = list(_bodies(data, state))
     found = Resting(skeleton, Space(skeleton.count), list(data["links"]))
@@ -237,13 +242,15 @@ def _spin_value(space: Space, skeleton: Skeleton, link: str) -> Fraction | None:
 
 
 def circuits(data: Data, skeleton: Skeleton) -> Iterable[Row]:
-    """One row for each gear pair and coupling."""
+    """Return one row for each gear pair and coupling."""
     for _, (one, other) in sides(data, skeleton):
         yield [a - b if b else a for a, b in zip(one, other, strict=True)]
 
 
 def sides(data: Data, skeleton: Skeleton) -> Iterable[tuple[tuple[str, str], tuple[Row, Row]]]:
-    """Who meets in each gear pair and coupling, and how fast what touches moves on either side: two equal rows."""
+    """Return the links of each gear pair and coupling and, for both sides, the velocity at the contact: two
+    equal rows.
+    """
     wheels = {
         name: (link, {"teeth": wheel} if isinstance(wheel, int) else wheel)
         for link, part in data["links"].items()
@@ -266,7 +273,7 @@ def sides(data: Data, skeleton: Skeleton) -> Iterable[tuple[tuple[str, str], tup
 def _pitch_point(
     skeleton: Skeleton, i: str, j: str, first: Mapping[str, Any], second: Mapping[str, Any]
 ) -> tuple[Row, Row]:
-    """The velocities of the pitch point as a point of either wheel, which are one, seen from the carrier."""
+    """Return the velocities of the pitch point as a point of either wheel, relative to the carrier; they are equal."""
     carrier = skeleton.carrier(i, j)
     u = skeleton.unit[skeleton.axis[skeleton.path(carrier, i)[-1][0]]]
     v = skeleton.unit[skeleton.axis[skeleton.path(carrier, j)[-1][0]]]
@@ -293,10 +300,11 @@ def _pitch_point(
 
 
 def rigid(train: RandomTrain, skeleton: Skeleton, bodies: Sequence[tuple[str, str]]) -> Iterable[Row]:
-    """The rows of all rigid connections: twists that vanish.
+    """Return the rows of all rigid connections: twists that vanish.
 
-    Three axes or fewer hold each other, being different lines. Four and more do if their screws are independent where
-    they are declared to lie; otherwise they may be a linkage. Axes that others have stopped already do not count.
+    Three axes or fewer lock each other if they are different lines. Four or more axes do if their screws are
+    independent at their declared positions; otherwise they may be a linkage. Axes that others have already stopped do
+    not count.
     """
     known, found = Space(skeleton.count), []
     waiting = [(skeleton.path(a, b)) for a, b in bodies]
@@ -316,7 +324,7 @@ def rigid(train: RandomTrain, skeleton: Skeleton, bodies: Sequence[tuple[str, st
 
 
 def _moves(known: Space, skeleton: Skeleton, path: Sequence[tuple[int, int, str]], label: str) -> bool:
-    """Whether the path still turns about an axis, by what is known."""
+    """Return True if the known relations still permit the path to turn about an axis."""
     row = [Fraction(0)] * (skeleton.count + 1)
     for at, sense, _ in path:
         if skeleton.axis[at] == label:
@@ -333,7 +341,7 @@ def _twist(skeleton: Skeleton, path: Sequence[tuple[int, int, str]]) -> list[Row
 
 
 def _screw(skeleton: Skeleton, label: str) -> tuple[Fraction, ...]:
-    """Angular velocity of a unit rate, and the velocity of the point that passes the origin."""
+    """Return the angular velocity of a unit rate and the velocity of the point at the origin."""
     unit = skeleton.unit[label]
     return (*unit, *cross(skeleton.point[label], unit))
 
@@ -346,7 +354,7 @@ def _rank(vectors: Sequence[Sequence[Fraction]]) -> int:
 
 
 def _bodies(data: Data, state: str | None) -> Iterable[tuple[str, str]]:
-    """Pairs of links that are one body in a state."""
+    """Return the pairs of links that are one body in a state."""
     own = data["states"][state] if state is not None else {}
     frame = data.get("frame", "frame")
     yield from ((frame, link) for link in own.get("fixed", data.get("fixed", ())))
@@ -357,7 +365,7 @@ def _bodies(data: Data, state: str | None) -> Iterable[tuple[str, str]]:
 
 
 def inputs_of(data: Data, state: str | None) -> dict[str, Fraction]:
-    """Input speeds in turns a second, or as they are where no unit is written."""
+    """Return the input speeds in turns per second, or unchanged if no unit is written."""
     own = data["states"][state] if state is not None else {}
     return {link: _in_turns(str(text)) for link, text in own.get("inputs", data.get("inputs", {})).items()}
 

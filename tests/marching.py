@@ -1,13 +1,13 @@
-"""Motion of a train of real teeth by brute force: angles advanced by small steps, from contact to contact.
+"""Motion of a train with real teeth by brute force: angles advance in small steps, from contact to contact.
 
-Nothing here knows a transmission law. A pair is a tooth of the driver against a tooth of the driven wheel: the
-distance of an apex from the other's flank says whether they touch, its derivatives say how fast the touching wheels
-turn. At each step the speeds of all links follow from the linear equations of the train with these instantaneous
-ratios; where another couple of teeth comes to touch, the step ends and that couple drives.
+No transmission function is used. A pair is a tooth of the driver against a tooth of the driven wheel: the distance of
+an apex from the other tooth's flank shows whether they touch, and its derivatives give the speed ratio of the touching
+wheels. At each step, the speeds of all links follow from the linear equations of the train with these instantaneous
+ratios; when another tooth pair touches, the step ends and that pair drives.
 
-Angles of one pair are forward angles S and q as seen from the carrier, growing as the pair turns; apices stand at
-x = k p1 - S and y = k p2 - q from the line of centres, positive on the entry side. At the start every driver has an
-apex, or its pin, on the line of centres, and every link reads 0.
+Angles of a pair are forward angles S and q relative to the carrier, which increase as the pair turns; apices are at
+x = k p1 - S and y = k p2 - q from the line of centres, positive on the entry side. At the start, every driver has an
+apex, or its pin, on the line of centres, and every link is at 0.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ MOST_MEETINGS = 60  # within one step
 
 
 class JammedError(AssertionError):
-    """Whatever touches, the step cannot be finished: the links push back on what drives them."""
+    """No contact permits the step to be finished: the links push back on their drivers."""
 
 
 class Contact(NamedTuple):
-    """A couple of teeth, and which apex lies on which flank: the driven on the driver's in approach."""
+    """A tooth pair, and which apex is on which flank: the driven apex on the driver's flank in approach."""
 
     k: int
     phase: int
@@ -45,7 +45,7 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True)
 class Teeth:
-    """Two external wheels of equally deep triangular teeth, the first driving; angles in degrees."""
+    """Two external wheels with triangular teeth of equal depth, the first driving; angles in degrees."""
 
     z1: int
     z2: int
@@ -56,30 +56,30 @@ class Teeth:
 
     @property
     def form(self) -> str:
-        """As a pair declares it."""
+        """Text of the tooth form in the declaration of a pair."""
         return (
             f", tooth_form: {{form: triangular, half_angle: {self.half_angle} deg, clearance_factor: {self.clearance}}}"
         )
 
     @cached_property
     def sizes(self) -> tuple[float, float, float, float]:
-        """R1, R2, D and the half aperture; teeth of equal depth, R1 = 1."""
+        """R1, R2, D and the half angle; teeth of equal depth, R1 = 1."""
         b = radians(self.half_angle)
         h1, h2 = (1 - sin(b) / sin(b + pi / z) for z in (self.z1, self.z2))
         return 1.0, h1 / h2, self.clearance * (1 + h1 / h2 - h1), b
 
     @cached_property
     def reach(self) -> float:
-        """Greatest |x| at which the driver's apex is within the driven tip circle."""
+        """Maximum |x| at which the driver's apex is within the driven tip circle."""
         R1, R2, D, _ = self.sizes
         return acos((D * D + R1 * R1 - R2 * R2) / (2 * D * R1))
 
     def place(self, contact: Contact, S: float, q: float) -> tuple[float, float]:
-        """Angles of both apices of a couple from the line of centres."""
+        """Return the angles of both apices of a tooth pair from the line of centres."""
         return contact.k * 2 * pi / self.z1 - S, contact.k * 2 * pi / self.z2 - q
 
     def gap(self, contact: Contact, S: float, q: float) -> float:
-        """Distance of an apex from the line of the other tooth's flank; negative inside."""
+        """Return the distance of an apex from the line of the other tooth's flank; negative inside."""
         R1, R2, D, b = self.sizes
         x, y = self.place(contact, S, q)
         if contact.phase == APPROACH:
@@ -87,7 +87,7 @@ class Teeth:
         return D * sin(b - y) - R2 * sin(b) - R1 * sin(b - y - x)
 
     def speed(self, contact: Contact, S: float, q: float) -> float:
-        """dq/dS that leaves the gap as it is."""
+        """Return the ratio dq/dS that preserves the gap."""
         R1, R2, D, b = self.sizes
         x, y = self.place(contact, S, q)
         if contact.phase == APPROACH:
@@ -95,14 +95,14 @@ class Teeth:
         return R1 * cos(b - y - x) / (D * cos(b - y) - R1 * cos(b - y - x))
 
     def near(self, S: float) -> Iterator[Contact]:
-        """Every couple whose driver's tooth is within reach, in both phases."""
+        """Yield every tooth pair whose driving tooth is within reach, in both phases."""
         p1 = 2 * pi / self.z1
         for k in range(int(np.ceil((S - self.reach) / p1)), int(np.floor((S + self.reach) / p1)) + 1):
             yield Contact(k, APPROACH)
             yield Contact(k, RECESS)
 
     def touching(self, S: float) -> tuple[Contact, float]:
-        """What the driven wheel meets first when it is turned back, and its angle there."""
+        """Return the first contact of the driven wheel when it is turned back, and its angle there."""
         R1, R2, D, _ = self.sizes
         reach = acos((D * D + R2 * R2 - R1 * R1) / (2 * D * R2))
         found = []
@@ -116,7 +116,7 @@ class Teeth:
 
 @dataclass(frozen=True)
 class Slot:
-    """A pin at radius r in a slot whose axis lies e away, within the pin's circle."""
+    """A pin at radius r in a slot whose axis is at the offset e, within the pin's circle."""
 
     r: float
     e: float
@@ -125,31 +125,31 @@ class Slot:
 
     @property
     def form(self) -> str:
-        """As a coupling declares it."""
+        """Text of the coupling in a declaration."""
         return f", pin_radius: {self.r}, offset: {self.e}"
 
     def gap(self, contact: Contact, S: float, q: float) -> float:
-        """Distance of the pin from the slot's middle."""
+        """Return the distance of the pin from the middle of the slot."""
         return (self.r * cos(S) - self.e) * sin(q) - self.r * sin(S) * cos(q)
 
     def speed(self, contact: Contact, S: float, q: float) -> float:
-        """The pin's speed across the slot over its distance from the slot's axis."""
+        """Return the pin's speed across the slot divided by its distance from the slot's axis."""
         across = self.r * cos(S - q)
         return across / (across - self.e * cos(q))
 
     def near(self, S: float) -> Iterator[Contact]:
-        """Nothing else can come to touch."""
+        """Return nothing, because no other contact is possible."""
         return iter(())
 
     def touching(self, S: float) -> tuple[Contact, float]:
-        """Where the pin points at the slot's axis the slot points with it."""
+        """Return the contact at the start: the slot points along the pin's radius."""
         assert S == 0.0
         return Contact(0, 0), 0.0
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Who drives whom, seen from which carrier, and by what: `Teeth`, a `Slot`, or what has their attributes."""
+    """Driver, driven link, carrier and connection: `Teeth`, a `Slot`, or an object with the same attributes."""
 
     driver: str
     driven: str
@@ -159,7 +159,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Train:
-    """Links with the link that bears them and their axis, pairs, and the speeds of the inputs; `frame` stands still."""
+    """Links with the link that bears them and their axis, pairs, and the input speeds; `frame` is at rest."""
 
     bases: dict[str, tuple[str, str]]
     pairs: tuple[Pair, ...]
@@ -171,7 +171,9 @@ class Train:
         return {link: number for number, link in enumerate([*self.bases, "frame"])}
 
     def solved(self, ratios: Sequence[float], ahead: Sequence[float], turning: float) -> np.ndarray:
-        """Speeds of all links, each driven side so much ahead of its ratio to the driver, as seen from the carrier."""
+        """Return the speeds of all links if each driven side is ahead of its ratio by `ahead`, relative to the
+        carrier.
+        """
         still, turned, given = self._rows
         right = np.array([*ahead, *(turning * given)])
         matrix = still + turned * np.array([*ratios, *[0.0] * len(given)])[:, None]
@@ -179,7 +181,9 @@ class Train:
 
     @cached_property
     def _rows(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The rows of the pairs, then of what is given: what stands in them, what is times the ratio; given speeds."""
+        """Rows of the pairs and of the given speeds: constant part, part proportional to the ratio, and given
+        speeds.
+        """
         size, given = len(self.at), self.inputs | {"frame": 0.0}
         still, turned = np.zeros((size, size)), np.zeros((size, size))
         for row, pair in enumerate(self.pairs):
@@ -192,7 +196,7 @@ class Train:
         return still, turned, np.array(list(given.values()))
 
     def speeds(self, ratios: Sequence[float]) -> np.ndarray:
-        """Speeds of all links where each pair has this ratio, driven over driver, signed."""
+        """Return the speeds of all links for given signed ratios of the pairs, driven by driver."""
         return self.solved(ratios, [0.0] * len(self.pairs), 1.0)
 
     @cached_property
@@ -202,25 +206,25 @@ class Train:
 
     @cached_property
     def senses(self) -> list[tuple[int, int]]:
-        """Of each pair, the signs by which driver and driven angles become forward angles."""
+        """Signs that convert the driver and driven angles of each pair to forward angles."""
         means = self.means
         ahead = [1 if means[self.at[pair.driver]] >= means[self.at[pair.carrier]] else -1 for pair in self.pairs]
         return [(a, -a if pair.by.external else a) for a, pair in zip(ahead, self.pairs, strict=True)]
 
     @cached_property
     def touches(self) -> list[tuple[Contact, float]]:
-        """What touches in each pair with the driver on the line of centres, and the driven angle there."""
+        """Contact of each pair with the driver on the line of centres, and the driven angle there."""
         return [pair.by.touching(0.0) for pair in self.pairs]
 
     def forward(self, angles: np.ndarray, number: int) -> tuple[float, float]:
-        """Forward angles S and q of one pair, of angles of links that are 0 at the start."""
+        """Return the forward angles S and q of one pair from angles of links that are 0 at the start."""
         pair, (first, second) = self.pairs[number], self.senses[number]
         carrier = angles[self.at[pair.carrier]]
         S, q = angles[self.at[pair.driver]] - carrier, angles[self.at[pair.driven]] - carrier
         return float(first * S), float(second * q) + self.touches[number][1]
 
     def rates(self, angles: np.ndarray, contacts: Sequence[Contact]) -> np.ndarray:
-        """Speeds of all links at these angles, each pair touching as given."""
+        """Return the speeds of all links at these angles for the given contacts."""
         ratios = []
         for number, (pair, contact) in enumerate(zip(self.pairs, contacts, strict=True)):
             first, second = self.senses[number]
@@ -229,14 +233,14 @@ class Train:
 
     @property
     def lag(self) -> np.ndarray:
-        """By how much the teeth at the start put all links ahead of where ideal teeth would."""
+        """Angles of all links at the start minus their angles with ideal teeth."""
         mean = [first * second * pair.by.mean for pair, (first, second) in zip(self.pairs, self.senses, strict=True)]
         ahead = [second * q for (_, second), (_, q) in zip(self.senses, self.touches, strict=True)]
         return self.solved(mean, ahead, 0.0)
 
 
 def declared(train: Train) -> str:
-    """The train as geartrain reads it: two wheels of their own for each pair, or a pin and a slot."""
+    """Return the train as a declaration: two separate wheels for each pair, or a pin and a slot."""
     wheels: dict[str, list[str]] = {link: [] for link in train.bases}
     gears, slots = [], []
     for at, pair in enumerate(train.pairs):
@@ -261,9 +265,9 @@ def declared(train: Train) -> str:
 
 
 def march(train: Train, turned: float, steps: int, method: str, locate: bool = True) -> Iterator[np.ndarray]:
-    """Angles of all links after each of so many equal steps of the inputs, the start first.
+    """Return the angles of all links at the start and after each of `steps` equal steps of the inputs.
 
-    `locate` ends a step where other teeth come to touch; else they are noticed at the end of the step.
+    With `locate`, a step ends where other teeth touch; otherwise they are noticed at the end of the step.
     """
     angles, contacts = np.zeros(len(train.at)), [contact for contact, _ in train.touches]
     yield angles
@@ -298,7 +302,7 @@ def _located(
 
 
 def _step(train: Train, angles: np.ndarray, contacts: list[Contact], step: float, method: str) -> np.ndarray:
-    """One step of an explicit method; the teeth that touch stay the same."""
+    """Return the result of one step of an explicit method with unchanged contacts."""
     earlier, weights = METHODS[method]
     rates = [train.rates(angles, contacts)]
     for part, stage in earlier:
@@ -307,7 +311,7 @@ def _step(train: Train, angles: np.ndarray, contacts: list[Contact], step: float
 
 
 def _met(train: Train, contacts: list[Contact], old: np.ndarray, new: np.ndarray) -> Iterator[_Meeting]:
-    """Apices that have come through a flank within a step."""
+    """Return the apices that have passed through a flank within a step."""
     for number, pair in enumerate(train.pairs):
         before, after = train.forward(old, number), train.forward(new, number)
         for contact in pair.by.near(after[0]):
@@ -318,14 +322,14 @@ def _met(train: Train, contacts: list[Contact], old: np.ndarray, new: np.ndarray
 
 @dataclass(frozen=True)
 class _Meeting:
-    """An apex that comes to lie on a flank."""
+    """An apex that reaches a flank."""
 
     train: Train
     number: int
     contact: Contact
 
     def when(self, angles: np.ndarray, contacts: list[Contact], step: float, method: str) -> float:
-        """The part of the step until it does."""
+        """Return the fraction of the step until contact."""
 
         def gap(part: float) -> float:
             at = self.train.forward(_step(self.train, angles, contacts, part, method), self.number)
@@ -334,5 +338,5 @@ class _Meeting:
         return 0.0 if gap(0.0) <= 0 else float(brentq(gap, 0.0, step, xtol=1e-15))
 
     def made(self, contacts: list[Contact]) -> list[Contact]:
-        """The contacts with this one."""
+        """Return the contacts including this one."""
         return [self.contact if number == self.number else each for number, each in enumerate(contacts)]

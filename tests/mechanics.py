@@ -1,7 +1,7 @@
 """Triangular teeth in the plane: outlines of whole wheels, and the balance of one contact with Coulomb friction.
 
 The driver turns about the origin, the driven wheel about (D, 0). Apices are at alpha_1 and alpha_2 from the line of
-centres, both positive to the same side, and both angles decrease as the driver pushes.
+centres, both positive towards the same side, and both angles decrease as the driver pushes.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from sorge import APPROACH, Pair
 
 
 def outline(z: int, R: float, beta: float) -> np.ndarray:
-    """Apices and valleys of a wheel in turn, its first apex at angle 0: a closed ring."""
+    """Return apices and valleys of a wheel in turn as a closed ring, with the first apex at angle 0."""
     at = np.arange(2 * z + 1) * np.pi / z
     radius = np.where(np.arange(2 * z + 1) % 2, R * np.sin(beta) / np.sin(beta + np.pi / z), R)
     return np.stack([radius * np.cos(at), radius * np.sin(at)], axis=-1)
 
 
 def overlap(given: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Whether the two whole wheels overlap with the driver's first apex at x and the driven wheel's at y."""
+    """Return True if the whole wheels overlap with the driver's first apex at x and the driven wheel's at y."""
     import shapely
 
     first, second = outline(given.z1, given.R1, given.beta1), outline(given.z2, given.R2, given.beta2)
@@ -39,10 +39,10 @@ def _turned(ring: np.ndarray, by: np.ndarray) -> np.ndarray:
 
 
 class Contact(NamedTuple):
-    """One contact of a couple: in which point, along which normal, and the force of the driver on the driven wheel.
+    """One contact of a tooth pair: its point, its normal, and the force of the driver on the driven wheel.
 
-    off   how far the apex is off the flank's line
-    tau   driven speed over the driver's
+    off   distance of the apex from the line of the flank
+    tau   driven speed divided by driver speed
     """
 
     D: Any
@@ -54,23 +54,23 @@ class Contact(NamedTuple):
 
     @property
     def moments(self) -> tuple[Any, Any]:
-        """Of the force about the driver's axis and about the driven wheel's, as each puts in or takes out power."""
+        """Moments of the force about the driver's and the driven axis, each with the sign of the power."""
         first = self.point[0] * self.force[1] - self.point[1] * self.force[0]
         second = (self.point[0] - self.D) * self.force[1] - self.point[1] * self.force[0]
         return -first, second
 
     @property
     def centre(self) -> Any:
-        """Where the normal meets the line of centres, from the driver's axis."""
+        """Distance from the driver's axis to the intersection of the normal and the line of centres."""
         return self.point[0] - self.point[1] * self.normal[0] / self.normal[1]
 
 
 def contact(pair: Pair, x: Any, phase: str, friction: Any) -> Contact:
-    """The balance of one contact.
+    """Return the balance of one contact.
 
-    The driver turns at one radian a second, the driven wheel at tau, which follows from no penetration: the points in
-    contact have one velocity along the normal of the flank. The force of the driver on the driven wheel is the normal
-    force and friction against the driven point's sliding.
+    The driver turns at one radian per second, and the driven wheel at tau, which follows from the condition that the
+    points in contact have equal velocities along the normal of the flank. The force of the driver on the driven wheel
+    is the normal force plus friction, which opposes the sliding of the driven point.
     """
     m = pair.m
     y = pair.angle(x, phase)
@@ -97,7 +97,9 @@ def contact(pair: Pair, x: Any, phase: str, friction: Any) -> Contact:
 
 
 def power_ratio(pair: Pair, x: Any, phase: str, friction: Any) -> tuple[Any, Any, Any]:
-    """Power out over power in of one contact, how far the apex is off the flank's line, and tau."""
+    """Return output power divided by input power of one contact, the distance of the apex from the flank's line, and
+    tau.
+    """
     found = contact(pair, x, phase, friction)
     into, out = found.moments
     return out * found.tau / into, found.off, found.tau

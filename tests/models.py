@@ -1,4 +1,4 @@
-"""Small trains that several tests change: a pair of wheels and a planetary, with the rest to be filled in."""
+"""Small trains that several tests modify: a pair of wheels and a planetary set, as templates."""
 
 from __future__ import annotations
 
@@ -51,6 +51,8 @@ def refusal(text: str) -> str:
 
 
 def torque_figures(train: GearTrain, state: str | None = None) -> Any:
-    """Torques of one state with watts, losses, flow of power, and the efficiency both ways."""
+    """Return the torques of one state with powers in watts, losses, power flow, and the efficiency in both
+    directions.
+    """
     (found,) = collect_torque_report(train, [train.torques(state)]).states
     return found

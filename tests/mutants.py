@@ -1,8 +1,8 @@
-"""Declarations spoilt at random, from a seed: shipped trains whose values and whose structure are changed.
+"""Declarations corrupted at random, from a seed: shipped trains with changed values and changed structure.
 
-A mutant of values has scalars in place of others: zeros, huge and tiny numbers, names from elsewhere, units of another
-dimension, words that YAML turns into something else. A mutant of structure has parts taken away, doubled, moved to
-where others stand, wrapped in lists, or under other keys.
+A mutant of values has other scalars: zeros, very large and small numbers, names from elsewhere, units of another
+dimension, and words that YAML converts to another type. A mutant of structure has parts removed, duplicated, moved,
+wrapped in lists, or under other keys.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ NASTY: tuple[Any, ...] = (
 
 @cache
 def _originals() -> tuple[dict[str, Any], ...]:
-    """The shipped trains as they are written, and the children of others."""
+    """Return the shipped trains as written, and trains that extend them."""
     found = []
     for name, path in shipped().items():
         if name.startswith("freeth-2021"):  # sixty-nine wheels take their time, and hold no key that others do not
@@ -55,7 +55,7 @@ def _originals() -> tuple[dict[str, Any], ...]:
 
 
 def mutant(seed: int) -> dict[str, Any]:
-    """A shipped train, spoilt one to three times."""
+    """Return a shipped train with one to three corruptions."""
     random = Random(seed)
     data = copy.deepcopy(random.choice(_originals()))
     for _ in range(random.choice((1, 1, 2, 3))):
@@ -73,7 +73,7 @@ def _places(data: Any) -> Iterator[Place]:
 
 
 def _other_value(random: Random, places: list[Place]) -> None:
-    """A scalar becomes a nasty one, one from elsewhere in the train, or one that is plausible where it stands."""
+    """Replace a scalar by an invalid one, by one from elsewhere in the train, or by a plausible one."""
     scalars = [(holder, key) for holder, key in places if not isinstance(holder[key], dict | list)] or places
     holder, key = random.choice(scalars)
     alike = [(other, place) for other, place in scalars if place == key]
@@ -83,7 +83,7 @@ def _other_value(random: Random, places: list[Place]) -> None:
 
 
 def _other_structure(random: Random, places: list[Place]) -> None:
-    """A part is taken away, moved, doubled, wrapped, or put under another key."""
+    """Remove, move, duplicate or wrap a part, or put it under another key."""
     holder, key = random.choice(places)
     other, place = random.choice(places)
     match random.randrange(6):

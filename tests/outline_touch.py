@@ -1,9 +1,9 @@
-"""Where triangular teeth touch, from the outlines of both wheels alone, and the moments of the force there.
+"""Contact of triangular teeth from the outlines of both wheels only, and the moments of the contact force.
 
-The driver turns about the origin, the driven wheel about (D, 0), both so that their teeth go up at the line of centres:
-a tip of the driver at the angle t from it stands at R1 (cos t, sin t), one of the driven wheel at u at
-(D - R2 cos u, R2 sin u). The driver pushes upwards: a tip of the one lies on a flank of the other, and the couple of
-teeth that holds the driven wheel farthest on is the one that drives. With the other flank all is seen in the mirror.
+The driver turns about the origin, the driven wheel about (D, 0), and the teeth move upwards at the line of centres: a
+tip of the driver at the angle t from this line is at R1 (cos t, sin t), and a tip of the driven wheel at u is at
+(D - R2 cos u, R2 sin u). The driver pushes upwards: a tip of one wheel is on a flank of the other, and the tooth pair
+that advances the driven wheel farthest drives. The other flanks are treated by reflection.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from plane_statics import Touch, Vector
 
 
 class Places(NamedTuple):
-    """Driven angle u less its pitches, the point of contact and the normal on the driven wheel, each over (n,)."""
+    """Driven angle u minus whole pitches, point of contact, and normal on the driven wheel, each over (n,)."""
 
     driven: np.ndarray
     x: np.ndarray
@@ -27,7 +27,7 @@ class Places(NamedTuple):
 
 @dataclass(frozen=True)
 class Outlines:
-    """Two wheels with straight flanks that meet in points, lengths in one unit, half angles in radians."""
+    """Two wheels with straight flanks that meet in points; lengths in one unit, half angles in radians."""
 
     z1: int
     z2: int
@@ -39,11 +39,11 @@ class Outlines:
 
     @classmethod
     def of(cls, sizes: Any) -> Outlines:
-        """The declared sizes of a pair."""
+        """Return the outlines for the declared sizes of a pair."""
         return cls(sizes.z1, sizes.z2, sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.D)
 
     def places(self, t: np.ndarray) -> Places:
-        """Where the front flanks touch while a tip of the driver stands at t, (n,)."""
+        """Return the contact of the front flanks with a tip of the driver at t, (n,)."""
         pitch = 2 * np.pi / self.z1
         whole = np.round(t / pitch)
         found = [self._tooth_pair(t - whole * pitch + k * pitch, k) for k in range(-3, 4)]
@@ -54,14 +54,16 @@ class Outlines:
         return Places(chosen[0] + whole * 2 * np.pi / self.z2, *chosen[1:])
 
     def _tooth_pair(self, theta: np.ndarray, k: int) -> Places:
-        """One tooth of the driver at theta with the k-th tooth of the driven wheel; -inf where they do not reach."""
+        """Return the driven angle for a tooth of the driver at theta and the k-th driven tooth; -inf where they do not
+        touch.
+        """
         one, other = self._tip_of_driver(theta), self._tip_of_driven(theta)
         first = one.driven >= other.driven
         found = [np.where(first, *values) for values in zip(one, other, strict=True)]
         return Places(found[0] - k * 2 * np.pi / self.z2, *found[1:])
 
     def _tip_of_driver(self, theta: np.ndarray) -> Places:
-        """The driver's tip on the lower flank of a driven tooth: sine law in the triangle of axis, its tip and ours."""
+        """Return the contact of the driver's tip with the lower flank of a driven tooth, by the law of sines."""
         x, y = self.R1 * np.cos(theta), self.R1 * np.sin(theta)
         away = np.hypot(self.D - x, y)
         valley = self.R2 * np.sin(self.b2) / np.sin(self.b2 + np.pi / self.z2)
@@ -74,7 +76,9 @@ class Outlines:
         return Places(u, x, y, *_upwards(along))
 
     def _tip_of_driven(self, theta: np.ndarray) -> Places:
-        """A driven tip on the upper flank of the driver's tooth: where its line leaves the driven tip circle."""
+        """Return the contact of a driven tip with the upper flank of the driver's tooth, where its line leaves the tip
+        circle.
+        """
         along = -np.cos(theta - self.b1), -np.sin(theta - self.b1)
         x, y = self.R1 * np.cos(theta) - self.D, self.R1 * np.sin(theta)
         middle = -(x * along[0] + y * along[1])
@@ -86,7 +90,9 @@ class Outlines:
         return Places(np.where(reached, np.arctan2(y, -x), -np.inf), x + self.D, y, *_upwards(along))
 
     def moments(self, t: np.ndarray, friction: float) -> tuple[np.ndarray, np.ndarray]:
-        """Driven speed over the driver's, and the driver's torque over the load's, front flanks, forward."""
+        """Return driven speed divided by driver speed, and driver torque divided by load torque, for the front
+        flanks.
+        """
         at = self.places(t)
         # velocities of both points along the normal, for unit speeds: the driven wheel turns the other way round
         first = -at.y * at.normal_x + at.x * at.normal_y
@@ -101,9 +107,9 @@ class Outlines:
         return speed, into / out
 
     def driven(self, t: float, flank: int = 0) -> float:
-        """Where a driven tooth stands whose lower flank is pushed, or with 1 when the tooth below it is held back.
+        """Return the angle of a driven tooth whose lower flank is pushed (0), or whose mate below is held back (1).
 
-        The first is as far back as it can be, the second as far ahead: they differ by the play.
+        The first angle is a lower limit and the second an upper limit; they differ by the backlash.
         """
         if flank == 0:
             return float(self.places(np.array([t])).driven[0])
@@ -118,7 +124,8 @@ class Outlines:
         flank: int = 0,
         clockwise: bool = False,
     ) -> Touch:
-        """The front or (1) the back flank at one place of the driver, somewhere in the plane.
+        """Return the contact of the front (0) or back (1) flank at one angle of the driver, in any position in the
+        plane.
 
         t   counted forwards, which may be clockwise
         """
@@ -130,7 +137,7 @@ class Outlines:
 
 
 def _upwards(along: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """The normal of a flank that has a part upwards, as the driver pushes."""
+    """Return the normal of a flank that has an upward component, the direction in which the driver pushes."""
     sign = np.where(along[0] > 0, 1.0, -1.0)
     return -along[1] * sign, along[0] * sign
 
@@ -143,7 +150,7 @@ def _turned(vector: Vector, centres: tuple[Vector, Vector]) -> Vector:
 
 
 def _moved(point: Vector, centres: tuple[Vector, Vector], D: float) -> Vector:
-    """A point of the pair's own plane, in whose unit the axes are D apart."""
+    """Return a point in the coordinates of the pair, whose axes are D apart."""
     scale = np.hypot(centres[1][0] - centres[0][0], centres[1][1] - centres[0][1]) / D
     x, y = _turned(point, centres)
     return float(centres[0][0] + scale * x), float(centres[0][1] + scale * y)

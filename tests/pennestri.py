@@ -1,4 +1,4 @@
-"""The tables of Pennestri, Valentini and Petti (2002): gear pairs with their circuits, and turning pairs."""
+"""Tables of Pennestri, Valentini and Petti (2002): gear pairs with their circuits, and turning pairs."""
 
 from __future__ import annotations
 

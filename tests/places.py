@@ -1,4 +1,4 @@
-"""Where the repository keeps what tests read."""
+"""Paths of the files that tests read."""
 
 from __future__ import annotations
 
@@ -12,5 +12,5 @@ TRAINS = ROOT / "trains"
 
 
 def train_files() -> list[Path]:
-    """The declarations of the shipped trains; the evidence for reconstructions is not among them."""
+    """Return the declarations of the shipped trains, without the evidence for reconstructions."""
     return sorted(path for path in TRAINS.glob("*/*.yaml") if path.parent.name != "evidence")

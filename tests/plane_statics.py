@@ -1,9 +1,9 @@
-"""Plain statics of a mechanism in the plane at one instant: rigid bodies, hinges, touching flanks, Coulomb friction.
+"""Statics of a plane mechanism at one instant: rigid bodies, hinges, flanks in contact, Coulomb friction.
 
-Every body has three equations of balance (two of forces, one of moments about the origin), every hinge two unknown
-forces, every touch one, along its normal and the friction that goes with it. Speeds come from the same bodies: both
-bodies of a hinge move alike in its point, both of a touch along its normal. Nothing here knows a ratio, an efficiency
-or a power: an independent judge of torques at one position.
+Every body has three equations of balance (two of forces, one of moments about the origin), every hinge has two unknown
+forces, and every contact has one, along its normal with the corresponding friction. Speeds follow from the same bodies:
+both bodies of a hinge have the same velocity at its point, and both bodies of a contact the same velocity along its
+normal. No ratio, efficiency or power is used, so this module is an independent reference for torques at one position.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Vector = tuple[float, float]
 
 @dataclass(frozen=True)
 class Hinge:
-    """The body `inner` turns in `outer` about a point; `friction` is the torque of the bearing (N m)."""
+    """The body `inner` turns in `outer` about a point; `friction` is the torque of the bearing [N m]."""
 
     outer: str
     inner: str
@@ -31,10 +31,10 @@ class Hinge:
 
 @dataclass(frozen=True)
 class Touch:
-    """One flank of `first` can press on `second` in a point, along `normal` (of length 1, out of the first body).
+    """A flank of `first` that can press on `second` at a point, along `normal` (unit vector out of the first body).
 
-    `through` is another point through which the force goes, for a pair that is known by its efficiency alone; it is
-    chosen by who drives: (if the first wheel drives in the bearer's frame, if the second does).
+    `through` is another point on the line of the force, for a pair of which only the efficiency is known. Its two
+    values apply if the first or the second wheel drives in the frame of the carrier.
     """
 
     first: str
@@ -48,9 +48,9 @@ class Touch:
 
 @dataclass(frozen=True)
 class Balance:
-    """Torques that balance: of the asked body and the held ones (N m), normal forces (N), and the power lost (W).
+    """Torques in equilibrium: of the solved body and the held bodies [N m], normal forces [N], and lost power [W].
 
-    `lost` goes by touch, then by hinge; `put_in` is what all torques from outside put in.
+    `lost` lists contacts, then hinges; `put_in` is the power of all external torques.
     """
 
     torque: float
@@ -62,7 +62,7 @@ class Balance:
 
 
 def flanks(first: str, second: str, point: Vector, normal: Vector, friction: float) -> tuple[Touch, Touch]:
-    """Both sides of a pin in a slot: it presses on one or the other."""
+    """Return both sides of a pin in a slot, one of which is in contact."""
     return (
         Touch(first, second, point, normal, friction),
         Touch(first, second, point, (-normal[0], -normal[1]), friction),
@@ -77,10 +77,11 @@ def toothed(
     efficiencies: tuple[float, float],
     bearer: str = FRAME,
 ) -> tuple[Touch, Touch]:
-    """Two pitch circles; a ring has a negative radius. Basic efficiencies with the first and with the second driving.
+    """Return the contact of two pitch circles with basic efficiencies for either wheel driving; a ring has a negative
+    radius.
 
-    The force of a pair that loses power does not go through the pitch point: its arms are as the torques, so it cuts
-    the line of centres where (distance from the second axis) : (from the first) is as the torques with the loss.
+    The force of a pair that loses power does not pass through the pitch point: its moment arms are in the ratio of the
+    torques, which determines its intersection with the line of centres.
     """
     (x, y), (X, Y) = centres
     distance = hypot(X - x, Y - y)
@@ -102,19 +103,19 @@ def toothed(
 
 @dataclass(frozen=True)
 class Mechanism:
-    """Bodies at one instant. `joints` holds for each pair the flanks that may press, mostly two."""
+    """Bodies at one instant. `joints` contains, for each pair, the flanks that may press, usually two."""
 
     hinges: Sequence[Hinge]
     joints: Sequence[tuple[Touch, ...]]
 
     @property
     def bodies(self) -> list[str]:
-        """All but the frame."""
+        """All bodies except the frame."""
         names = dict.fromkeys(name for hinge in self.hinges for name in (hinge.outer, hinge.inner))
         return [name for name in names if name != FRAME]
 
     def motion(self, driven: Mapping[str, float], used: Sequence[int] | None = None) -> dict[str, Vector3]:
-        """Velocity of the origin as a point of each body, and its speed of turning, from some speeds of turning."""
+        """Return the velocity at the origin and the angular velocity of each body, from some angular velocities."""
         used = used or [0] * len(self.joints)
         names = self.bodies
         at = {name: 3 * place for place, name in enumerate(names)}
@@ -139,9 +140,9 @@ class Mechanism:
     def balances(
         self, motions: Mapping[str, float], loads: Mapping[str, float], requested: str, held: Sequence[str] = ()
     ) -> list[Balance]:
-        """All ways in which the bodies balance while they turn so, with the torque of one body asked for.
+        """Return all equilibria of the bodies for this motion, with the torque of one body unknown.
 
-        `held` are bodies that an outer torque of any size keeps turning as they do, besides the asked one.
+        `held` are further bodies whose motion is maintained by external torques of any magnitude.
         """
         found = []
         for used in itertools.product(*(range(len(pair)) for pair in self.joints)):
@@ -208,13 +209,15 @@ class Mechanism:
 
     @staticmethod
     def _drives(touch: Touch, motion: Mapping[str, Vector3]) -> float:
-        """Speed of the first flank along its normal as the bearer sees it: positive where the first body pushes."""
+        """Return the speed of the first flank along its normal relative to the carrier: positive where the first body
+        pushes.
+        """
         seen, bearer = (_velocity(motion[name], touch.point) for name in (touch.first, touch.bearer))
         return (seen[0] - bearer[0]) * touch.normal[0] + (seen[1] - bearer[1]) * touch.normal[1]
 
     @staticmethod
     def _force(touch: Touch, way: int, motion: Mapping[str, Vector3]) -> tuple[Vector, Vector]:
-        """A point of the force on the second body, and that force per unit of normal force."""
+        """Return a point of the force on the second body, and this force per unit of normal force."""
         if touch.through is not None:
             return touch.through[way], touch.normal
         along = (-touch.normal[1], touch.normal[0])
@@ -225,7 +228,9 @@ class Mechanism:
 
     @staticmethod
     def _row(at: Mapping[str, int], first: str, second: str, point: Vector, force: Vector) -> np.ndarray:
-        """Force and moment on the second body, and the reaction on the first; also their relative speed along it."""
+        """Return force and moment on the second body, the reaction on the first, and their relative speed along the
+        force.
+        """
         row = np.zeros(3 * len(at))
         moment = point[0] * force[1] - point[1] * force[0]
         for name, sign in ((second, 1.0), (first, -1.0)):

@@ -1,7 +1,7 @@
-"""An independent judge of cut wheels: their whole outlines as polygons, moved until they touch.
+"""An independent reference for cut wheels: their whole outlines as polygons, which are moved until they touch.
 
-Knows a wheel by the polar place of each tip about the axle and the directions of its two flanks, and nothing of laws:
-flanks are followed to where they meet the next tooth's, and shapely says whether two outlines overlap.
+A wheel is given by the polar coordinates of each tip about the axle and the directions of its two flanks. Flanks are
+extended to the intersection with the neighbouring flank, and shapely decides whether two outlines overlap.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import shapely
 
 
 class Outline(NamedTuple):
-    """A wheel about its own axle: tips at theta (rad) and r, flanks at these half angles (rad) on either side.
+    """A wheel about its own axle: tips at theta [rad] and r, and the half angles of both flanks [rad].
 
     `less` is the flank on the side of smaller angles. The flanks of a ring lead outwards from its tips.
     """
@@ -41,7 +41,9 @@ class Outline(NamedTuple):
         return np.stack([tips, valleys], axis=1).reshape(-1, 2)
 
     def about(self, e: float, towards: float) -> Outline:
-        """The same outline about an axle from which its present centre lies e away in direction `towards`."""
+        """Return the same outline about an axle from which its present centre is at the distance e in direction
+        `towards`.
+        """
         points = self.points + e * np.array([np.cos(towards), np.sin(towards)])
         tips, after = points[::2], points[1::2]
         before = np.roll(after, 1, axis=0)
@@ -59,8 +61,8 @@ class Outline(NamedTuple):
 class Judge:
     """Two outlines on axles `D` apart. The driver at t has its tips at theta + t from the line to the other axle.
 
-    The driven wheel is seen in the mirror, so that both angles grow and fall together. A ring's axle is on the other
-    side of its mate's, nothing is mirrored, and its mate is free while it lies in the hole.
+    The driven wheel is reflected, so that both angles increase together. The axle of a ring is on the other side of its
+    mate's axle, nothing is reflected, and its mate is free while it is in the hole.
     """
 
     def __init__(self, driver: Outline, driven: Outline, D: float) -> None:
@@ -68,7 +70,7 @@ class Judge:
         self.rings = driver.ring, driven.ring
 
     def overlap(self, t: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Whether the wheels overlap at driver positions t and driven positions y, (n,) each."""
+        """Return True where the wheels overlap at driver positions t and driven positions y, (n,) each."""
         one, two = _turned(self.driver, t), _turned(self.driven, y)
         if any(self.rings):
             two[..., 0] += self.D if self.rings[0] else -self.D
@@ -78,7 +80,9 @@ class Judge:
         return shapely.intersects(shapely.polygons(one), shapely.polygons(two))
 
     def free(self, t: np.ndarray, centre: np.ndarray, width: float, steps: int = 60) -> tuple[np.ndarray, np.ndarray]:
-        """Least and greatest free y about `centre`, or about the free place nearest to it within `width`; else NaN."""
+        """Return the minimum and maximum free y about `centre`, or about the nearest free position within `width`; else
+        NaN.
+        """
         offsets = np.linspace(-width, width, 2 * steps + 1)
         open_ = ~self.overlap(np.repeat(t, len(offsets)), (centre[:, None] + offsets).ravel())
         open_ = open_.reshape(len(t), -1)

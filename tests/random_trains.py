@@ -1,12 +1,12 @@
 """Random trains as plain declarations, from a seed: nested carriers, bevels, clutches, pins, several inputs with units.
 
-A train is grown as a tree of turning pairs whose axis labels are right by construction: a new link hangs on an old one,
-about an axis that passes there or about a new one. Pairs are then drawn among the links whose path changes axis once.
-So carriers ride on carriers, planets come in equal copies (loops that close) or with wheels of their own (loops that do
-not), and what is prescribed makes a train determined, free, locked or contradictory.
+A train grows as a tree of turning pairs whose axis labels are correct by construction: a new link is attached to an
+existing one, about an axis that it bears or about a new axis. Pairs are then drawn among the links whose path changes
+axis once. Carriers can therefore be carried, planets can be equal copies (loops that close) or have separate wheels
+(loops that do not), and the prescribed speeds make a train determined, free, locked or contradictory.
 
-`random_train(seed)` asks for everything at once. `driven_train(seed)` is determined in every case: its inputs are added
-by the word of the oracle (`joint_rates`), for laws that need a train that turns.
+`random_train(seed)` draws all features. `driven_train(seed)` is always determined: its inputs are added according to
+the reference solver (`joint_rates`), for tests that need a train that turns.
 """
 
 from __future__ import annotations
@@ -41,10 +41,11 @@ UNITS = ("rpm", "deg/s", "turn/d", "turn/s", "turn/h")
 
 @dataclass(frozen=True)
 class RandomTrain:
-    """A declaration, and where its axes lie in the pose where all angles are zero.
+    """A declaration, and its axes in the pose in which all angles are zero.
 
-    directions   axis label -> direction; z where nothing is declared
-    positions    axis label -> a point of it: at random, so that no two axes meet by accident; declared if `placed`
+    directions   axis label -> direction; z if none is declared
+    positions    axis label -> a point of the axis, at random, so that no two axes meet by accident; declared if
+    `placed`
     """
 
     seed: int
@@ -55,16 +56,16 @@ class RandomTrain:
 
     @property
     def states(self) -> tuple[str | None, ...]:
-        """Names of the states; (None,) where there are none."""
+        """Names of the states; (None,) if there are none."""
         return tuple(self.data.get("states", ())) or (None,)
 
 
 def random_train(seed: int, most: int = 9, oblique: bool = True, requested: bool = True) -> RandomTrain:
-    """A train from a seed.
+    """Return a train from a seed.
 
-    most      the most moving links
-    oblique   whether half of the trains have axes in several directions, with bevel wheels
-    requested     whether something is prescribed: inputs, fixed links, locks, clutches and states, outputs
+    most       maximum number of moving links
+    oblique    whether half of the trains have axes in several directions, with bevel wheels
+    requested  whether inputs, fixed links, locks, clutches, states and outputs are declared
     """
     random = Random(seed)
     grown = _Growing(random, slanted=oblique and random.random() < 0.5)
@@ -87,7 +88,7 @@ def random_train(seed: int, most: int = 9, oblique: bool = True, requested: bool
 
 
 def driven_train(seed: int, **options: Any) -> RandomTrain:
-    """A train that is determined: of those from this seed on the first that can be, driven until nothing is free."""
+    """Return the first train from this seed on that can be determined, with inputs until nothing is free."""
     from joint_rates import drive, inputs_of, rest
 
     for at in itertools.count(seed * 1000):
@@ -105,7 +106,7 @@ def driven_train(seed: int, **options: Any) -> RandomTrain:
 def inputs_until_determined(
     train: RandomTrain, resting: Resting, random: Random, write: Callable[[Fraction], str] = str, most: int = 9
 ) -> dict[str, str]:
-    """Inputs for a train, one by one on links that are still free, until nothing is free or `most` are driven."""
+    """Return inputs of a train, added one by one on free links until nothing is free or `most` links are driven."""
     from joint_rates import drive, inputs_of
 
     inputs: dict[str, str] = {}
@@ -121,12 +122,12 @@ def inputs_until_determined(
 
 
 def _on_the_frame(train: RandomTrain, link: str) -> bool:
-    """Whether a link turns about an axis that the frame bears."""
+    """Return True if a link turns about an axis in the frame."""
     return link != "frame" and any(set(joint["pair"]) == {"frame", link} for joint in train.data["revolutes"])
 
 
 class _Growing:
-    """A skeleton of links and joints, then pairs on it."""
+    """A skeleton of links and joints, to which pairs are added."""
 
     def __init__(self, random: Random, slanted: bool) -> None:
         self.random, self.slanted = random, slanted
@@ -142,7 +143,7 @@ class _Growing:
         self._one_wheel = random.random() < 0.5
 
     def grow(self, count: int) -> None:
-        """Links L1, L2, ... on links before them."""
+        """Add links L1, L2, ... to earlier links."""
         for at in range(1, count + 1):
             parent = self.random.choice(list(self.links))
             borne = self._borne[parent]
@@ -163,7 +164,7 @@ class _Growing:
         self.revolutes.append({"pair": pair, "axis": axis})
 
     def _lay(self, axis: str, parent: str) -> None:
-        """A direction, mostly that of the parent's own axis, and a place."""
+        """Choose a direction, usually that of the parent's axis, and a position."""
         own = self.directions[self.parent[parent][1]] if parent in self.parent else Z
         x, y, z = own
         chosen = own
@@ -176,7 +177,7 @@ class _Growing:
         return [f"{value} mm" for value in self.positions[label]]
 
     def path(self, i: str, j: str) -> list[tuple[str, str]]:
-        """The joints between two links, each as its outer link and its label."""
+        """Return the joints between two links, each as its outer link and its label."""
 
         def chain(link: str) -> list[tuple[str, str]]:
             found = []
@@ -192,14 +193,14 @@ class _Growing:
         return up + down[::-1]
 
     def axes_between(self, i: str, j: str) -> list[str]:
-        """The axis labels on the way, each once."""
+        """Return the axis labels on the path, each once."""
         return [label for label, _ in itertools.groupby(label for _, label in self.path(i, j))]
 
     def parallel(self, labels: Sequence[str]) -> bool:
         return all(not any(cross(self.directions[labels[0]], self.directions[label])) for label in labels)
 
     def is_oblique(self, link: str) -> bool:
-        """Whether the axes between a link and the frame are not all parallel."""
+        """Return True if the axes between a link and the frame are not all parallel."""
         labels = self.axes_between("frame", link)
         return bool(labels) and not self.parallel(labels)
 
@@ -235,7 +236,7 @@ class _Growing:
         return name
 
     def copy_a_planet(self) -> None:
-        """One more link like an old one, on an axis of its own beside it, in the same meshes: as equal planets are."""
+        """Add a copy of a link on another axis with the same meshes, like an equal planet."""
         meshes: dict[str, list[tuple[int, int]]] = {}
         wheels = {name: link for link, part in self.links.items() for name in part.get("wheels", {})}
         for at, gear in enumerate(self.gears):
@@ -264,7 +265,7 @@ class _Growing:
             self.gears.append({"id": f"{self.gears[at]['id']}t", "pair": pair})
 
     def data(self) -> Data:
-        """The declaration, with nothing prescribed."""
+        """Return the declaration without inputs."""
         return {
             "links": self.links,
             "revolutes": self.revolutes,
@@ -274,7 +275,7 @@ class _Growing:
 
 
 class _Requesting:
-    """What is prescribed and what is asked."""
+    """Inputs, fixed links, locks, states and outputs of a random train."""
 
     def __init__(self, random: Random, grown: _Growing, train: RandomTrain) -> None:
         self.random, self.grown, self.train, self.data = random, grown, train, train.data
@@ -357,5 +358,5 @@ def cross(u: Sequence[Any], v: Sequence[Any]) -> tuple[Any, Any, Any]:
 
 
 def many(count: int, first: int = 0, **options: Any) -> Iterator[RandomTrain]:
-    """Random trains from consecutive seeds."""
+    """Yield random trains from consecutive seeds."""
     return (random_train(seed, **options) for seed in range(first, first + count))

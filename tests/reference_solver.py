@@ -1,7 +1,7 @@
-"""A second, naive way to the same answer: raw Willis rows and dense elimination over the rationals.
+"""A second, naive solver: raw Willis rows and dense elimination over the rationals.
 
-Nothing here is imported from the package under test. The carrier of a gear pair is read off the tree path itself:
-it is the vertex at which the axis label changes.
+Nothing is imported from the package under test. The carrier of a gear pair is the vertex of the tree path at which the
+axis label changes.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Matrix = list[list[Fraction]]
 
 @dataclass(frozen=True)
 class Reference:
-    """What the naive solver finds: the verdict's kind, the speeds that are determined, and the counts."""
+    """Results of the naive solver: kind of the verdict, determined speeds, and counts."""
 
     kind: str
     speeds: dict[str, Fraction]
@@ -39,7 +39,7 @@ def turning_graph(data: Mapping[str, Any]) -> nx.Graph:
 
 
 def find_carrier(graph: nx.Graph, i: str, j: str) -> str | None:
-    """The one vertex of the tree path i..j where the label changes; None if there is not exactly one."""
+    """Return the single vertex of the tree path i..j at which the label changes; None if there is not exactly one."""
     path = nx.shortest_path(graph, i, j)
     labels = [graph.edges[pair]["axis"] for pair in itertools.pairwise(path)]
     changes = [path[at + 1] for at in range(len(labels) - 1) if labels[at] != labels[at + 1]]
@@ -47,7 +47,7 @@ def find_carrier(graph: nx.Graph, i: str, j: str) -> str | None:
 
 
 def wheel_table(data: Mapping[str, Any]) -> dict[str, tuple[str, int, bool]]:
-    """Wheel id -> link, teeth, internal."""
+    """Return a mapping of wheel id to (link, teeth, internal)."""
     table = {}
     for link, part in data["links"].items():
         for name, wheel in ((part or {}).get("wheels") or {}).items():
@@ -63,7 +63,10 @@ def pair_name(gear: Mapping[str, Any]) -> str:
 
 
 def willis_rows(data: Mapping[str, Any]) -> tuple[list[dict[str, Fraction]], dict[str, str]]:
-    """w_i - tau w_j + (tau - 1) w_k = 0 for each pair; w_slot - m w_pin - (1 - m) w_carrier = 0 for each coupling."""
+    """Return the row w_i - tau w_j + (tau - 1) w_k = 0 of each pair, and the row of each coupling.
+
+    The row of a coupling is w_slot - m w_pin - (1 - m) w_carrier = 0.
+    """
     graph, wheels = turning_graph(data), wheel_table(data)
     rows, carriers = [], {}
     for gear in data.get("gears", ()):
@@ -88,7 +91,9 @@ def _row(carriers: dict[str, str], graph: nx.Graph, name: str, i: str, j: str, t
 
 
 def echelon(matrix: Matrix, columns: int) -> list[int]:
-    """Gauss-Jordan in place on the first `columns` columns; the pivot column of each leading row."""
+    """Apply Gauss-Jordan elimination in place to the first `columns` columns; return the pivot column of each leading
+    row.
+    """
     pivots: list[int] = []
     for column in range(columns):
         lead = next((r for r in range(len(pivots), len(matrix)) if matrix[r][column]), None)
@@ -119,7 +124,7 @@ def _dense(
 
 
 def _known(matrix: Matrix, pivots: Sequence[int], links: Sequence[str]) -> dict[str, Fraction]:
-    """The links whose speed involves no free column."""
+    """Return the links whose speed involves no free column."""
     return {
         links[column]: row[-1]
         for row, column in zip(matrix, pivots, strict=False)
@@ -132,10 +137,11 @@ def rank_of(rows: Sequence[Mapping[str, Fraction]], links: Sequence[str]) -> int
 
 
 def rigid_rows(data: Mapping[str, Any]) -> list[dict[str, Fraction]]:
-    """One row for every turning pair that a fixed link or a lock closes.
+    """Return one row for every turning pair that a fixed link or a lock closes.
 
-    Two links are one body if all links between them are, where two or three axes lie on the way: two different lines
-    have no turning in common, and three make a triangle. Four make a four-bar linkage, which this solver does not know.
+    Two links are one body if all links between them are, provided that two or three axes are on the path: rotations
+    about two different lines are independent, and three axes form a triangle. Four axes form a four-bar linkage, which
+    this solver does not treat.
     """
     graph, frame, rows = turning_graph(data), data.get("frame", "frame"), []
     bodies = nx.Graph()
@@ -166,7 +172,7 @@ class LinkageError(Exception):
 
 
 def is_a_linkage(data: Mapping[str, Any]) -> bool:
-    """Whether what is held or locked makes a linkage, which is refused."""
+    """Return True if fixed or locked links form a linkage, which is rejected."""
     try:
         rigid_rows(data)
     except LinkageError:
@@ -175,7 +181,7 @@ def is_a_linkage(data: Mapping[str, Any]) -> bool:
 
 
 def solve_naively(data: Mapping[str, Any]) -> Reference:
-    """The whole answer for plain data: teeth as integers, inputs as Fractions or integers."""
+    """Return the result for plain data: teeth as integers, inputs as fractions or integers."""
     frame = data.get("frame", "frame")
     links = [link for link in data["links"] if link != frame]
     rows, carriers = willis_rows(data)

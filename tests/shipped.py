@@ -1,7 +1,7 @@
-"""Shipped trains, their reports, layouts and scenes, made once for all tests that only read them.
+"""Shipped trains, their reports, layouts and scenes, computed once for all tests that only read them.
 
-A law that every shipped train satisfies is checked on twelve trains that differ in kind, and on all others with
-`--slow`: `@pytest.mark.parametrize("name", shipped.every_train())`.
+A property of every shipped train is checked on twelve trains of different kinds, and on all others with `--slow`:
+`@pytest.mark.parametrize("name", shipped.every_train())`.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ KINDS = {
 
 
 def trains() -> list[str]:
-    """Names of the shipped trains."""
+    """Return the names of the shipped trains."""
     return list(geartrain.shipped())
 
 
 def every_train(names: Iterable[str] | None = None, dear: Container[str] = ()) -> list[Any]:
-    """Parameters of a test: some shipped trains, or all.
+    """Return test parameters: shipped trains of different kinds, or all.
 
-    Those outside `KINDS`, and dear ones, which take seconds each, only run with `--slow`.
+    Trains outside `KINDS`, and trains that take seconds each, run only with `--slow`.
     """
     known = trains() if names is None else names
     return [
@@ -52,29 +52,29 @@ def every_train(names: Iterable[str] | None = None, dear: Container[str] = ()) -
 
 @cache
 def train(name: str) -> GearTrain:
-    """A shipped train."""
+    """Return a shipped train."""
     return geartrain.load(name)
 
 
 @cache
 def report(name: str) -> TrainReport:
-    """All that a report on it holds."""
+    """Return the data of the report on a train."""
     return collect_report(train(name))
 
 
 @cache
 def layout(name: str) -> Layout:
-    """Where its axes and wheels stand."""
+    """Return the positions of its axes and wheels."""
     return lay_out(train(name))
 
 
 def scene(name: str, state: str | None = None) -> Scene:
-    """Its scene in a state, by default the first."""
+    """Return its scene in a state, by default the first."""
     return _scene(name, train(name).declaration.state_or_first(state))
 
 
 def built(name: str, state: str | None = None) -> Scene:
-    """Its scene as it is built, which pages show, in a state, by default the first."""
+    """Return its scene with solid parts, as pages show it, in a state, by default the first."""
     return _built(name, train(name).declaration.state_or_first(state))
 
 

@@ -1,9 +1,9 @@
-"""An independent reference for triangular teeth: the closure equations of the source, at 50 digits, couple by couple.
+"""An independent reference for triangular teeth: the closure equations of the source in 50 digits, for each tooth pair.
 
-Written from F. Sorge, "A note on the mechanics of ancient gear systems", Eqs. (1)-(19) and (28)-(33), as they stand but
-for its errata: the lesser root in Eq. (16), signs and brackets in Eqs. (31) and (33). Unequal
-half apertures: the flank in contact is the driver's in approach and the driven wheel's in recess. What floats are given
-is taken as exact. Nothing here is fast, stable at low precision, or clever.
+The equations are those of F. Sorge, "A note on the mechanics of ancient gear systems", Eqs. (1)-(19) and (28)-(33),
+except for its errata: the smaller root in Eq. (16), signs and brackets in Eqs. (31) and (33). If the half angles
+differ, the flank in contact is the driver's in approach and the driven wheel's in recess. Float input is treated as
+exact. Nothing here is fast, or stable at low precision.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ TINY = mp.mpf(10) ** -30  # of a pitch: ends of smooth stretches are looked at f
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of alpha_1 driven by one couple, or (`held` given) with the driven wheel at rest at that alpha_2."""
+    """An interval of alpha_1 driven by one tooth pair, or (with `held`) with the driven wheel at rest at that
+    alpha_2.
+    """
 
     phase: str
     start: Any
@@ -38,7 +40,7 @@ class Segment:
 
 
 class Pair:
-    """One pair of wheels, the first driving. `m` is mpmath by default, or numpy for many angles at double precision."""
+    """One pair of wheels, the first driving. `m` is mpmath by default, or numpy for many angles in double precision."""
 
     def __init__(self, z1, z2, R1, R2, beta1, beta2, excess, m: Any = mp) -> None:
         self.m = m
@@ -61,21 +63,21 @@ class Pair:
 
     @classmethod
     def of(cls, given: Any, m: Any = mp) -> Pair:
-        """The pair with the declared numbers of `given`, and nothing derived from them."""
+        """Return the pair with the declared numbers of `given`, without derived values."""
         return cls(given.z1, given.z2, given.R1, given.R2, given.beta1, given.beta2, given.excess, m)
 
     @property
     def beta1(self) -> Any:
-        """Half aperture of the driver's teeth."""
+        """Half angle of the driver's teeth."""
         return self.b1
 
     @property
     def beta2(self) -> Any:
-        """Half aperture of the driven wheel's teeth."""
+        """Half angle of the driven wheel's teeth."""
         return self.b2
 
     def swapped(self) -> Pair:
-        """The second wheel driving."""
+        """Return the pair with the second wheel driving."""
         return Pair(self.z2, self.z1, self.R2, self.R1, self.b2, self.b1, self.excess, self.m)
 
     # ------------------------------------------------------------------------------------------------------ one couple
@@ -92,19 +94,25 @@ class Pair:
 
     @cached_property
     def tips(self) -> Any:
-        """alpha_1max + alpha_2max: what a flank leans more at the ends of the reach than by its half aperture."""
+        """alpha_1max + alpha_2max: additional inclination of a flank at the ends of the reach, beyond its half
+        angle.
+        """
         return self.amax + self.acos((self.D**2 + self.R2**2 - self.R1**2) / (2 * self.D * self.R2))
 
     @cached_property
     def entry(self) -> Any:
-        """Where a couple first touches: at the tips, or before, where a leaning flank grazes the driven tip circle."""
+        """Angle at which a tooth pair first touches: at the tips, or earlier if a leaning flank touches the driven tip
+        circle.
+        """
         if self.b1 + self.tips <= self.m.pi / 2:
             return self.amax
         return max(self.amax, self.asin(min(1, (self.R2 + self.R1 * self.sin_b1) / self.D)) - self.b1)
 
     @cached_property
     def exit(self) -> Any:
-        """Where a couple ceases to push: at the tips, or before, where the driven flank leans so far that tau is 0."""
+        """Angle at which a tooth pair stops driving: at the tips, or earlier if the driven flank leans so far that tau
+        is 0.
+        """
         if self.b2 + self.tips <= self.m.pi / 2:
             return -self.amax
         precise = self if self.m is mp else Pair.of(self)
@@ -115,23 +123,25 @@ class Pair:
 
     @cached_property
     def matching(self) -> Any:
-        """alpha_1m, Eq. (10): both flanks on one line, alpha_1 + beta_1 = beta_2 - alpha_2; infinite where never."""
+        """alpha_1m, Eq. (10): both flanks on one line, alpha_1 + beta_1 = beta_2 - alpha_2; infinite if this never
+        occurs.
+        """
         sine = (self.R1 * self.sin_b1 + self.R2 * self.sin_b2) / self.D
         return self.asin(sine) - self.b1 if sine < 1 else self.m.inf
 
     def phase(self, x: Any) -> str:
-        """The phase at alpha_1 = x."""
+        """Return the phase at alpha_1 = x."""
         return APPROACH if x >= self.matching else RECESS
 
     def approach(self, x: Any) -> tuple[Any, Any]:
-        """alpha_2 and v, Eqs. (7) and (9)."""
+        """Return alpha_2 and v, Eqs. (7) and (9)."""
         cos, sin = self.cos_sin(x + self.b1)
         sine = (self.D * sin - self.R1 * self.sin_b1) / self.R2
         y = self.asin(sine) - x - self.b1
         return y, self.R1 * self.cos_b1 - self.D * cos + self.R2 * self.m.sqrt(1 - sine**2)
 
     def recess(self, x: Any) -> tuple[Any, Any]:
-        """alpha_2 and v, Eqs. (17) and (16)."""
+        """Return alpha_2 and v, Eqs. (17) and (16)."""
         cos, sin = self.cos_sin(x)
         square = self.D**2 + self.R1**2 - 2 * self.D * self.R1 * cos
         v = self.R2 * self.cos_b2 - self.m.sqrt(square - (self.R2 * self.sin_b2) ** 2)
@@ -139,11 +149,11 @@ class Pair:
         return seen - self.atan2(v * self.sin_b2, self.R2 - v * self.cos_b2), v
 
     def angle(self, x: Any, phase: str | None = None) -> Any:
-        """alpha_2 at x."""
+        """Return alpha_2 at x."""
         return (self.approach if (phase or self.phase(x)) == APPROACH else self.recess)(x)[0]
 
     def speed(self, x: Any, phase: str | None = None, y: Any = None) -> Any:
-        """tau at x, Eqs. (12) and (19); from alpha_2 there if it is known."""
+        """Return tau at x, Eqs. (12) and (19), from alpha_2 if it is known."""
         m = self.m
         if (phase or self.phase(x)) == APPROACH:
             cos, sin = self.cos_sin(x + self.b1)
@@ -154,17 +164,19 @@ class Pair:
         return arm / (self.D * m.cos(self.b2 - y) - arm)
 
     def lean(self, x: Any, phase: str | None = None) -> Any:
-        """Angle between the flank in contact and the other tooth's own axis: beta + a1 + a2, or beta - a1 - a2."""
+        """Return the angle between the flank in contact and the other tooth's axis: beta + a1 + a2, or beta -
+        a1 - a2.
+        """
         phase = phase or self.phase(x)
         y = self.angle(x, phase)
         return self.b1 + x + y if phase == APPROACH else self.b2 - x - y
 
     def arms(self, x: Any, friction: Any, phase: str | None = None) -> tuple[Any, Any]:
-        """Arms b1 and b2 of the force between the teeth, Eqs. (28) to (31)."""
+        """Return the moment arms b1 and b2 of the force between the teeth, Eqs. (28) to (31)."""
         return self._forced(x, friction, phase or self.phase(x))[1:]
 
     def _forced(self, x: Any, friction: Any, phase: str) -> tuple[Any, Any, Any]:
-        """tau and both arms."""
+        """Return tau and both moment arms."""
         m = self.m
         y = self.angle(x, phase)
         tau = self.speed(x, phase, y)
@@ -181,23 +193,25 @@ class Pair:
         return tau, scale * (cc + ss), scale * (cc / tau - ss)
 
     def efficiency(self, x: Any, friction: Any, phase: str | None = None) -> Any:
-        """tau b2 / b1, Eqs. (32) and (33)."""
+        """Return the efficiency tau b2 / b1, Eqs. (32) and (33)."""
         tau, b1, b2 = self._forced(x, friction, phase or self.phase(x))
         return tau * b2 / b1
 
     # -------------------------------------------------------------------------------------------------- every couple
 
     def tooth_pairs(self, t: Any) -> range:
-        """Every couple whose driver tooth is within the reach at position t."""
+        """Return every tooth pair whose driving tooth is within reach at position t."""
         return range(int(mp.ceil((self.exit - t) / self.p1)), int(mp.floor((self.entry - t) / self.p1)) + 1)
 
     def first(self, t: Any) -> Any:
-        """U(t) = min over every couple of f(t + k p1) - k p2; infinite where none is in reach."""
+        """Return U(t) = min over every tooth pair of f(t + k p1) - k p2; infinite if no tooth pair is in reach."""
         return min((self.angle(t + k * self.p1) - k * self.p2 for k in self.tooth_pairs(t)), default=mp.inf)
 
     @cached_property
     def envelope(self) -> list[Segment]:
-        """Who is first over the pitch of t that ends where a couple enters, in order of time; gaps are left out."""
+        """Driving tooth pairs over the pitch of t that ends where a tooth pair enters, in order of time; gaps are
+        omitted.
+        """
         top, tiny = self.entry, TINY * self.p1
         cuts = {(top - end) % self.p1 for end in (self.exit, self.matching) if self.exit <= end <= top}
         marks = sorted({mp.mpf(0), self.p1, *cuts})
@@ -208,7 +222,7 @@ class Pair:
         return _joined(found, self.p1)
 
     def _cell(self, high: Any, low: Any) -> list[Segment]:
-        """A stretch of t in which every couple stays in reach and in one phase."""
+        """Return the intervals of a range of t in which every tooth pair remains in reach and in one phase."""
         ks = self.tooth_pairs((high + low) / 2)
         phases = {k: self.phase((high + low) / 2 + k * self.p1) for k in ks}
 
@@ -246,7 +260,7 @@ class Pair:
 
     @cached_property
     def path(self) -> list[Segment]:
-        """The running minimum of U over a pitch, in order of time: standstills where it does not fall."""
+        """Running minimum of U over a pitch, in order of time, with a dwell wherever it does not decrease."""
         once = self.envelope
         twice = once + [Segment(s.phase, s.start, s.end, s.k + 1) for s in once]
         y, t = mp.inf, mp.inf
@@ -281,7 +295,7 @@ class Pair:
         return found[since + 1 : lasts[-1] + 1]
 
     def at(self, t: Any) -> Any:
-        """The dragged driven wheel's y at t: the least U over all earlier positions, from the segments."""
+        """Return y of the driven wheel at t: the minimum U over all earlier positions, from the segments."""
         for s in self.path:
             over = mp.floor((s.start - t) / self.p1 - s.k) + s.k
             x = t + over * self.p1
@@ -291,14 +305,14 @@ class Pair:
         raise AssertionError("the path has a hole")
 
     def error(self, S: Any, direction: int = 1) -> Any:
-        """Transmission error q - (z1/z2) S at the forward angle S."""
+        """Return the transmission error q - (z1/z2) S at the forward angle S."""
         t = -mp.mpf(S) * direction
         lag = self.at(t) - self.ratio * t
         return -lag if direction > 0 else self.p2 + lag
 
     @cached_property
     def jumps(self) -> list[tuple[Any, Any]]:
-        """tau before and after each change of couple, phase or rest, where something begins to push."""
+        """tau before and after each change of tooth pair, phase or dwell at which contact begins."""
         speeds = [
             (mp.mpf(0),) * 2 if s.held is not None else (self.speed(s.start, s.phase), self.speed(s.end, s.phase))
             for s in self.path
@@ -307,7 +321,7 @@ class Pair:
 
     @cached_property
     def error_range(self) -> tuple[Any, Any]:
-        """Least and greatest transmission error."""
+        """Minimum and maximum transmission error."""
         lags = []
         for s in self.path:
             lags += [
@@ -318,7 +332,7 @@ class Pair:
         return -max(lags), -min(lags)
 
     def _mean_speeds(self, s: Segment) -> list[Any]:
-        """Where tau is z1/z2 within a segment, by signs on a grid."""
+        """Return the angles within a segment at which tau is z1/z2, from sign changes on a grid."""
         step = TINY * (s.start - s.end)
 
         def value(x: Any) -> Any:
@@ -336,7 +350,9 @@ class Pair:
         ]
 
     def mean_efficiency(self, friction: Any) -> tuple[Any, Any]:
-        """Means over the driver's angle in contact: of eta (Eq. 34), and tau over the mean of tau/eta; 25 digits."""
+        """Return means over the driver's angle in contact to 25 digits: of eta (Eq. 34), and tau over the mean of
+        tau/eta.
+        """
         eta = tau = inverse = width = mp.mpf(0)
         for s in self.path:
             if s.held is not None:
@@ -352,7 +368,7 @@ class Pair:
         return eta / width, tau / inverse
 
     def _centre(self, s: Segment) -> list[Any]:
-        """Where the contact crosses the line of centres."""
+        """Return the angle at which the contact crosses the line of centres."""
         if s.phase == RECESS:
             return [mp.mpf(0)] if s.end < 0 < s.start else []
         if not self.angle(s.end, APPROACH) < 0 < self.angle(s.start, APPROACH):
@@ -361,13 +377,13 @@ class Pair:
 
 
 def integral(value: Callable[[Any], Any], marks: list[Any]) -> Any:
-    """The integral over the marks, to 25 digits: more than any float it is held against has."""
+    """Return the integral over the marks to 25 digits, more than the compared floats have."""
     with mp.workdps(25):
         return mp.quad(value, marks)
 
 
 def root(value: Callable[[Any], Any], slope: Callable[[Any], Any], low: Any, high: Any) -> Any:
-    """The root where `value` changes sign between low and high: Newton's steps, halving where they are too slow."""
+    """Return the root between low and high, by Newton's method with bisection where it converges slowly."""
     low, high = mp.mpf(low), mp.mpf(high)
     at_low = value(low)
     if at_low == 0:
@@ -390,7 +406,7 @@ def root(value: Callable[[Any], Any], slope: Callable[[Any], Any], low: Any, hig
 
 
 def _cos_sin(x: Any) -> tuple[Any, Any]:
-    """As mpmath's, for floats."""
+    """Return cosine and sine like mpmath's function, for floats."""
     return np.cos(x), np.sin(x)
 
 
@@ -399,7 +415,7 @@ def _near(one: Segment, other: Segment) -> bool:
 
 
 def _joined(found: list[Segment], pitch: Any) -> list[Segment]:
-    """Neighbours of one couple in one phase as one, round the pitch too."""
+    """Merge neighbouring segments of one tooth pair in one phase, also across the end of the pitch."""
     near = TINY * pitch * 10
     joined: list[Segment] = []
     for s in found:
@@ -419,7 +435,7 @@ def _joined(found: list[Segment], pitch: Any) -> list[Segment]:
 
 
 def first_of_all(pair: Pair, t: np.ndarray) -> np.ndarray:
-    """U at many positions t: every couple within the reach, in double precision (`pair` built with numpy)."""
+    """Return U at many positions t over all tooth pairs in reach, in double precision (`pair` built with numpy)."""
     low = int(np.floor((pair.exit - t.max()) / pair.p1))
     high = int(np.ceil((pair.entry - t.min()) / pair.p1))
     k = np.arange(low, high + 1).reshape(-1, *[1] * np.ndim(t))
@@ -431,7 +447,7 @@ def first_of_all(pair: Pair, t: np.ndarray) -> np.ndarray:
 
 
 def angles(pair: Pair, x: np.ndarray) -> np.ndarray:
-    """alpha_2 at many x within the reach, in double precision."""
+    """Return alpha_2 at many x within reach, in double precision."""
     y = np.empty_like(x)
     early = x >= pair.matching
     y[early] = pair.approach(x[early])[0]
@@ -440,7 +456,7 @@ def angles(pair: Pair, x: np.ndarray) -> np.ndarray:
 
 
 def others(pair: Pair, x: float) -> float:
-    """The least angle any other couple allows where one is at alpha_1 = x, as that couple's alpha_2."""
+    """Return the minimum angle that any other tooth pair permits if one is at alpha_1 = x, as alpha_2 of that pair."""
     minimum = np.inf
     for k in range(int(np.floor((pair.exit - x) / pair.p1)), int(np.ceil((pair.entry - x) / pair.p1)) + 1):
         at = x + k * pair.p1
@@ -450,13 +466,13 @@ def others(pair: Pair, x: float) -> float:
 
 
 def pushed(pair: Pair, t: np.ndarray) -> np.ndarray:
-    """The dragged driven wheel at many t: where the first couple is, or where the last to leave has left it."""
+    """Return the angle of the driven wheel at many t: at the driving tooth pair, or where the last pair left it."""
     leaves = angles(pair, np.array([pair.exit]))[0] + np.ceil((t - pair.exit) / pair.p1) * pair.p2
     return np.minimum(first_of_all(pair, t), leaves)
 
 
 def minimum_backlash(pair: Pair) -> float:
-    """The least of y(t) - L(t), L(t) = -U(-t) - p2: a grid, then closer and closer about its lowest places."""
+    """Return the minimum of y(t) - L(t), L(t) = -U(-t) - p2, from a grid that is refined about its lowest positions."""
 
     def backlash(t: np.ndarray) -> np.ndarray:
         return pushed(pair, t) + first_of_all(pair, -t) + pair.p2
@@ -475,7 +491,7 @@ def minimum_backlash(pair: Pair) -> float:
 
 
 def entry_margin(pair: Pair) -> float:
-    """How far a couple that comes in lies above the driven wheel, dragged there before; below 0 it meets a tip."""
+    """Return the distance of an entering tooth pair above the driven wheel; below 0, a tip is hit."""
     now = others(pair, pair.entry)
     if now == np.inf:
         return np.inf
@@ -484,12 +500,14 @@ def entry_margin(pair: Pair) -> float:
 
 
 def exit_margin(pair: Pair) -> float:
-    """How far another couple lies below the driven wheel where a couple leaves; below 0 nothing pushes any more."""
+    """Return the distance of another tooth pair below the driven wheel where a pair leaves; below 0, contact is
+    lost.
+    """
     return float(angles(pair, np.array([pair.exit]))[0]) - others(pair, pair.exit)
 
 
 def verdict(pair: Pair, rounding: float = 1e-9) -> str:
-    """What the scan says of a pair whose flanks lean nowhere beyond the perpendicular; empty within rounding."""
+    """Return the verdict of the scan for a pair whose flanks do not overhang; empty if it is within rounding error."""
     margins = minimum_backlash(pair), entry_margin(pair), exit_margin(pair)
     if any(abs(margin) < rounding * pair.p2 for margin in margins):
         return ""
@@ -503,7 +521,7 @@ def verdict(pair: Pair, rounding: float = 1e-9) -> str:
 
 
 class Given(NamedTuple):
-    """The numbers that declare a pair."""
+    """Numbers that declare a pair."""
 
     z1: int
     z2: int
@@ -515,9 +533,10 @@ class Given(NamedTuple):
 
 
 def drawn(random: Random, most: float, shape: str = "any") -> Given:
-    """A pair of 3 to `most` teeth, ratios up to 1000, any aperture with a valley, any clearance where tips touch.
+    """Return a pair of 3 to `most` teeth, ratios up to 1000, any half angle with a valley, any clearance with
+    overlapping tips.
 
-    `shape` "near" keeps the radii within half of pitch-true, the half apertures within 80 deg and 0.98 of the valley.
+    `shape` "near" keeps the radii within half of pitch-true, the half angles within 80 deg and 0.98 of the valley.
     """
     while True:
         z1 = round(_spread(random, 3, most))

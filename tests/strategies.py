@@ -1,9 +1,9 @@
-"""Random trains as plain declarations.
+"""Random trains as plain declarations, as Hypothesis strategies.
 
-A train is grown as a tree whose axis labels are right by construction: a new link hangs on an old one, either about an
-axis that the old one bears or about a new axis. Pairs are then drawn among those whose path changes axis exactly once.
-That covers ordinary trains, planetary stages, coupled epicyclics and carriers on carriers, loops that close (one wheel
-a link) and loops that do not (wheels of their own), rings, pins and slots.
+A train grows as a tree whose axis labels are correct by construction: a new link is attached to an existing one, either
+about an axis that this link bears or about a new axis. Pairs are then drawn among those whose path changes axis exactly
+once. The result covers ordinary trains, planetary stages, coupled epicyclics and nested carriers, loops that close (one
+wheel per link) and loops that do not (separate wheels), rings, pins and slots.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ turning = st.sampled_from(SPEEDS[1:])
 
 
 def choose(draw: st.DrawFn, items: Sequence[Item]) -> Item:
-    """One of some items, by its place: Hypothesis keeps strategies of places, and makes one of items anew."""
+    """Draw one of some items by its index; Hypothesis caches strategies of indices."""
     return items[draw(st.integers(0, len(items) - 1))]
 
 
 @st.composite
 def skeletons(draw: st.DrawFn, most: int = 9) -> Data:
-    """Links and turning pairs."""
+    """Draw links and turning pairs."""
     count = draw(st.integers(min_value=2, max_value=most))
     links = ["frame"]
     borne: dict[str, list[str]] = {"frame": []}
@@ -58,7 +58,7 @@ def skeletons(draw: st.DrawFn, most: int = 9) -> Data:
 
 @st.composite
 def trains(draw: st.DrawFn, most: int = 9, couplings: bool = True, pairs: int | None = None) -> Data:
-    """A train with nothing prescribed: free, locked or anything between."""
+    """Draw a train without inputs: free, locked or in between."""
     data = draw(skeletons(most))
     graph = turning_graph(data)
     able = [pair for pair in combinations(data["links"], 2) if find_carrier(graph, *pair) is not None]
@@ -90,7 +90,7 @@ def _wheels(draw: st.DrawFn, data: Data, one_wheel: dict[str, int], i: str, j: s
 
 @st.composite
 def requested_trains(draw: st.DrawFn) -> Data:
-    """A train with prescriptions at random: determined, free, locked or contradictory."""
+    """Draw a train with random inputs: determined, free, locked or contradictory."""
     data = draw(trains())
     moving = [link for link in data["links"] if link != "frame"]
     chosen = draw(st.lists(st.sampled_from(tuple(moving)), unique=True, max_size=3))
@@ -104,7 +104,7 @@ def requested_trains(draw: st.DrawFn) -> Data:
 
 @st.composite
 def driven_trains(draw: st.DrawFn, **shape: Any) -> Data:
-    """A determined train: inputs are added, by the naive solver's word, until nothing is free."""
+    """Draw a determined train: inputs are added until the naive solver finds no free speed."""
     data = draw(trains(**shape))
     data["inputs"] = {}
     if draw(st.integers(0, 3)) == 0:
@@ -121,7 +121,7 @@ def driven_trains(draw: st.DrawFn, **shape: Any) -> Data:
 
 @st.composite
 def overdriven_trains(draw: st.DrawFn) -> Data:
-    """A determined train with one input more, at a speed that its link does not have."""
+    """Draw a determined train with one additional input at a contradicting speed."""
     data = draw(driven_trains())
     spare = [link for link in data["links"] if link != "frame" and link not in data["inputs"]]
     assume(spare)
@@ -133,7 +133,7 @@ def overdriven_trains(draw: st.DrawFn) -> Data:
 
 @st.composite
 def ordinary_trains(draw: st.DrawFn, most: int = 12) -> Data:
-    """Fixed axes, each wheel driven by an earlier one: no loop, mobility 1."""
+    """Draw a train with fixed axes, each wheel driven by an earlier one: no loop, mobility 1."""
     count = draw(st.integers(min_value=2, max_value=most))
     data: Data = {"links": {"frame": {}}, "revolutes": [], "gears": [], "inputs": {"g0": Fraction(1)}}
     for at in range(count):
@@ -150,7 +150,7 @@ def ordinary_trains(draw: st.DrawFn, most: int = 12) -> Data:
 
 @st.composite
 def planetary_sets(draw: st.DrawFn) -> Data:
-    """Two central wheels, a carrier, and a planet with one or two wheels: two degrees of freedom."""
+    """Draw two central wheels, a carrier, and a planet with one or two wheels: two degrees of freedom."""
     first, second = draw(st.booleans()), draw(st.booleans())
     compound = draw(st.booleans())
     data: Data = {
@@ -174,7 +174,7 @@ def planetary_sets(draw: st.DrawFn) -> Data:
 
 @st.composite
 def rerooted(draw: st.DrawFn, data: Data) -> Data:
-    """The same train with every set of coaxial links joined by another tree."""
+    """Return the same train with every set of coaxial links joined by another tree."""
     members: dict[str, list[str]] = {}
     for joint in data["revolutes"]:
         for link in joint["pair"]:

@@ -1,8 +1,8 @@
-"""Teeth as points in space, looked at mesh by mesh: an independent check of phase closure, with no azimuth in it.
+"""Teeth as points in space, tested mesh by mesh: an independent check of phase closure without azimuths.
 
-Wheels turn by rotation matrices; every tooth is a point on the circle about the wheel's axis through the pitch point.
-A mesh fits if, along the common tangent at the pitch point, each tooth of one wheel stands midway between two of the
-other. Sets are put together as a fitter would: wheel after wheel, each turned until it fits the one already in.
+Wheels turn by rotation matrices; every tooth is a point on the circle about the wheel's axis through the pitch point. A
+mesh fits if, along the common tangent at the pitch point, each tooth of one wheel is midway between two of the other.
+Sets are assembled like real wheels: one after another, each turned until it fits the assembled ones.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Wheel:
-    """A wheel: its link, tooth count, a point of its axis, the axis (right-handed), and where its mark points.
+    """A wheel: its link, tooth count, a point of its axis, the axis (right-handed), and the direction of its mark.
 
-    The link's angle turns the mark about the axis; there stands a tooth. outward: the side to which its cone opens.
+    The link's angle turns the mark about the axis; a tooth is at the mark. outward: the side to which its cone opens.
     """
 
     link: str
@@ -42,13 +42,13 @@ Pairs = Sequence[tuple[str, str]]
 
 
 def cross(u: Vector, v: Vector) -> Vector:
-    """The vector product; numpy's own takes ten times as long for two vectors."""
+    """Return the vector product; numpy's own takes ten times as long for two vectors."""
     (a, b, c), (x, y, z) = u.tolist(), v.tolist()
     return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def pitch_point(first: Wheel, second: Wheel) -> Vector:
-    """Where the pitch circles or pitch cones touch."""
+    """Return the point at which the pitch circles or pitch cones touch."""
     if np.linalg.norm(cross(first.axis, second.axis)) > 1e-9:
         n, m = (wheel.axis if wheel.outward is None else wheel.outward for wheel in (first, second))
         # sin of the half-angles are as the teeth, and the point lies between the axes
@@ -65,7 +65,9 @@ def pitch_point(first: Wheel, second: Wheel) -> Vector:
 
 @cache
 def circle(wheel: Wheel, mate: Wheel) -> tuple[Vector, Vector, Vector]:
-    """The circle of teeth through the pitch point: its middle, the arm to its mark, and that a quarter turn ahead."""
+    """Return the circle of teeth through the pitch point: its centre, the arm to its mark, and the arm a quarter turn
+    ahead.
+    """
     k = wheel.axis / np.linalg.norm(wheel.axis)
     point, _ = touch(wheel, mate)
     foot = wheel.centre + k * ((point - wheel.centre) @ k)
@@ -76,14 +78,14 @@ def circle(wheel: Wheel, mate: Wheel) -> tuple[Vector, Vector, Vector]:
 
 @cache
 def touch(first: Wheel, second: Wheel) -> tuple[Vector, Vector]:
-    """The pitch point of a mesh, and the direction in which the first wheel moves there."""
+    """Return the pitch point of a mesh, and the direction in which the first wheel moves there."""
     point = pitch_point(first, second)
     tangent = cross(first.axis, point - first.centre)
     return point, tangent / np.linalg.norm(tangent)
 
 
 def offset(wheel: Wheel, mate: Wheel, angle: float, point: Vector, tangent: Vector) -> float:
-    """The tooth nearest to the pitch point, in pitches along the tangent."""
+    """Return the position of the tooth nearest to the pitch point [pitches along the tangent]."""
     foot, mark, ahead = circle(wheel, mate)
     angles = angle + 2 * np.pi * np.arange(wheel.teeth) / wheel.teeth
     away = np.cos(angles)[:, None] * mark + np.sin(angles)[:, None] * ahead + (foot - point)
@@ -94,7 +96,7 @@ def offset(wheel: Wheel, mate: Wheel, angle: float, point: Vector, tangent: Vect
 
 
 def misfit(wheels: Mapping[str, Wheel], pair: tuple[str, str], angles: Mapping[str, float]) -> float:
-    """How far a mesh is from a tooth in the middle of a gap (pitches, -1/2 to 1/2)."""
+    """Return the deviation of a mesh from a tooth in the middle of a gap [pitches, -1/2 to 1/2]."""
     first, second = wheels[pair[0]], wheels[pair[1]]
     point, tangent = touch(first, second)
     apart = offset(first, second, angles[first.link], point, tangent)
@@ -103,12 +105,12 @@ def misfit(wheels: Mapping[str, Wheel], pair: tuple[str, str], angles: Mapping[s
 
 
 def misfits(wheels: Mapping[str, Wheel], pairs: Pairs, angles: Mapping[str, float]) -> list[float]:
-    """All meshes at given angles of links (rad)."""
+    """Return the deviations of all meshes at given angles of links [rad]."""
     return [misfit(wheels, pair, angles) for pair in pairs]
 
 
 def put_together(wheels: Mapping[str, Wheel], pairs: Pairs, most: int = 20_000) -> Iterator[dict[str, float]]:
-    """Angles of links, each put in so that one tooth fits the wheel it hangs on, in every way to engage them.
+    """Yield the angles of links, each assembled so that one tooth fits its mate, in every possible engagement.
 
     Only links with several wheels need to be tried in more than one engagement.
     """
@@ -151,12 +153,12 @@ def put_together(wheels: Mapping[str, Wheel], pairs: Pairs, most: int = 20_000) 
 
 
 def best(wheels: Mapping[str, Wheel], pairs: Pairs) -> float:
-    """The largest misfit of the best way to put the set together (pitches)."""
+    """Return the maximum deviation of the best way to assemble the set [pitches]."""
     return min(max(map(abs, misfits(wheels, pairs, angles))) for angles in put_together(wheels, pairs))
 
 
 def in_space(train: GearTrain) -> tuple[dict[str, Wheel], list[tuple[str, str]]]:
-    """The wheels of a train as the independent check takes them, from what is declared."""
+    """Return the wheels of a train in space from its declaration."""
     declared = train.declaration
     axis_of = {joint.pair[1]: joint.axis for joint in declared.revolutes}
     wheels = {}

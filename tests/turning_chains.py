@@ -1,7 +1,7 @@
-"""Random trains in the plane, as declarations and as bodies at one position: pairs, pins, planets one after the other.
+"""Random plane trains, as declarations and as bodies at one position: pairs, pins and planets in series.
 
 Each stage drives the next link: a pair with declared efficiencies, a pair of triangular teeth with friction, a pin in a
-slot, or sun and planet in a fixed ring whose arm goes on. Every link has a bearing; loads may help or resist.
+slot, or sun and planet in a fixed ring whose arm is the next link. Every link has a bearing; loads may help or resist.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ KINDS = ("pair", "triangular", "pin", "planet")
 
 @dataclass
 class Stage:
-    """How one link drives the next; `numbers` are what its kind needs, `place` points from axis to axis (rad)."""
+    """One stage; `numbers` are the sizes of its kind, `place` is the direction from axis to axis [rad]."""
 
     kind: str
     driver: str
@@ -32,14 +32,14 @@ class Stage:
 
 @dataclass
 class Chain:
-    """A declaration, its stages in order, and what friction its bearings have."""
+    """A declaration, its stages in order, and the friction of its bearings."""
 
     data: dict[str, Any]
     stages: list[Stage] = field(default_factory=list)
     bearings: dict[str, float] = field(default_factory=dict)
 
     def forward(self) -> list[int]:
-        """The sense in which each link of the chain turns."""
+        """Return the sense in which each link of the chain turns."""
         senses = [1]
         for stage in self.stages:
             keeps = stage.kind in ("pin", "planet") or stage.numbers.get("internal")
@@ -47,7 +47,7 @@ class Chain:
         return senses
 
     def balances(self, turned: float, outlines: dict[str, Outlines], loads: dict[str, float]) -> list[Balance]:
-        """All ways in which the bodies balance, the crank being at an angle (rad) and turning forwards."""
+        """Return all equilibria of the bodies with the crank at an angle [rad], turning forwards."""
         toothed_stages = [at for at, stage in enumerate(self.stages) if stage.kind == "triangular"]
         found = []
         for chosen in itertools.product((0, 1), repeat=len(toothed_stages)):
@@ -58,9 +58,9 @@ class Chain:
     def bodies(
         self, turned: float, outlines: dict[str, Outlines], chosen: dict[int, int]
     ) -> tuple[Mechanism, list[float]]:
-        """The bodies where the chosen flanks touch, and the forward angle of each link of the chain.
+        """Return the bodies for the chosen flanks in contact, and the forward angle of each link of the chain.
 
-        At the start each driver has a tooth, or its pin, on the line of centres, and all links read 0.
+        At the start, each driver has a tooth, or its pin, on the line of centres, and all links are at 0.
         """
         centre: Vector = (0.0, 0.0)
         hinges = [Hinge(FRAME, "L0", centre, self.bearings["L0"])]
@@ -104,7 +104,7 @@ class Chain:
 
 
 def random_chain(seed: int, kinds: tuple[str, ...] = KINDS, most: int = 3) -> Chain:
-    """A chain from a seed."""
+    """Return a chain from a seed."""
     random = Random(seed)
     data: dict[str, Any] = {
         "links": {"frame": {"wheels": {}}, "L0": {"wheels": {}}},
@@ -136,7 +136,7 @@ def random_chain(seed: int, kinds: tuple[str, ...] = KINDS, most: int = 3) -> Ch
 
 
 def _declare(random: Random, data: dict[str, Any], stage: Stage, at: int, axis: str) -> str:
-    """One stage in the declaration; the axis about which the driven link turns."""
+    """Add one stage to the declaration; return the axis about which the driven link turns."""
     driver, driven, name = stage.driver, stage.driven, f"G{at}"
 
     def wheel(link: str, label: str, teeth: int, internal: bool = False) -> str:

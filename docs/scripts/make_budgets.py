@@ -247,7 +247,7 @@ cutting is the range from the 2.5th to the 97.5th percentile of
 $$ e_c - (e_f - e_0), \\tag{4} $$
 
 and the confidence interval of this range follows from order statistics. If nearly all trials jam, the errors are
-computed from the pushing flanks as if jamming teeth could pass each other.
+computed from the drive flanks as if jamming teeth could pass each other.
 
 The value of a contribution in days is its value in degrees divided by the mean speed of the pointer relative to the
 body against which it is read. The total is the sum of the contributions of all causes, which is an upper bound of the

@@ -278,9 +278,8 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
         raise QuestionError(Problem(f"{found.verdict.kind}: {found.verdict.text}"))
     through = max(map(abs, found.powers.values()), default=0)
     # external power must equal the loss
-    missed = abs(sum(found.powers.values()) - found.loss) / through if through else 0
-    reference = "power balance"
-    yield MethodAccuracy("torques", "balance with losses", seconds, float(missed), "relative", reference)
+    missed = float(abs(sum(found.powers.values()) - found.loss) / through) if through else 0.0
+    yield MethodAccuracy("torques", "balance with losses", seconds, missed, "relative", "power balance")
     used = train.motion(state, tuple(train.declaration.links))._forward.used
     passages = sum(float(each.cycles) for each in used)
     # a shorter run for long trains limits the number of tooth engagements
@@ -290,8 +289,9 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
         seconds, found = _best_of(partial(train.torques, state, turns=span, samples=samples))
         if not found.mean:
             return
-        error = None if mean is None else abs(found.mean / mean - 1)
-        reference = _REFERENCE if mean is None else f"mean of {_SAMPLES[0]} samples"
+        error, reference = None, _REFERENCE
+        if mean is not None:
+            error, reference = abs(found.mean / mean - 1), f"mean of {_SAMPLES[0]} samples"
         method = f"over {span:.3g} turns, {samples} samples"
         yield MethodAccuracy("torques", method, seconds, error, "relative", reference)
         mean = mean or found.mean

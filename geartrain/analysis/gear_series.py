@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, pairwise
 from math import comb, log
 from statistics import pstdev
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
@@ -18,7 +18,7 @@ from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.train import State
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.answer import Answer
+    pass
 
 MOST_COMBINATIONS = 20_000  # sets of closed elements, each of which is solved exactly
 _JOINER = "+"  # between the names of closed elements in the name of a state
@@ -104,7 +104,7 @@ class GearSearch(Tabular, Result):
     output: str
     """Name of the driven link."""
     closed: int
-    """Number of elements that must be closed so that the inputs determine all speeds."""
+    """Number of shift elements that must be closed so that the inputs determine all speeds."""
     combinations: int
     """Number of combinations of `closed` shift elements."""
     gears: tuple[PossibleGear, ...]
@@ -184,11 +184,8 @@ def find_gears(
     [2.455, 1.455, 1.0]
     """
     source, link = gearbox_ends(train.declaration, output)
-    closed, every, free, locked = _all_gears(train, source, link)
-    ordered = tuple(sorted(every, key=_rank))
-    forward = [each for each in ordered if each.ratio is not None and each.ratio > 0]
-    ways = comb(len(train.declaration.clutches), closed)
-    found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, ordered, free, locked)
+    found = _all_gears(train, source, link)
+    forward = [each for each in found.gears if each.ratio is not None and each.ratio > 0]
     if gears < 2:
         return found
     # the decimal as written: 1.05 is 21/20, not the nearest float
@@ -208,61 +205,38 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
     return len({*one.engaged} - {*other.engaged}) <= 1 and len({*other.engaged} - {*one.engaged}) <= 1
 
 
-_Choice = tuple[str, ...]
-
-
-class _AllGears(NamedTuple):
-    """Gears of all combinations of `closed` elements, and the combinations that leave the train free or lock it."""
-
-    closed: int
-    gears: list[PossibleGear]
-    free: tuple[_Choice, ...] = ()
-    locked: tuple[_Choice, ...] = ()
-
-
-def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
-    """Find every gear with the smallest number of closed elements that determines the speeds.
+def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
+    """Return every gear with the smallest number of closed elements that determines the speeds, without a series.
 
     All such combinations have the same size, because they are the bases of a matroid.
     """
-    elements = tuple(train.declaration.clutches)
+    declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
-    for name, state in train.declaration.states.items():
+    for name, state in declared.states.items():
         names.setdefault(frozenset(state.engaged), []).append(name)
+    inputs = next(iter(declared.states.values())).inputs
     # smallest size first: further closed elements would be redundant or lock the train
-    for size in range(len(elements) + 1):
-        if (number := comb(len(elements), size)) > MOST_COMBINATIONS:
-            what = f"{size} of {len(elements)} shift elements can be closed in {number:,} combinations"
+    for size in range(len(declared.clutches) + 1):
+        if (number := comb(len(declared.clutches), size)) > MOST_COMBINATIONS:
+            what = f"{size} of {len(declared.clutches)} shift elements can be closed in {number:,} combinations"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
-        choices = list(combinations(elements, size))
-        answers = _solve_choices(train, choices)
-        found = list(_gears(choices, answers, (source, link), names))
-        if found:
-            kinds = {choice: answer.verdict.kind for choice, answer in zip(choices, answers, strict=True)}
-            free = tuple(choice for choice, kind in kinds.items() if kind == "free")
-            locked = tuple(choice for choice, kind in kinds.items() if kind in ("locked", "contradictory"))
-            return _AllGears(size, found, free, locked)
-    return _AllGears(len(elements), [])
-
-
-def _solve_choices(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
-    first = next(iter(train.declaration.states.values()))
-    states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}
-    return list(GearTrain(train.declaration.model_copy(update={"states": states})).answers())
-
-
-def _gears(
-    choices: Sequence[_Choice],
-    answers: Sequence[Answer],
-    ends: tuple[str, str],
-    names: Mapping[frozenset[str], Sequence[str]],
-) -> Iterator[PossibleGear]:
-    for choice, answer in zip(choices, answers, strict=True):
-        drive, out = (answer.speeds.get(end) for end in ends)
-        if answer.verdict and drive and out is not None:
-            ratio = Fraction(drive) / Fraction(out) if out else None
-            yield PossibleGear(choice, ratio, tuple(names.get(frozenset(choice), ())))
+        choices = list(combinations(declared.clutches, size))
+        states = {_JOINER.join(each) or "none": State(engaged=each, inputs=inputs) for each in choices}
+        answers = list(GearTrain(declared.model_copy(update={"states": states})).answers())
+        gears: list[PossibleGear] = []
+        for choice, answer in zip(choices, answers, strict=True):
+            drive, out = answer.speeds.get(source), answer.speeds.get(link)
+            if answer.verdict and drive and out is not None:
+                ratio = Fraction(drive) / Fraction(out) if out else None
+                gears.append(PossibleGear(choice, ratio, tuple(names.get(frozenset(choice), ()))))
+        if gears:
+            kinds = [(choice, answer.verdict.kind) for choice, answer in zip(choices, answers, strict=True)]
+            free = tuple(choice for choice, kind in kinds if kind == "free")
+            locked = tuple(choice for choice, kind in kinds if kind in ("locked", "contradictory"))
+            gears.sort(key=_rank)
+            return GearSearch(train.name, declared.title, source, link, size, number, tuple(gears), free, locked)
+    return GearSearch(train.name, declared.title, source, link, len(declared.clutches), 1, ())
 
 
 # ------------------------------------------------------------------------------------------------- series, as paths

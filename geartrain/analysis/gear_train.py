@@ -52,7 +52,7 @@ class GearTrain:
     Notes
     -----
     Speeds follow from the Willis equation of each gear pair, docs/theory.md (4). Torques follow from the transpose of
-    that system, docs/torques.md (1) to (3). Motion with real teeth follows from their transmission functions, composed
+    that system, docs/torques.md (1) to (3). Motion with tooth forms follows from their transmission functions, composed
     in the solved order of the train, docs/motion.md (3).
 
     Examples
@@ -134,7 +134,7 @@ class GearTrain:
             A declared state; None only if the train has no states.
         turns : float, optional
             Revolutions of the input in the run, above 0. The torque is computed at every position of the run, with the
-            instantaneous ratio and friction of real teeth, pins and bearings. By default torques are computed exactly
+            instantaneous ratio and friction of teeth, pins and bearings. By default torques are computed exactly
             at mean speeds.
         samples : int
             Number of positions of the run, at least 2; positions at kinks and jumps are added.
@@ -170,8 +170,8 @@ class GearTrain:
         tolerance: float | None = None,
         fast: bool | None = None,
     ) -> Motion:
-        """Compute the motion of the given outputs or links with real teeth and pins, by composition of transmission
-        functions.
+        """Compute the motion of outputs or links with the transmission errors of teeth and pins, by composition of
+        transmission functions.
 
         Parameters
         ----------
@@ -180,7 +180,7 @@ class GearTrain:
         outputs : sequence of str
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore where real teeth would overconstrain a loop.
+            Pairs to ignore in loops that the transmission errors of the teeth would overconstrain.
         tolerance : float, optional
             Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
             evaluation.
@@ -311,7 +311,7 @@ class GearTrain:
 
     @property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth, each with its transmission function; empty if no pair declares a tooth form.
+        """Gear pairs with a tooth form, each with its transmission function; empty if no form is declared.
 
         The driving side of a pair is taken from the first state that determines it. `mechanics.meshes_in` returns the
         pairs with the driving sides of another state.
@@ -560,7 +560,7 @@ class GearTrain:
         outputs : sequence of str
             Outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Pairs to ignore where real teeth would overconstrain a loop.
+            Pairs to ignore in loops that the transmission errors of the teeth would overconstrain.
         samples : int, optional
             Number of samples to record; by default 12 in the shortest period of a pair, at most 40000.
         fast : bool, optional

@@ -58,8 +58,8 @@ class GearState(Result):
     omitted.
     """
     torques: Mapping[str, Fraction | None]
-    """Closed element -> torque that it exerts on its (first) link, divided by the torque of the input; None if it is
-    statically indeterminate. Empty if the torques of the train are not determined.
+    """Closed element -> torque that it exerts on its link (a clutch: its first link), divided by the torque of the
+    input; None if it is statically indeterminate. Empty if the torques of the train are not determined.
     """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""

@@ -108,8 +108,7 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
     """Return the error with a location in each problem: `-p KEY` if the problem names a key, the option if it names an
-    option,
-    else `place`. `fix` is added to problems that have none.
+    option, else `place`. `fix` is added to problems that have none.
     """
 
     def located(named: str) -> str:

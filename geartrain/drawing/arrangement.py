@@ -41,12 +41,13 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
     at = {item: position for position, item in enumerate(order)}
     ends = [(at[one], at[other]) for one, other in pairs if one != other and one in at and other in at]
     sequence = list(range(len(order)))
-    best = _length(sequence, ends)
     for _ in range(_PASSES):
-        before = best
+        before = sequence
         for item in range(len(sequence)):
-            sequence, best = _best_position(sequence, item, ends, best)
-        if best == before:
+            rest = [other for other in sequence if other != item]
+            trials = ([*rest[:position], item, *rest[position:]] for position in range(len(sequence)))
+            sequence = min((sequence, *trials), key=lambda trial: _length(trial, ends))  # unchanged if none is shorter
+        if sequence == before:
             break
     return [order[item] for item in sequence]
 
@@ -80,21 +81,6 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
     for position, item in enumerate(sequence):
         place[item] = position
     return sum(abs(place[one] - place[other]) for one, other in ends)
-
-
-def _best_position(sequence: list[int], item: int, ends: Sequence[tuple[int, int]], best: int) -> tuple[list[int], int]:
-    """Return the sequence with one item at its best position, and the sum of distances within pairs.
-
-    The sequence is unchanged unless another position is better.
-    """
-    rest = [other for other in sequence if other != item]
-    found = sequence
-    for position in range(len(sequence)):
-        trial = [*rest[:position], item, *rest[position:]]
-        length = _length(trial, ends)
-        if length < best:
-            found, best = trial, length
-    return found, best
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:
@@ -148,9 +134,7 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths of shortest paths between items (n, n), by the Floyd-Warshall algorithm; 0 between separate
-    components.
-    """
+    """Return the lengths of shortest paths between items (n, n) (Floyd-Warshall); 0 between components."""
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -244,9 +228,7 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Positions of callouts in two columns next to a picture: the y of each callout on the left and on the right, and
-    the inner edges of the columns [in].
-    """
+    """Callouts in columns left and right of a picture, each with its y, and the columns' inner edges [in]."""
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -316,10 +298,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return callouts and their y [in] in a column, close to the points that they name.
-
-    Callouts with crossing leader lines are swapped, and the tried order with the fewest crossings is returned.
-    """
+    """Return callouts and their y [in] near their points, in the order with the fewest crossing lines found."""
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):
@@ -335,10 +314,7 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
 
 
 def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
-    """Return the callouts from bottom to top in the order of minimum total line length (linear assignment).
-
-    If all callouts had equal heights, no two lines of this order would cross.
-    """
+    """Return callouts from bottom to top in the order of minimum total line length (linear assignment)."""
     if not callouts:
         return []
     heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))

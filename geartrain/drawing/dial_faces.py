@@ -51,10 +51,7 @@ class PointerReading:
     error: float
     """Contribution of the starting angle, teeth and pins to the reading [turns], clockwise as read positive."""
     reach: float = 1.0
-    """Length of the hand divided by the radius of its scale.
-
-    The `outline` of the hand has points (x, half the width), both relative to this length.
-    """
+    """Length of the hand over its scale's radius; `outline` has points (x, half the width), over this length."""
     outline: Sequence[tuple[float, float]] = ()
 
     @property
@@ -133,17 +130,13 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn.
-
-    Raise `QuestionError` for an unknown output, without any face, or for more than 60 faces.
-    """
+    """Return the faces to draw; raise `QuestionError` for unknown outputs, no face, or more than 60 faces."""
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
             fix = f"choose from {', '.join(known)}" if known else "declare `outputs`"
-            raise QuestionError(
-                Problem(f"'{scene.name}' has no output '{name}'", "only declared outputs have dials", fix)
-            )
+            what = f"'{scene.name}' has no output '{name}'"
+            raise QuestionError(Problem(what, "only declared outputs have dials", fix))
     wanted = [known[name] for name in outputs] or list(known.values())
     on: dict[int, list[int]] = {}
     for at in wanted:
@@ -157,17 +150,11 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
     if outputs or not faces:
         faces += [DialPicture("", plain_circle(), (at,)) for at in wanted if scene.pointers[at].dial is None]
     if not faces:
-        raise QuestionError(
-            Problem(f"'{scene.name}' has no dial to draw", "it declares no `outputs`", "declare `outputs` and `dials`")
-        )
+        what = f"'{scene.name}' has no dial to draw"
+        raise QuestionError(Problem(what, "it declares no `outputs`", "declare `outputs` and `dials`"))
     if len(faces) > _MOST:
-        raise QuestionError(
-            Problem(
-                f"{len(faces)} dial faces do not fit on a page",
-                f"a page has space for {_MOST}",
-                "select fewer outputs with --of",
-            )
-        )
+        what = f"{len(faces)} dial faces do not fit on a page"
+        raise QuestionError(Problem(what, f"a page has space for {_MOST}", "select fewer outputs with --of"))
     return faces
 
 
@@ -230,9 +217,7 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn of the
-    spiral.
-    """
+    """Draw a hand from the centre, if its reading is determined; on a spiral it ends at the current turn."""
     if reading.turned is None:
         return
     scale = face.scale

@@ -80,18 +80,23 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as a DXF R2010 string, with its title as a custom property.
-
-    Raise `MissingExtraError` if ezdxf is not installed.
-    """
+    """Return a drawing as a DXF R2010 string, its title as a property; raise `MissingExtraError` without ezdxf."""
     try:
-        from ezdxf import units
+        from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment
         from ezdxf.filemanagement import new
     except ImportError:
         raise MissingExtraError("ezdxf", "dxf", "an outline as DXF") from None
-    document = new("R2010", units=units.MM)
-    document.header["$TDCREATE"] = document.header["$TDUPDATE"] = 0  # makes the file reproducible
+    kept = options.write_fixed_meta_data_for_testing
+    # fixed dates and GUIDs, which ezdxf sets when a document is created and when it is written
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        return _dxf(drawing, new("R2010", units=units.MM), TextEntityAlignment.MIDDLE_CENTER)
+    finally:
+        options.write_fixed_meta_data_for_testing = kept
+
+
+def _dxf(drawing: FlatDrawing, document: Any, centred: Any) -> str:
     document.header.custom_vars.append("Title", drawing.title)
     space = document.modelspace()
     used: dict[str, int] = {
@@ -109,7 +114,7 @@ def to_dxf(drawing: FlatDrawing) -> str:
         space.add_lwpolyline([(float(x), float(y)) for x, y in line], dxfattribs={"layer": ENGRAVE})
     for mark in drawing.marks:
         text = space.add_text(mark.text, height=mark.height, rotation=mark.angle, dxfattribs={"layer": ENGRAVE})
-        text.set_placement(mark.at, align=TextEntityAlignment.MIDDLE_CENTER)
+        text.set_placement(mark.at, align=centred)
     out = StringIO()
     document.write(out)
     return out.getvalue()
@@ -168,17 +173,15 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
         return to_dxf(wheel_drawing(wheel))
     if suffix == ".csv":
         return _csv(wheel)
-    what = f"an outline cannot be written as {suffix or 'a file without suffix'}"
-    raise GearTrainError(
-        Problem(what, "the suffix determines the format", f"use one of {', '.join(OUTLINES)}", "--profile")
+    what, fix = (
+        f"an outline cannot be written as {suffix or 'a file without suffix'}",
+        f"use one of {', '.join(OUTLINES)}",
     )
+    raise GearTrainError(Problem(what, "the suffix determines the format", fix, "--profile"))
 
 
 def _csv(wheel: WheelOutline) -> str:
-    """Return the points of the contours as CSV rows.
-
-    Each contour ends at its first point. Arcs are approximated by chords within the wheel's tolerance.
-    """
+    """Return the points of closed contours as CSV rows, with arcs as chords within the wheel's tolerance."""
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):
         points = contour.flattened(wheel.tolerance)

@@ -74,10 +74,7 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links: a turning pair, a gear pair or a coupling.
-
-    Its `kind` is revolute, gear or coupling; its `label` is the axis of a turning pair, or the name of another pair.
-    """
+    """Edge of kind revolute, gear or coupling between two links; `label` is the axis, or the pair's name."""
 
     ends: tuple[str, str]
     kind: str
@@ -86,10 +83,7 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return all edges of the kinematic graph: turning pairs, gear pairs and couplings, each in the order declared.
-
-    broken   names of the gear pairs and couplings to be marked
-    """
+    """Return the edges of turning pairs, gear pairs and couplings, marked if their name is in `broken`."""
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -102,10 +96,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure of the kinematic graph of a train; pairs of a loop that does not close are red.
-
-    Raise `QuestionError` for more links than fit on a page.
-    """
+    """Return a train's kinematic graph, faulty loops red; raise `QuestionError` for more links than fit on a page."""
     declared = train.declaration
     links = list(declared.links)
     too_many(train, len(links), _MOST, "links")
@@ -149,9 +140,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of the links [in], and every edge with its curve (3, 2): start, middle control point and
-    end.
-    """
+    """Return the positions of links [in], and each edge with its curve (3, 2): start, control point and end."""
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
@@ -191,10 +180,7 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return the start, the middle control point and the end (3, 2) of an edge.
-
-    The bend minimises its own size plus a penalty for passing close to other vertices.
-    """
+    """Return start, control point and end (3, 2) of an edge, bent only to keep off other vertices."""
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
@@ -240,9 +226,7 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Sampled points (edge, point, 2) of all edges, and the ink per point of each edge [in pt]: length times line
-    width.
-    """
+    """Sampled points (edge, point, 2) of all edges, and each edge's ink per point [in pt]: length times width."""
 
     points: Floats
     ink: Floats
@@ -280,9 +264,7 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the positions of a label along its edge, from the middle outwards, each with the ink of other edges that
-    it hides.
-    """
+    """Return a label's positions along its edge from the middle outwards, with other edges' ink that each hides."""
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
         x, y = map(float, _point(curve, share))
@@ -316,10 +298,7 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw the name of a link next to its vertex, at the position where it hides the minimum amount of ink.
-
-    Of equal positions, the position on the side with the fewest edges is used.
-    """
+    """Draw a link's name where it hides the minimum of ink; of equal positions, on the side with fewest edges."""
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
         for dx, dy in _free_sides(link, at, edges):

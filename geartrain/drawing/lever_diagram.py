@@ -8,7 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import groupby
+from math import ceil
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import spread, text_width
@@ -33,9 +36,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: abscissa, members, closed brakes and clutches of each member, and speed (None if
-    undetermined).
-    """
+    """Point of a lever: abscissa, members, closed brakes and clutches of each, and speed (None if unknown)."""
 
     x: Fraction
     links: list[str]
@@ -66,13 +67,9 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     """
     levers = find_levers(train.declaration, train.kinematics.tree, train.circuits)
     if not levers:
-        raise QuestionError(
-            Problem(
-                f"'{train.name}' has no epicyclic set",
-                "a speed diagram shows members that turn about the axis of a moving carrier, and no carrier moves",
-                "draw another kind of picture: plan, stick, graph or dials",
-            )
-        )
+        why = "a speed diagram shows members that turn about the axis of a moving carrier, and no carrier moves"
+        fix = "draw another kind of picture: plan, stick, graph or dials"
+        raise QuestionError(Problem(f"'{train.name}' has no epicyclic set", why, fix))
     states: list[str | None] = [state] if state is not None else [*train.states] or [None]
     too_many(train, len(levers) * len(states), _MOST, "panels of sets and states")
     answers = [train.solve(name) for name in states]
@@ -113,30 +110,9 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the panels in rows of at most the page width.
-
-    The number of rows is the minimum, and the longest row is as short as possible.
-    """
-    rows = len(_packed_rows(wide, _PAGE))
-    ends = range(len(wide))
-    # the width of the longest row is the width of some run of panels, so only these widths are tried
-    widths = sorted(
-        {sum(wide[first : last + 1]) + _GAP * (last + 1 - first) for last in ends for first in ends[: last + 1]}
-    )
-    return next(bands for each in widths if len(bands := _packed_rows(wide, each)) <= rows)
-
-
-def _packed_rows(wide: Sequence[float], page: float) -> list[list[int]]:
-    """Return the panels in rows that are filled in order up to a width [in] (next-fit packing)."""
-    bands: list[list[int]] = [[]]
-    left = 0.0
-    for at, each in enumerate(wide):
-        if bands[-1] and left + each + _GAP > page + 1e-9:  # tolerance for the rounding of sums
-            bands.append([])
-            left = 0.0
-        bands[-1].append(at)
-        left += each + _GAP
-    return bands
+    """Return the panels in rows of nearly equal numbers, as few as their total width requires."""
+    rows = ceil((sum(wide) + _GAP * len(wide)) / _PAGE)
+    return [band.tolist() for band in np.array_split(np.arange(len(wide)), min(rows, len(wide)))]
 
 
 def _widened(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
@@ -158,10 +134,7 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state: its name, its closed elements, and its verdict if it has no speeds.
-
-    The heading of the first state also names the unit of all speeds.
-    """
+    """Return a state's heading: name, closed elements, verdict without speeds, and first the unit of speeds."""
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
@@ -202,10 +175,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever from left to right, with speeds about the carrier's reference direction.
-
-    The carrier and the members at its abscissa are separate points.
-    """
+    """Return a lever's points in order, the carrier apart, with speeds about the carrier's reference direction."""
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
@@ -232,10 +202,7 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Write the names and speeds of members above a panel, and their abscissae below it.
-
-    They are moved apart where vertical lines are close together.
-    """
+    """Write names and speeds above a panel and abscissae below it, moved apart where lines are close."""
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)
     assert figure is not None

@@ -155,10 +155,7 @@ def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Fi
 
 
 def _drawers(trace: _Trace) -> list[_Drawer]:
-    """Return the functions that draw the panels of an output.
-
-    If its pointer makes few turns, the whole angle is drawn; if it makes many, only backward motion.
-    """
+    """Return an output's panels: the whole angle for few turns, and only backward motion for many."""
     if not trace.errs:
         return [_angle] if np.ptp(trace.mean) <= _MAX_TURNS else [_speed]
     if np.ptp(trace.mean) <= _MAX_TURNS:
@@ -197,10 +194,7 @@ def _first(passage: ErrorSamples, means: Sequence[float]) -> list[tuple[Floats, 
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the indices of the positions to draw.
-
-    These are the first position of each bin, the extremes of deviation and speed in each bin, and every reversal.
-    """
+    """Return the positions to draw: per bin the first and the extremes of deviation and speed, and all reversals."""
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_MOST]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))
@@ -319,9 +313,8 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     'torque at sun (N m)'
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
-        raise QuestionError(
-            Problem("the torque over a turn is not known", found.verdict.text, "declare loads that the input can move")
-        )
+        what, fix = "the torque over a turn is not known", "declare loads that the input can move"
+        raise QuestionError(Problem(what, found.verdict.text, fix))
     losses = _losses(found)
     rows = 2 if losses else 1
     figure, panels = curve_panels([2.9] * rows, 0.8)
@@ -372,11 +365,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
     ratio = _mean_speed(found)
     powers = powers / (ratio or 1.0)
     panel.stackplot(
-        turns,
-        powers,
-        colors=[loss.colour for loss in losses],
-        labels=[loss.name for loss in losses],
-        linewidth=0,
+        turns, powers, colors=[loss.colour for loss in losses], labels=[loss.name for loss in losses], linewidth=0
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
     of = f"as torque at {short(found.link)}" if ratio else "per radian of the input"
@@ -385,10 +374,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Return the absolute turns of the link per turn of the input.
-
-    It is 0 if the link returns to its initial angle, and 1 if its speed is not among the results.
-    """
+    """Return turns of the link per turn of the input: 0 if it only swings, 1 if its speed is not known."""
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
@@ -426,9 +412,7 @@ def _bounds(turns: Floats, values: Floats) -> tuple[float, float]:
 
 
 def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
-    """Return turns and losses (part, position), averaged over equal intervals of the run if there are many
-    positions.
-    """
+    """Return turns and losses (part, position), averaged over equal intervals if there are many positions."""
     if len(turns) <= 2 * _BINS:
         return turns, powers
     # averages of the integral conserve the energy, whatever the spacing of positions

@@ -125,14 +125,10 @@ def sweep_figure(
     places = {name: np.asarray(column, dtype=float) for name, column in parameters.items()}
     shapes = {array.shape for array in (*values.values(), *places.values(), verdicts)}
     if len(shapes) > 1 or not 1 <= len(places) == verdicts.ndim <= 2 or not values or not verdicts.size:
-        raise QuestionError(
-            Problem(
-                f"cannot draw a sweep of {len(places)} parameters and {len(values)} columns with arrays of shapes "
-                f"{sorted(shapes)}",
-                "a sweep has one or two parameters, and arrays of one shape that are not empty",
-                "pass one parameter with arrays (n,), or two with grids (n, m), and at least one column",
-            )
-        )
+        given = f"{len(places)} parameters and {len(values)} columns with arrays of shapes {sorted(shapes)}"
+        why = "a sweep has one or two parameters, and arrays of one shape that are not empty"
+        fix = "pass one parameter with arrays (n,), or two with grids (n, m), and at least one column"
+        raise QuestionError(Problem(f"cannot draw a sweep of {given}", why, fix))
     units = units or {}
     places = {parameter_label(name, units.get(name, "")): column for name, column in places.items()}
     figure = _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
@@ -183,10 +179,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel. Minimum and maximum of one quantity share a panel.
-
-    If columns with a default panel are among them, all other columns are omitted.
-    """
+    """Return the columns by panel, extremes of a quantity in one; other columns only without default panels."""
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
         stem, _, end = name.rpartition("_")

@@ -231,10 +231,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved away from the callout lines (2, 2) where there is space.
-
-        A name without space keeps its position.
-        """
+        """Return the names on wheels, moved off callout lines (2, 2) where there is space, else unmoved."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:

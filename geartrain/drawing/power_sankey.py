@@ -76,22 +76,12 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
-        raise GearTrainError(
-            Problem(
-                "no power flows through the train",
-                "no load acts on a link that turns",
-                "declare `loads` on links that turn",
-            )
-        )
+        what, why = "no power flows through the train", "no load acts on a link that turns"
+        raise GearTrainError(Problem(what, why, "declare `loads` on links that turn"))
     if len(flow.nodes) > _MOST:
         what = f"{len(flow.nodes)} shafts and pairs do not fit in a power-flow picture"
-        raise GearTrainError(
-            Problem(
-                what,
-                f"at most {_MOST} are legible in a picture",
-                "declare only a part of the train, and draw that part",
-            )
-        )
+        why, fix = f"at most {_MOST} are legible in a picture", "declare only a part of the train, and draw that part"
+        raise GearTrainError(Problem(what, why, fix))
     words = _NodeLabels(flow, watts)
     placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
@@ -158,10 +148,7 @@ def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegm
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """Draw a strip of a band from its first column to its last.
-
-    The strip has a notch where power enters the train and a tip where power leaves it.
-    """
+    """Draw a strip of a band over all columns, with a notch where power enters and a tip where it leaves."""
     upper: list[tuple[float, float]] = []
     codes: list[int] = []
     for piece in band:

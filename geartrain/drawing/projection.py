@@ -51,9 +51,7 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose as a reader sees it; the rows of `screen` (3, 3) are the directions right, up and towards the
-    reader.
-    """
+    """Scene in a pose as a reader sees it; `screen` (3, 3) has rows right, up and towards the reader."""
 
     scene: Scene
     pose: ScenePose
@@ -113,10 +111,7 @@ class ProjectedScene:
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) of the middle plane of a thin wheel, as its wave generator deforms it.
-
-        radius, angle   (n,) in the undeformed wheel, from its reference direction
-        """
+        """Return points (n, 3) of a thin wheel's middle plane as bent, for undeformed radius and angle (n,)."""
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
         x, y = first @ wave.towards, np.cross(along, first) @ wave.towards
@@ -156,10 +151,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return the height along the axis [mm] and the scale of both ends of a wheel.
-
-        The wide end of a bevel wheel is first.
-        """
+        """Return height along the axis [mm] and scale of a wheel's ends, the wide end of a bevel wheel first."""
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
             return (half, 1.0), (-half, 1.0)
@@ -175,9 +167,7 @@ def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return the directions right, up and towards the reader as rows (3, 3), from the direction `view` towards the
-    reader.
-    """
+    """Return rows right, up and towards the reader (3, 3), from the direction `view` towards the reader."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -187,10 +177,7 @@ def screen_of(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Page with axes in inches, on which millimetres are drawn to scale.
-
-    foot   height of the text below the side view [in]
-    """
+    """Page in inches, on which millimetres are drawn to scale; `foot` is the height of text below a side view."""
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
@@ -201,9 +188,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield for every arm of a carrier the index of its body, a point of the carrier's axis and a point of the carried
-    axis.
-    """
+    """Yield for each arm its carrier's body index, a point of the carrier's axis and one of the carried axis."""
     scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -238,9 +223,7 @@ def coupling_spans(
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Return the names of the wheels of broken pairs, which are in a loop that does not close or whose teeth cannot
-    run.
-    """
+    """Return the wheels of broken pairs, whose loop does not close or whose teeth cannot run, by name."""
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 
@@ -337,10 +320,7 @@ def _tint(wheel: SceneWheel, light: float) -> Floats:
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield strips of the surface between both ends of a wheel, then its far end and its near end.
-
-    For a worm, yield the tiles of its thread and its near end.
-    """
+    """Yield strips between a wheel's ends, or a worm's thread as tiles, then its far end and its near end."""
     far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
         yield from _thread(projected, wheel)
@@ -412,9 +392,7 @@ class SideScale:
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw the train from its right side, as high as the plan, with the layers side by side and the reader on the
-    right.
-    """
+    """Draw the train from its right side, as high as the plan, layers side by side, with the reader on the right."""
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: float(projected.seen(projected.centre(each))[0])):

@@ -6,11 +6,13 @@ that close a loop return above all other parts.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from math import inf
+from typing import Any
 
 from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
@@ -62,10 +64,7 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band between two spots, which are in neighbouring columns unless the band is a return band.
-
-    `start` and `end` are the y of the upper edge of the band at the two spots [in].
-    """
+    """Segment of a band; `start` and `end` are its upper edge at both spots [in]. Only return bands skip columns."""
 
     source: SankeySpot
     target: SankeySpot
@@ -83,9 +82,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Return band, with the distances from its source and its target at which it turns, and the top of its lane
-    [in].
-    """
+    """Return band, with its turning distances from source and target, and the top of its lane [in]."""
 
     piece: BandSegment
     right: float
@@ -108,7 +105,6 @@ class SankeyLayout:
     sheds: Mapping[PowerNode, Fraction]
     """Power lost at each node with a loss."""
     low: float
-    """Minimum y of all parts."""
     width: float
     height: float
 
@@ -145,10 +141,7 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of the column centres [in].
-
-    They leave space for names and return bands, and are spread to the minimum width.
-    """
+    """Return abscissae of column centres [in] with space for names and return bands, over the minimum width."""
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     gaps = []
@@ -158,21 +151,11 @@ def abscissae(
         turning = behind + before + (left[at + 1] if behind else 0.0) + (right[at] if before else 0.0)
         # beside a return band the text of the neighbouring column needs its whole width
         gaps.append(max(names, _MINIMUM_GAP, turning + 0.2))
-    edges = left[0] + right[-1] + 0.2
+    more = max(minimum - left[0] - right[-1] - 0.2 - sum(gaps), 0.0) / len(gaps)
     x = [left[0] + 0.1]
-    for gap in _widened(gaps, minimum - edges):
-        x.append(x[-1] + gap)
+    for gap in gaps:
+        x.append(x[-1] + gap + more)
     return x
-
-
-def _widened(gaps: Sequence[float], whole: float) -> list[float]:
-    """Return the gaps with the narrowest gaps raised to a common width, so that the sum is at least the given total."""
-    ranked = sorted(gaps)
-    for count in range(len(gaps), 0, -1):
-        level = (whole - sum(ranked[count:])) / count
-        if level >= ranked[count - 1]:
-            return [max(gap, level) for gap in gaps]
-    return list(gaps)
 
 
 TALL = 2.4  # height of all bands in the fullest column
@@ -180,10 +163,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return losses by node, and the streams between nodes.
-
-    A bearing that is fed by only one shaft becomes a loss of that shaft.
-    """
+    """Return losses by node, and the streams; a bearing fed by only one shaft becomes a loss of that shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -199,64 +179,37 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return forward streams and return streams.
+    """Return forward streams without loops, and one purely circulating stream of each loop as a return stream."""
+    import networkx as nx
 
-    In each loop one stream of purely circulating power is a return stream, so that the forward streams have no loop.
-    """
-    ahead = [stream for stream in streams if stream.circling < stream.power]
-    back: list[PowerStream] = []
-    for stream in _depth_first(streams):
-        if stream.circling == stream.power:
-            closes = stream.source in _reached(ahead, stream.target)
-            (back if closes else ahead).append(stream)
-    return ahead, back
-
-
-def _depth_first(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
-    """Yield all streams by depth-first search from the power input, the largest stream of a node first."""
-    after: dict[PowerNode, list[PowerStream]] = {}
-    for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
-        after.setdefault(stream.source, []).append(stream)
-    seen: set[PowerNode] = set()
-    for start in after:
-        todo = [iter(after[start])] if start not in seen else []
-        seen.add(start)
-        while todo:
-            for stream in todo[-1]:
-                yield stream
-                if stream.target not in seen:
-                    seen.add(stream.target)
-                    todo.append(iter(after.get(stream.target, ())))
-                    break
-            else:
-                todo.pop()
+    # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop
+    ordered = sorted(streams, key=lambda each: (each.source.kind != "in", -each.power))
+    graph, back = _graph(ordered), list[PowerStream]()
+    with suppress(nx.NetworkXNoCycle):
+        while True:
+            loop = nx.find_cycle(graph, list(dict.fromkeys(stream.source for stream in ordered)))
+            passed = (graph.edges[ends]["stream"] for ends in loop[::-1])
+            back.append(next(stream for stream in passed if stream.circling == stream.power))
+            graph.remove_edge(back[-1].source, back[-1].target)
+    return [stream for stream in streams if stream not in back], back
 
 
-def _reached(streams: Sequence[PowerStream], node: PowerNode) -> set[PowerNode]:
-    seen, todo = {node}, [node]
-    while todo:
-        here = todo.pop()
-        fresh = {stream.target for stream in streams if stream.source == here} - seen
-        seen |= fresh
-        todo += fresh
-    return seen
+def _graph(streams: Sequence[PowerStream]) -> Any:
+    import networkx as nx
+
+    graph: Any = nx.DiGraph()
+    graph.add_edges_from((stream.source, stream.target, {"stream": stream}) for stream in streams)
+    return graph
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the column of each node, which is after the columns of all nodes that feed it (longest path).
+    """Return each node's column, after the columns of all nodes that feed it (longest path); outputs are last."""
+    import networkx as nx
 
-    Outputs are in the last column.
-    """
-    columns = dict.fromkeys((end for stream in ahead for end in (stream.source, stream.target)), 0)
-    moved = True
-    while moved:
-        moved = False
-        for stream in ahead:
-            if columns[stream.target] <= columns[stream.source]:
-                columns[stream.target] = columns[stream.source] + 1
-                moved = True
+    graph = _graph(ahead)
+    columns = {node: at for at, nodes in enumerate(nx.topological_generations(graph)) for node in nodes}
     last = 1 + max(at for node, at in columns.items() if node.kind != "out")
-    return {node: last if node.kind == "out" else at for node, at in columns.items()}
+    return {node: last if node.kind == "out" else columns[node] for node in graph}
 
 
 def find_scale(
@@ -297,30 +250,12 @@ _CROSSING = 1e-3  # cost of each crossing, so that crossings of the thinnest ban
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
-    """Sort each column in place into the order with the fewest crossings, the best of several starting orders."""
-    found: list[tuple[float, list[list[SankeySpot]]]] = []
-    declared = [list(column) for column in table]
-    beginnings: tuple[Callable[[list[SankeySpot]], list[SankeySpot]], ...] = (
-        list,
-        lambda column: column[::-1],
-        _loops_first,
-    )
-    for begin in beginnings:
-        trial = [begin(column) for column in declared]
-        _reduce_crossings(trial)
-        found.append((_crossing_cost(trial, range(len(trial))), trial))
-    _, best = min(found, key=lambda each: each[0])
-    for column, order in zip(table, best, strict=True):
-        column[:] = order
+    """Sort columns in place so that few bands cross, by barycentre sweeps in both directions, then by swaps.
 
-
-def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
-    """Return a column with the spots in descending order of the circulating power that leaves them."""
-    return sorted(column, key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
-
-
-def _reduce_crossings(table: Sequence[list[SankeySpot]]) -> None:
-    """Reduce crossings by sorting columns in place, by barycentre sweeps in both directions, then by swapping spots."""
+    The sweeps start with the spots in descending order of the circulating power that leaves them.
+    """
+    for column in table:
+        column.sort(key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
     whole = range(len(table))
     best, minimum = [list(column) for column in table], _crossing_cost(table, whole)
     for sweep in range(_SWEEPS):
@@ -360,9 +295,7 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of the neighbours of a spot on one side, weighted by band width; without any, its own
-    position.
-    """
+    """Return the mean position of a spot's neighbours on one side, weighted by width; its own without any."""
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
         return places[spot]
@@ -418,10 +351,7 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top [in] at which a spot's bands are level, and the weight of that top.
-
-    Bands that pass a column have the maximum weight.
-    """
+    """Return the top [in] at which a spot's bands are level, and its weight, largest for bands that pass a column."""
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:
@@ -434,10 +364,7 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
-    """Return the tops of a column without overlap that minimise the weighted squared distances to the wanted tops.
-
-    The method is isotonic regression.
-    """
+    """Return a column's separated tops nearest to the wanted tops by weighted least squares (isotonic regression)."""
     import numpy as np
     from scipy.optimize import isotonic_regression
 
@@ -448,10 +375,7 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set the tops of bands at both ends in place.
-
-    Bands are in the order of the spots at their other ends, with return bands uppermost.
-    """
+    """Set both ends of bands in place, in the order of the spots at their other ends, return bands uppermost."""
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

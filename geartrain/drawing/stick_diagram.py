@@ -55,8 +55,17 @@ _ELEMENT_NAME = 8.0  # points: font size of an element's name
 
 def width_of(train: GearTrain) -> float:
     """Return the width of all brakes and clutches of a train [in]; 0 without brakes and clutches."""
-    count, letters = len(train.declaration.clutches), _letters(train)
-    return count * max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1) + 0.2 if count else 0.0
+    count = len(train.declaration.clutches)
+    return count * _element_width(train) + 0.2 if count else 0.0
+
+
+def _element_width(train: GearTrain) -> float:
+    """Return the width of the column of a brake or clutch [in], in which names of links and elements fit."""
+    every = train.declaration.clutches.items()
+    names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
+    # the name of an element is next to its plates, on one side
+    letters = max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
+    return max(STEP, letters * _ELEMENT_NAME * LETTER + 0.1)
 
 
 def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, middle: float) -> None:
@@ -69,7 +78,7 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
     """
     declared = train.declaration
     closed = train.kinematics.cases[state].engaged
-    step = max(STEP, _letters(train) * _ELEMENT_NAME * LETTER + 0.1)
+    step = _element_width(train)
     for at, (name, clutch) in enumerate(declared.clutches.items()):
         x, gap = left + step * (at + 0.5), _CLOSED if name in closed else _OPEN
         color = PURPLE if name in closed else GREY
@@ -87,16 +96,6 @@ def draw_elements(axes: Axes, train: GearTrain, state: str | None, left: float, 
         write(axes, x, middle - _HALF - 0.1, below, ha="center", fontsize=_ELEMENT_NAME, fontweight="bold")
         weight = "bold" if name in closed else "normal"
         write(axes, x + _PLATE + 0.06, middle, name, color, ha="left", fontsize=_ELEMENT_NAME, fontweight=weight)
-
-
-def _letters(train: GearTrain) -> int:
-    """Return the number of letters of the longest label, from which the width of an element's column is computed.
-
-    Labels are the names of links below and above the plates. The name of an element next to the plates counts twice.
-    """
-    every = train.declaration.clutches.items()
-    names = [link for _, clutch in every for link in (*(clutch.locks or ()), clutch.fixes or "")]
-    return max([len(link) for link in names] + [2 * len(name) + 3 for name, _ in every], default=0)
 
 
 _LINK_NAME = 8.5  # points of a link's name
@@ -133,10 +132,7 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link: before its shaft, or above, behind or below the shaft.
-
-        left, right, y   ends and height of the shaft [in]
-        """
+        """Add a link's name: before its shaft from `left` to `right` at height y [in], or above, behind or below."""
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
         before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second is next to a bearing
@@ -163,11 +159,7 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels. Within links and within wheels, labels with the fewest positions are placed
-        first.
-
-        A label without a free position is written at its best position.
-        """
+        """Place and write all labels, those with few positions first, and without a free one at the best position."""
         links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
         for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
             x, y, _, _ = self.room.place(each.places) or each.places[0]
@@ -199,9 +191,7 @@ class StickMesh:
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links, with the link on the lower row first; `wheels` are the wheels of these links (for a coupling, the links
-    again).
-    """
+    """Links, with the link on the lower row first; `wheels` are their wheels, or for a coupling the links again."""
     wheels: tuple[str, str]
     ring: str
     x: float
@@ -212,16 +202,6 @@ class StickMesh:
     """Upper end of the part of the mesh in the column [in]."""
     meet: float
     """Height at which the wheels touch [in]."""
-
-
-_Arrangement = tuple[
-    dict[str, StickShaft],
-    list[tuple[Circuit, float]],
-    list[StickCrank],
-    list[tuple[str, float]],
-    float,
-    list[list[str]],
-]
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,8 +224,8 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
     axis_of = {link: train.kinematics.tree.axis(link) or "" for link in train.declaration.links}
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
-    tries: list[tuple[int, int, _Arrangement]] = []
-    for at in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
+    tries: list[tuple[int, StickSkeleton]] = []
+    for _ in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
         shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
         columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
         _reach_cranks(shafts, cranks)
@@ -258,14 +238,13 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
         ]
         levels = find_levels(order, shafts, spans)
         row = {axis: level for level, axes in enumerate(levels) for axis in axes}
-        tries.append((_overlaps(spans, row), at, (shafts, columns, cranks, lone, width, levels)))
+        rows, height = _set_heights(levels, shafts)
+        meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
+        tries.append((_overlaps(spans, row), StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)))
         if not tries[-1][0]:
             break
     # the iteration may alternate between arrangements, so the one with the fewest overlaps is used
-    shafts, columns, cranks, lone, width, levels = min(tries)[2]
-    rows, height = _set_heights(levels, shafts)
-    meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns]
-    return StickSkeleton(rows, shafts, meshes, cranks, lone, width, height)
+    return min(tries, key=lambda each: each[0])[1]
 
 
 def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
@@ -365,10 +344,7 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """Return the lower wheel's share of the height between two axes.
-
-    It is proportional to the tooth count of the wheel, within limits in which the labels of both wheels fit.
-    """
+    """Return the lower wheel's share of the height between two axes, by tooth count, so that both labels fit."""
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
     return min(max(counts[0] / sum(counts), minimum), most) if minimum < most else (minimum + most) / 2
@@ -545,9 +521,7 @@ class _Drawing:
             )
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw the mark of teeth at the end of a wheel: level, slanted if bevel or contrate, long and dashed for a
-        worm.
-        """
+        """Draw the mark of teeth at a wheel's end: level, slanted for bevel or contrate, long and dashed for a worm."""
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = _TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -12,6 +12,7 @@ from itertools import pairwise
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.drawing.arrangement import arrange, breadth_first, neighbours
 from geartrain.kinematics.circuits import Circuit
+from geartrain.numerics.graphs import joined_groups
 
 _NEAREST = 9  # levels tried for an axis
 
@@ -112,19 +113,9 @@ def find_planes(train: GearTrain) -> list[list[Circuit]]:
     for circuit in train.circuits:
         for wheel in circuit.wheels if circuit.kind == "gear" else ():
             by_wheel.setdefault(wheel, []).append(circuit.id)
-    mates = neighbours(list(circuits), [pair for names in by_wheel.values() for pair in pairwise(names)])
-    planes: dict[str, list[str]] = {}
-    seen: set[str] = set()
-    for name in circuits:
-        found, queue = [], [name]
-        while queue:
-            here = queue.pop(0)
-            if here not in seen:
-                seen.add(here)
-                found.append(here)
-                queue.extend(mates[here])
-        if found:
-            planes[name] = found
+    pairs = [pair for names in by_wheel.values() for pair in pairwise(names)]
+    ordered = breadth_first(list(circuits), pairs)  # one group after the other
+    planes = {names[0]: names for names in joined_groups(ordered, pairs)}
     home = {name: plane for plane, names in planes.items() for name in names}
     by_link: dict[str, list[str]] = {}
     for circuit in train.circuits:
@@ -205,10 +196,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column of a group in which a mesh hides no other mesh, and add the mesh to `taken` in place.
-
-    A ring also takes the next column.
-    """
+    """Return the first column where a mesh hides no other, and add it to `taken`; a ring takes two columns."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

@@ -116,12 +116,8 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
     """
     kind = suffix.lower()
     if kind not in SUFFIXES:
-        raise GearTrainError(
-            Problem(
-                f"a plot cannot be written as {suffix or 'a file without suffix'}",
-                fix=f"use one of {', '.join(SUFFIXES)}",
-            )
-        )
+        what = f"a plot cannot be written as {suffix or 'a file without suffix'}"
+        raise GearTrainError(Problem(what, "the suffix determines the format", f"use one of {', '.join(SUFFIXES)}"))
     for text in _texts(figure):
         if (shown := printable(text.get_text())) != text.get_text():
             text.set_text(shown)
@@ -138,9 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield all texts of an artist, except the texts of hidden axes, whose ticks would be created only for this
-    query.
-    """
+    """Yield an artist's texts, except those of hidden axes, whose ticks would be created only for this query."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -177,10 +171,7 @@ def plain(axes: Axes) -> None:
 
 
 def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT, **how: Any) -> None:
-    """Write the names of the axes, and a title of the panel at its left.
-
-    how   further properties of the text, such as `parse_math=False` for names of a train
-    """
+    """Write the names of the axes and the panel's title; `how` are further properties of the text."""
     if x:
         axes.set_xlabel(x, fontsize=size, **how)
     if y:
@@ -203,10 +194,7 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 def bar_panel(names: Sequence[str], height: float, width: float = WIDTH) -> tuple[Figure, Axes]:
-    """Return a figure with one panel for horizontal bars and intervals, one for each name, the first on top.
-
-    height, width   size of the figure [in]
-    """
+    """Return a figure [in] with one panel for horizontal bars and intervals, one for each name, the first on top."""
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.add_subplot()
     plain(axes)
@@ -278,10 +266,7 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Write text literally, with a halo behind it.
-
-    The halo is a separate text, because text with a halo of its own is exported as outlines in a vector file.
-    """
+    """Write text literally over a separate halo: text with its own halo would be outlines in a vector file."""
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
     axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground=WHITE),), **behind)
@@ -298,11 +283,7 @@ def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, fl
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure with one panel whose coordinates are inches from the lower left corner, and with a title at the
-    top.
-
-    A title has at most two lines, which take 0.5 inches.
-    """
+    """Return a figure with one panel in inches from the lower left corner, and a title of at most two lines."""
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_xlim(0.0, width)
@@ -335,10 +316,8 @@ def after_turns(scene: Scene, turns: Fraction) -> str:
 def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
     """Raise `QuestionError` if a picture would show more than `most` items of a kind."""
     if count > most:
-        raise QuestionError(
-            Problem(
-                f"'{train.name}' has {count} {what}, too many for this picture",
-                f"at most {most} {what} are legible on a page",
-                "declare a part of the train, or draw another kind of picture",
-            )
+        found, why = (
+            f"'{train.name}' has {count} {what}, too many for this picture",
+            f"at most {most} {what} are legible",
         )
+        raise QuestionError(Problem(found, why, "declare a part of the train, or draw another kind of picture"))

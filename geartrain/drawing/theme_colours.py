@@ -29,14 +29,7 @@ _AREA = 0.5  # opacity above which a series colour fills an area that needs its 
 SCALES = {name: LinearSegmentedColormap.from_list(name, theme.scale, _SHADES) for name, theme in THEMES.items()}
 """Colour scales of values on maps, by theme."""
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
-# Oklab: matrices from linear sRGB to cone responses, and from their cube roots to lightness and two opponent axes
-# (Ottosson 2020, A perceptual color space for image processing)
-_CONES = np.array([[0.4122214708, 0.5363325363, 0.0514459929],
-                   [0.2119034982, 0.6806995451, 0.1073969566],
-                   [0.0883024619, 0.2817188376, 0.6299787005]])  # fmt: skip
-_OPPONENTS = np.array([[0.2104542553, 0.7936177850, -0.0040720468],
-                       [1.9779984951, -2.4285922050, 0.4505937099],
-                       [0.0259040371, 0.7827717662, -0.8086757660]])  # fmt: skip
+_LUMA = np.array([0.2126, 0.7152, 0.0722])  # weights of red, green and blue in lightness (ITU-R BT.709)
 
 
 @contextmanager
@@ -184,10 +177,7 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill for a colour.
-
-    It is None if the colour is not a mixture of the shade and fill of the light theme.
-    """
+    """Return the theme's mixture of shade and fill for a colour; None if it is not such a mixture."""
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
     share = float((rgb - shade) @ along / (along @ along))
@@ -206,23 +196,7 @@ def _named(theme: Theme) -> Sequence[str]:
 
 
 def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
-    """Return a colour with the same relative lightness between the theme's paper and ink as between white and black.
-
-    The hue is kept, except in print, which has none.
-    """
-    paper, ink = (_oklab(_rgb_of(each)) for each in (theme.paper, theme.ink))
-    light, *hue = _oklab(rgb)
-    # the Oklab lightness is 0 for black and 1 for white
-    lightness = ink[0] + light * (paper[0] - ink[0])
-    strong = 0.0 if theme is THEMES["print"] else 1.0
-    return _rgb(np.array([lightness, *(strong * np.array(hue))]))
-
-
-def _oklab(rgb: Floats) -> Floats:
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return np.asarray(_OPPONENTS @ np.cbrt(_CONES @ linear))
-
-
-def _rgb(lab: Floats) -> Floats:
-    linear = np.linalg.solve(_CONES, np.linalg.solve(_OPPONENTS, lab) ** 3).clip(0.0, 1.0)
-    return np.asarray(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+    """Return a colour of equal lightness between the theme's paper and ink, in print without its hue."""
+    paper, ink, lightness = _rgb_of(theme.paper), _rgb_of(theme.ink), float(_LUMA @ rgb)
+    hue = 0.0 if theme is THEMES["print"] else rgb - lightness
+    return np.asarray(np.clip(ink + lightness * (paper - ink) + hue, 0.0, 1.0))

@@ -47,10 +47,7 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Return tooth counts, half angle, clearance factor and friction of a pair as a string, the driver first.
-
-    By default the friction is that of the transmission function.
-    """
+    """Return a pair's counts, half angle, clearance factor and friction in words, by default its own friction."""
     sizes = transmission.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
@@ -65,13 +62,8 @@ def pair_text(transmission: TriangularTransmission, friction: float | None = Non
 def require_contact(transmission: TriangularTransmission) -> None:
     """Raise `GearTrainError` if the pair has no teeth, or no teeth in contact."""
     if not transmission.sizes.has_valleys or not transmission.intervals:
-        raise GearTrainError(
-            Problem(
-                "the teeth of this pair never touch",
-                transmission.verdict.text,
-                "change `half_angle` or `clearance_factor`",
-            )
-        )
+        what, fix = "the teeth of this pair never touch", "change `half_angle` or `clearance_factor`"
+        raise GearTrainError(Problem(what, transmission.verdict.text, fix))
 
 
 Point = tuple[float, float]
@@ -80,10 +72,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose of two wheels, with the driving tooth pair at alpha_1 and alpha_2 [rad] in one phase.
-
-    The angles of all other teeth follow from the pitch.
-    """
+    """Pose of two wheels with the driving tooth pair at alpha_1 and alpha_2 [rad]; the pitch gives all others."""
 
     sizes: TriangularSizes
     phase: str
@@ -94,9 +83,7 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return tooth count, tip radius and root radius of a wheel, and the angle of its tooth in the driving pair
-        [rad].
-        """
+        """Return a wheel's tooth count, tip and root radius, and the angle of its tooth in the driving pair [rad]."""
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -108,10 +95,7 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius about a wheel's centre and an angle [rad] from the line of centres.
-
-        Positive angles are on the entry side.
-        """
+        """Return points (..., 2) at a radius and an angle from the line of centres [rad], positive at the entry."""
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
@@ -166,10 +150,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose with the driving tooth pair at `alpha1` [rad], by default in the middle of the first interval.
-
-    If no tooth pair drives at `alpha1`, the pose is that in which some tooth of the driver is at this angle.
-    """
+    """Return the pose with the driving pair, or else some tooth of the driver, at `alpha1` [rad], if it is given."""
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
     alpha2 = float(tooth_pair.angle(interval.phase, x)) if standing is None else standing
@@ -323,10 +304,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in a wheel's sense of rotation, with the wheel's name, inside its body on the entry side.
-
-    A driven wheel at rest has no arrow.
-    """
+    """Draw an arrow in a wheel's sense, with its name, inside its body; a driven wheel at rest has no arrow."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1

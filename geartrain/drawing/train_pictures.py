@@ -71,10 +71,8 @@ def picture(
 
         return stick_figure(train, labels, state)
     if kind not in KINDS:
-        kinds = ", ".join(KINDS)
-        raise QuestionError(
-            Problem(f"'{kind}' is not a kind of picture", f"the kinds are {kinds}", "use one of these kinds")
-        )
+        what, why = f"'{kind}' is not a kind of picture", f"the kinds are {', '.join(KINDS)}"
+        raise QuestionError(Problem(what, why, "use one of these kinds"))
     from geartrain.scene import make_scene
 
     scene = make_scene(train, state)

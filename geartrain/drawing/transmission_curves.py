@@ -226,10 +226,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits that contain the real path, and the ideal path where it is near the real path.
-
-    They are 0 and 1 without finite values of the real path.
-    """
+    """Return axis limits around the real path and the ideal path near it; 0 and 1 without finite values."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -258,10 +255,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact, with tau before and after it.
-
-    Before the impact the last tooth pair separates; after it the next tooth pair drives.
-    """
+    """Draw each impact with tau before it, when a tooth pair separates, and after it, when the next one drives."""
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -294,9 +288,7 @@ def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values that are far enough from each
-    other.
-    """
+    """Return ticks for the instant centre between two speed ratios: round values that do not crowd."""
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -309,10 +301,7 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis with the instant centre divided by the centre distance.
-
-    It is tau/(1 + tau), or tau/|1 - tau| for a pair with a ring.
-    """
+    """Draw a second axis with the instant centre over the centre distance, tau/(1 + tau), or tau/|1 - tau|."""
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -400,13 +389,8 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     8
     """
     if not paths:
-        raise QuestionError(
-            Problem(
-                "no tooth form can be drawn",
-                "no form has a path of contact for this pair",
-                "change the arcs or the tooth counts",
-            )
-        )
+        what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"
+        raise QuestionError(Problem(what, why, "change the arcs or the tooth counts"))
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)
     for axes in panels.flat:
@@ -416,10 +400,11 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     styles = {name: (series_colour(at), series_dash(at)) for at, name in enumerate(paths)}
     for name, path in paths.items():
         X = _places(path)
-        _line(panels[0, 0], name, styles, _flat(path.flank(1, X)) / unit)
-        _line(panels[0, 1], name, styles, _flat(path.flank(2, X)) / unit)
+        # x and y from the pitch point; on the sphere, as viewed from outside above that point
+        _line(panels[0, 0], name, styles, path.flank(1, X)[..., :2] / unit)
+        _line(panels[0, 1], name, styles, path.flank(2, X)[..., :2] / unit)
         contact = path.at(X)
-        points = _flat(pitch.point(contact.d, contact.sin_psi, contact.cos_psi)) / unit
+        points = pitch.point(contact.d, contact.sin_psi, contact.cos_psi)[..., :2] / unit
         _line(panels[1, 0], name, styles, points)
     for axes, text in zip(
         panels.flat,
@@ -430,7 +415,8 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     for axes, (words, cost) in zip(panels.flat[3:], _quantities(pitch, unit), strict=True):
         _along(axes, words, cost, paths, styles)
     beyond = "; some curves extend beyond their panels" if any(map(_leaves_panel, panels.flat[3:])) else ""
-    headed(figure, f"{_form_text(paths)}, {_pitch_title(pitch)}{beyond}")
+    only = f"{next(iter(paths)).replace('_', ' ')} teeth" if len(paths) == 1 else "tooth forms side by side"
+    headed(figure, f"{only}, {_pitch_title(pitch)}{beyond}")
     if len(paths) == 1:
         return figure
     handles = [
@@ -439,11 +425,6 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     ]
     legend_below(figure, 3, handles, handlelength=4)
     return figure
-
-
-def _form_text(paths: Mapping[str, PathOfContact]) -> str:
-    only = next(iter(paths)).replace("_", " ")
-    return f"{only} teeth" if len(paths) == 1 else "tooth forms side by side"
 
 
 def _leaves_panel(axes: Axes) -> bool:
@@ -467,13 +448,6 @@ def _places(path: PathOfContact) -> Floats:
     steps = np.linspace(_NEAREST, 1.0, _PATH_SAMPLES)
     sides = [-approach * steps[::-1]] if approach else []
     return np.concatenate([*sides, *([recess * steps] if recess else [])])
-
-
-def _flat(points: Floats) -> Floats:
-    """Return x and y relative to the pitch point (..., 2); on the sphere, as viewed from outside above the pitch
-    point.
-    """
-    return points[..., :2]
 
 
 def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
@@ -507,11 +481,7 @@ def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callab
 
 
 def _along(
-    axes: Axes,
-    words: str,
-    cost: Callable[[PathContact], Floats],
-    paths: Mapping[str, PathOfContact],
-    styles: Styles,
+    axes: Axes, words: str, cost: Callable[[PathContact], Floats], paths: Mapping[str, PathOfContact], styles: Styles
 ) -> None:
     low, high, tops = inf, 0.0, []
     for name, path in paths.items():

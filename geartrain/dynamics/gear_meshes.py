@@ -166,8 +166,7 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
     """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier pair, except the first pair of
-    each
-    connected set.
+    each connected set.
     """
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):

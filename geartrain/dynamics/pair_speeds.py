@@ -7,7 +7,7 @@ from the `rate` of the train or from inputs with units, and the pitch radius r_i
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
@@ -35,31 +35,14 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
     return float(train.unit_speed * RADIANS_PER_TURN)
 
 
-@dataclass(frozen=True)
-class PairSpeed:
-    """Pitch-line speed of a gear pair [m/s], or the reason why it is unknown."""
+def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> float | None:
+    """Return the pitch-line speed of one gear pair in one state [m/s]; None if its relative motion is undetermined.
 
-    value: float | None
-    problem: Problem | None = None
-
-    def known(self) -> float:
-        """Return the pitch-line speed [m/s], 0 if the relative motion is undetermined.
-
-        Raises `GearTrainError` with the missing data if the declaration does not give the speed.
-        """
-        if self.problem is not None:
-            raise GearTrainError(self.problem)
-        return self.value or 0.0
-
-
-def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> PairSpeed:
-    """Return the pitch-line speed of one gear pair in one state.
-
-    The result has neither value nor problem if the relative motion of the pair is not determined.
+    Raises `GearTrainError` with the missing data if the declaration does not give the speed.
     """
     turning = setting.relative(circuit.i, circuit.carrier)
     if turning is None:
-        return PairSpeed(None)
+        return None
     unit, radius = radians_per_second(setting.train, setting.case), mesh.pitch_radius
     missing = []
     if unit is None:
@@ -70,7 +53,7 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
         what = f"{mesh.label}: friction depends on the pitch-line speed, which is unknown"
         why = f"the declaration does not give {' or '.join(words for words, _ in missing)}"
         fix = f"give {', and '.join(keys for _, keys in missing)}; or give `friction` as a number"
-        return PairSpeed(None, Problem(what, why, fix, mesh.place))
+        raise GearTrainError(Problem(what, why, fix, mesh.place))
     assert unit is not None
     assert radius is not None
     # the radius is that of the pair's first wheel, so its speed is needed
@@ -78,7 +61,7 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
     other = setting.relative(circuit.j, circuit.carrier)
     if not first and other is not None:
         turning = other
-    return PairSpeed(abs(float(turning)) * unit * radius)
+    return abs(float(turning)) * unit * radius
 
 
 def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
@@ -93,4 +76,10 @@ def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}
-    return tuple(at_speed(mesh, pitch_line_speed(setting, circuits[mesh.name], mesh).value) for mesh in meshes)
+    found = []
+    for mesh in meshes:
+        try:
+            found.append(at_speed(mesh, pitch_line_speed(setting, circuits[mesh.name], mesh)))
+        except GearTrainError:  # the speed is needed only where losses are computed
+            found.append(at_speed(mesh, None))
+    return tuple(found)

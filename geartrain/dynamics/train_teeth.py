@@ -99,9 +99,7 @@ def find_train_teeth(
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return, for each wheel whose pairs with a declared form require different teeth, the problem that
-    describes this.
-    """
+    """Return the problem of each wheel whose pairs with a declared form require different teeth, by wheel."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 

@@ -9,7 +9,7 @@ The basic equation is Willis' equation, a (w_i - w_k) + b (w_j - w_k) = 0 for ea
 
 train_kinematics                 everything below for one train; remarks on a valid declaration
 circuits                         joint tree with its axes and rigid bodies; fundamental circuits
-willis_equation, willis_system   rows of the Willis system; relative speeds
+willis_system                    rows of the Willis system; relative speeds
 willis_matrix                    the same rows as a sparse matrix
 components                       ordinary trains of one carrier, and the reduced system between them
 speeds                           propagation, exact elimination, diagnosis; mobility; floats
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Loop as Loop
     from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
+    from geartrain.kinematics.circuits.fundamental import WillisEquation as WillisEquation
     from geartrain.kinematics.graph import adjacency_labels as adjacency_labels
     from geartrain.kinematics.graph import adjacency_matrix as adjacency_matrix
     from geartrain.kinematics.graph import to_dot as to_dot
@@ -54,7 +55,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
     from geartrain.kinematics.speeds.mobility import Mobility as Mobility
     from geartrain.kinematics.train_kinematics import TrainKinematics as TrainKinematics
-    from geartrain.kinematics.willis_equation import WillisEquation as WillisEquation
     from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
 
@@ -108,7 +108,7 @@ __getattr__ = lazy_names(
         "TargetResult": "judged_outputs",
         "TrainKinematics": "train_kinematics",
         "Verdict": "answer",
-        "WillisEquation": "willis_system",
+        "WillisEquation": "circuits.fundamental",
         "WillisMatrix": "willis_matrix",
         "WillisSystem": "willis_system",
         "adjacency_labels": "graph",

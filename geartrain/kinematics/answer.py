@@ -91,11 +91,13 @@ class Verdict(Result):
     text: str
     """Verdict as a sentence, with its cause, in plain text."""
     links: tuple[str, ...] = ()
-    """Links whose speeds are undetermined; empty unless the train is free or partly locked."""
+    """Links whose speeds are undetermined; all links except the frame if no input turns and no link can move. Otherwise
+    empty.
+    """
     fixes: tuple[str, ...] = ()
     """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds."""
     prescriptions: tuple[str, ...] = ()
-    """Links of the inputs, brakes and clutches that cause a lock or a contradiction."""
+    """Statements of the inputs, brakes and locks that cause a lock or a contradiction, such as `sun = 1`."""
     loops: tuple[Loop, ...] = ()
     """Loops with a ratio product other than 1, which lock the train or a part of the train."""
 
@@ -118,7 +120,8 @@ class SpeedAccuracy:
     estimate: float
     true_error: float | None
     condition: float | None = None
-    """Component-wise condition number [1], (25) of docs/theory.md; infinite for a link at rest, None if not requested.
+    """Component-wise condition number [1], (25) of docs/theory.md; infinite for a link at rest, None in trains of more
+    than 400 links.
     """
 
 
@@ -193,7 +196,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     empty if the matrix was not used.
     """
     expected: str = "determined"
-    """Expected kind of verdict, as named by the state's `expect`."""
+    """Kind of verdict that the state or the train declares as `expect`; by default `determined`."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
 
     def _summary(self) -> str:

@@ -9,10 +9,11 @@ small for real trains.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 
 from geartrain.kinematics.answer import Loop
 from geartrain.kinematics.circuits import Circuit
@@ -37,19 +38,19 @@ class Components:
     node_carrier: Sequence[int]
     """Carrier of each node, as an index into `links`."""
     node_group: Sequence[int]
-    """Component of each node."""
+    """Index of the component of each node."""
     ratios: FactoredRatios
     """Speed of each node's link relative to its carrier, divided by the unknown speed of its component."""
     node_circuit: Sequence[int]
-    """Circuit through which the breadth-first search reached each node; -1 for a root."""
+    """Index of the circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
-    """Carrier of each component."""
+    """Carrier of each component, as an index into `links`."""
     nodes_of: Mapping[int, Sequence[int]]
     """Link -> its nodes, one for each carrier relative to which it meshes."""
     closing: Sequence[int]
-    """Circuits that close a loop with ratio product 1; each is redundant."""
+    """Indices of the circuits that close a loop with ratio product 1; each of these circuits is redundant."""
     breaking: Sequence[int]
-    """Circuits that close a loop with another ratio product; they lock their component to its carrier."""
+    """Indices of the circuits that close a loop with another ratio product and lock their component to its carrier."""
     holding: Sequence[int]
     """Couplings with winding number 0, which lock the component of the slot to its carrier."""
 
@@ -136,7 +137,9 @@ def find_components(
     group_carrier: list[int] = []
     closing: list[int] = []
     breaking: list[int] = []
-    for root in _search_order(nodes_of, [index[link] for link in first if link in index], count):
+    starts = (node for link in first if link in index for node in nodes_of.get(index[link], ()))
+    # then components that contain no input
+    for root in chain(starts, range(count)):
         if group[root] >= 0:
             continue
         this = len(group_carrier)
@@ -205,13 +208,6 @@ def _nodes(
         edges[here].append((at, there, -a, b))
         edges[there].append((at, here, -b, a))
     return node_link, node_carrier, edges, holding
-
-
-def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
-    for link in first:
-        yield from nodes_of.get(link, ())
-    # components that contain no input; nodes that were already reached are skipped by the caller
-    yield from range(count)
 
 
 @dataclass(frozen=True, slots=True)

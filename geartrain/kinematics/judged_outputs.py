@@ -128,7 +128,9 @@ class SpeedFigures(TypedDict, total=False):
     true_error: float | None
     """Difference between a speed solved in floats and the exact speed, if the latter is known [unit of the train]."""
     condition: float | None
-    """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest."""
+    """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest, omitted in
+    trains of more than 400 links.
+    """
 
 
 class JudgedExpectation(NamedTuple):
@@ -199,7 +201,7 @@ class OutputResult(Result):
     targets: tuple[TargetResult, ...]
     """Comparisons with the declared targets; empty if the speed is not determined."""
     bookkeeping: bool
-    """True for a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
+    """True if `speed` is a sum of joint speeds about non-parallel axes, which is not the speed of a rotation."""
 
     @property
     def found(self) -> SpeedValue | None:
@@ -248,7 +250,7 @@ class OutputResult(Result):
 
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
-    """Return `value` times `times` as a float; None beyond the range of float64."""
+    """Return the product of `value` and `times` as a float; None if `value` is beyond the range of float64."""
     size = as_float(value)
     return None if size is None else size * times
 

@@ -1,15 +1,16 @@
-"""Equal planets declared by `copies`, and the expanded train in which each of them is declared separately.
+"""Equal planets declared by `copies`, and the expanded train in which each planet is declared separately.
 
-Speeds need only one of them, because equal planets have equal speeds. Assembly, loads, drawings and part lists need all
-of them: docs/theory.md, 6.
+One planet determines all speeds, because equal planets have equal speeds. Assembly, loads, drawings and part lists need
+all planets: docs/theory.md, 6.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import tau
+from typing import TypeVar
 
 from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.kinematics.circuits import Tree
@@ -19,6 +20,8 @@ from geartrain.numerics.vectors import minus, plus, turned
 from geartrain.teeth.pin_coupling import Coupling, Parallel, PinsInHoles
 from geartrain.train import GearPair, Link, Train
 from geartrain.train.mechanism import Axis, Revolute
+
+_Part = TypeVar("_Part")
 
 
 def has_copies(train: Train) -> bool:
@@ -194,7 +197,9 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Expansion of the copies of a train and their turning pairs; copy 1 is the declared link."""
+    """Expansion of a train in which every copy of a link, joint, pair or coupling becomes a separate part; copy 1 is
+    the declared part.
+    """
 
     declared: Train
     tree: Tree
@@ -206,39 +211,28 @@ class _Expansion:
             for at in self._further_copies(name):
                 links[_copy_name(name, at)] = self._link(part, at)
         axes = dict(self.declared.axes)
-        joints: list[tuple[int, Revolute]] = []
-        for index, joint in enumerate(self.declared.revolutes):
-            joints.append((index, joint))
-            joints += [(index, self._joint(joint, at)) for at in self._further_copies(*joint.pair)]
+        for joint in self.declared.revolutes:
             for at in self._further_copies(*joint.pair):
                 if joint.axis in self.declared.axes:
                     axes[_copy_name(joint.axis, at)] = self._axis(joint.axis, at)
-        gears: list[tuple[int, GearPair]] = []
-        for index, gear in enumerate(self.declared.gears):
-            number = _pair_count(self.declared, gear)
-            gears.append((index, _with_divided_share(gear, number)))
-            gears += [(index, self._gear(gear, at, number)) for at in range(2, 1 + number)]
-        couplings: list[tuple[int, Coupling]] = []
-        for index, coupling in enumerate(self.declared.couplings):
-            couplings.append((index, coupling))
-            couplings += [
-                (index, self._coupling(coupling, at)) for at in self._further_copies(coupling.pin, coupling.slot)
-            ]
+        joints = self._all_copies(self.declared.revolutes, lambda joint: joint.pair, self._joint)
+        gears = self._all_copies(
+            self.declared.gears, lambda gear: [self.declared.wheels[wheel][0] for wheel in gear.pair], self._gear
+        )
+        couplings = self._all_copies(self.declared.couplings, lambda each: (each.pin, each.slot), self._coupling)
+        counts = [_pair_count(self.declared, gear) for gear in self.declared.gears]
         states = self.declared.states
         made = self.declared.changed(
             links=FrozenDict(links),
             axes=FrozenDict(axes),
             revolutes=tuple(joint for _, joint in joints),
-            gears=tuple(gear for _, gear in gears),
+            gears=tuple(_with_divided_share(gear, counts[at]) for at, gear in gears),
             couplings=tuple(coupling for _, coupling in couplings),
             loads=self._loads(self.declared.loads),
             states=FrozenDict({name: state.changed(loads=self._loads(state.loads)) for name, state in states.items()}),
         )
-        indices = {
-            "revolutes": [index for index, _ in joints],
-            "gears": [index for index, _ in gears],
-            "couplings": [index for index, _ in couplings],
-        }
+        parts = {"revolutes": joints, "gears": gears, "couplings": couplings}
+        indices = {key: [index for index, _ in copies] for key, copies in parts.items()}
         # messages about copies name the line of the declared part
         made._marks = _Places(self.declared, indices)
         return made
@@ -248,6 +242,16 @@ class _Expansion:
     def _further_copies(self, *links: str) -> range:
         """Return the numbers of the further copies, from 2, of a joint or pair between some links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
+
+    def _all_copies(
+        self, parts: Sequence[_Part], links_of: Callable[[_Part], Iterable[str]], copy: Callable[[_Part, int], _Part]
+    ) -> list[tuple[int, _Part]]:
+        """Return all joints or pairs, each followed by its further copies, with the index of the declared part."""
+        found = []
+        for index, part in enumerate(parts):
+            copies = [copy(part, at) for at in self._further_copies(*links_of(part))]
+            found += [(index, each) for each in (part, *copies)]
+        return found
 
     def _copied_link(self, link: str, at: int) -> str:
         """Return the name of copy `at` of a link; a link without copies is shared by all."""
@@ -264,14 +268,11 @@ class _Expansion:
             pair=(self._copied_link(first, at), self._copied_link(second, at)), axis=_copy_name(joint.axis, at)
         )
 
-    def _gear(self, gear: GearPair, at: int, number: int) -> GearPair:
+    def _gear(self, gear: GearPair, at: int) -> GearPair:
         own = {wheel: self._wheel(wheel, at) for wheel in gear.pair}
         driver = None if gear.driver is None else own[gear.driver]
         # without `phase`, because the phase of a copy follows from its position
-        changed = gear.changed(
-            pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at)
-        )
-        return _with_divided_share(changed, number)
+        return gear.changed(pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at))
 
     def _coupling(self, coupling: Coupling, at: int) -> Coupling:
         named = {

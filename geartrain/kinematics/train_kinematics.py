@@ -1,7 +1,8 @@
 """Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-Solution of a state has four steps: read its inputs, brakes and locks; find the relevant part of the train; choose the
-method; evaluate the outputs. Remarks are notes, not errors: they describe conventions and mean values in the answers.
+A state is solved in four steps: read its inputs, brakes and locks; find the part of the train that affects the
+requested links; choose the method; evaluate the outputs. Remarks are notes, not errors: they describe conventions and
+mean values in the answers.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Shown
-from geartrain.train import GearPair, StateCase, Train
+from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
@@ -57,24 +58,14 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
     for circuit in circuits:
         if circuit.note:
             yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
-    for position, gear in enumerate(train.gears):
-        yield from (
-            _intermittent_note(train, wheel, position) for wheel in gear.pair if _is_single_tooth(train, gear, wheel)
-        )
-
-
-def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
-    """Return True if a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
-    overlap).
-    """
-    wheel = train.wheels[name][1]
-    return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
-
-
-def _intermittent_note(train: Train, wheel: str, position: int) -> Problem:
-    what = f"wheel '{wheel}' has one tooth, which cannot drive continuously"
     why = "the mean ratio is exact; the motion is intermittent"
-    return Problem(what, why, "", train.place("gears", position))
+    for position, gear in enumerate(train.gears):
+        for name in gear.pair:
+            wheel = train.wheels[name][1]
+            # teeth of helical wheels overlap
+            if wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None:
+                what = f"wheel '{name}' has one tooth, which cannot drive continuously"
+                yield Problem(what, why, "", train.place("gears", position))
 
 
 # ----------------------------------------------------------------------------------------------------- train kinematics
@@ -82,8 +73,6 @@ def _intermittent_note(train: Train, wheel: str, position: int) -> Problem:
 
 Method = Literal["auto", "exact", "sparse", "floats"]
 """Method of solution; "floats" is an older name of "sparse"."""
-
-_CONDITIONED = 400  # maximum number of links for which all condition numbers are computed; else only those of outputs
 
 
 @final
@@ -269,7 +258,7 @@ class TrainKinematics(Shown):
         check_choice("method", method, get_args(Method))
         if case.problems:
             verdict = Verdict("refused", "; ".join(problem.text for problem in case.problems))
-            return self._build_answer(case, verdict, {}, _unknown, wanted, 0, {})
+            return self._build_answer(case, verdict, {}, lambda of, base: None, wanted, 0, {})
         solution, in_floats = None, method in ("sparse", "floats")
         with suppress(TooDenseError):
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
@@ -304,7 +293,6 @@ class TrainKinematics(Shown):
         self,
         state: str | None = None,
         inputs: Mapping[str, Sequence[float]] | None = None,
-        condition_of: Sequence[str] = (),
     ) -> FloatSpeeds:
         """Return float64 speeds by sparse LU with error estimates; several input speeds share one factorisation.
 
@@ -314,22 +302,18 @@ class TrainKinematics(Shown):
             A declared state; None only for a train without states.
         inputs : mapping of str to sequence of float, optional
             Input link -> speeds, one for each case, instead of the declared speeds [unit of the train].
-        condition_of : sequence of str
-            Links whose component-wise condition number is computed (docs/theory.md, equation 25).
 
         Returns
         -------
         FloatSpeeds
-            Speeds and error estimates as arrays with axes (link, case).
+            Speeds and error estimates as arrays with axes (link, case), and condition numbers.
         """
         from geartrain.kinematics.speeds import solve_floats
 
         system, case = self.equations(state), self.case(state)
         if inputs is not None:
             _check_inputs(inputs, tuple(case.inputs))
-        for link in condition_of:
-            check_choice("link", link, system.links)
-        return solve_floats(system, inputs, condition_of)
+        return solve_floats(system, inputs)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
         """Return the case with a single output, the link whose speed is the output, and the link relative to which it
@@ -410,10 +394,12 @@ class TrainKinematics(Shown):
         truth = solution.speeds if solution is not None else {}
         system = self._system(part, case)
         if solution is None:
-            solution = self._without_speeds(part, case)
+            verdict = exact_verdict(part.reduced, case, self.signs)  # by elimination modulo a prime
+            still = verdict.kind == "locked" and not any(case.inputs.values())
+            solution = Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
         if not solution.verdict:  # the system is not square
             return self._rounded_answer(part, case, wanted, solution)
-        found = solve_floats(system, condition_of=self._condition_links(part, case, wanted))
+        found = solve_floats(system)
         speeds: dict[str, SpeedValue] = dict(zip(part.links, found.speeds.values[:, 0].tolist(), strict=True))
 
         def accuracy() -> dict[str, SpeedAccuracy]:
@@ -436,22 +422,6 @@ class TrainKinematics(Shown):
         lazy_accuracy, work = LazyMapping(accuracy), len(part.circuits)
         answer = self._build_answer(case, solution.verdict, speeds, relative, wanted, work, None, lazy_accuracy)
         return replace(answer, residual=LazyMapping(residual))
-
-    def _without_speeds(self, part: SolvedPart, case: StateCase) -> Solution:
-        """Return the verdict without speeds, by elimination modulo a prime."""
-        verdict = exact_verdict(part.reduced, case, self.signs)
-        still = verdict.kind == "locked" and not any(case.inputs.values())
-        return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
-
-    def _condition_links(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Return the links whose condition number is reported: all links, or outputs only in long trains, because each
-        costs a solve.
-        """
-        if wanted is None and len(part.links) <= _CONDITIONED:
-            return part.links
-        frame = self.declaration.frame
-        outputs = (wanted,) if wanted else (each.links(name, frame) for name, each in case.outputs.items())
-        return tuple(dict.fromkeys(link for pair in outputs for link in pair))
 
     def _rounded_answer(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution
@@ -481,7 +451,11 @@ class TrainKinematics(Shown):
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
             # two bevel wheels on one side of a third are a likely cause of a lock or contradiction
-            verdict = replace(verdict, text=verdict.text + "".join(map(_facing_advice, self._bevels_on_one_side)))
+            advice = (
+                f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
+                for one, other, shared in self._bevels_on_one_side
+            )
+            verdict = replace(verdict, text=verdict.text + "".join(advice))
         if wanted is not None:
             verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
             # a requested link is measured relative to the frame, which need not be shown
@@ -534,16 +508,6 @@ class TrainKinematics(Shown):
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
-
-
-def _facing_advice(bevels: Sequence[str]) -> str:
-    """Return the advice text for two bevel wheels that mesh with a third from the same side."""
-    one, other, shared = bevels
-    return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
-
-
-def _unknown(of: str, base: str) -> None:
-    """Return None: the relative speed of any two links is unknown."""
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:

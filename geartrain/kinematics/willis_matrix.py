@@ -1,4 +1,5 @@
-"""Willis system as a sparse matrix, for the float solvers and for solvers of the user.
+"""Willis system as a sparse matrix, for the float solvers and for solvers of the user; its residuals in twice the
+working precision.
 
 The entries are tooth counts and their sums, integers far below 2**53. A float64 matrix represents them exactly, so the
 error of a float solution is due only to the solver.
@@ -9,22 +10,78 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import csc_array
 
 from geartrain.errors import Problem, RangeError
-from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.numerics.elimination import PRIME, eliminate, residues
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Shown
+from geartrain.numerics.rounding_bounds import two_product, two_sum
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 _GIVEN = -1  # column of prescribed speeds
+
+
+class PaddedRows:
+    """Integer rows of a linear system as arrays, padded to a common number of terms."""
+
+    def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
+        self.at = {link: column for column, link in enumerate(links)}
+        width = max((len(row.terms) for row in rows), default=0)
+        # rows are padded with coefficient 0 in column 0
+        self.columns = np.zeros((len(rows), width), dtype=np.intc)
+        self.coefficients = np.zeros((len(rows), width))
+        for at, row in enumerate(rows):
+            for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
+                self.columns[at, position] = self.at[link]
+                self.coefficients[at, position] = coefficient
+
+    def matrix(self) -> Any:
+        """Return the rows as a sparse matrix in compressed column format."""
+        size, width = self.columns.shape
+        lines = np.repeat(np.arange(size, dtype=np.intc), width)
+        used = self.coefficients.ravel() != 0
+        entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
+        return csc_array(entries, shape=(size, len(self.at)))
+
+    def factorise(self) -> Any:
+        """Return the sparse LU factors of the matrix, computed by SuperLU; only the ordering COLAMD never takes
+        quadratic time.
+        """
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return solver.splu(self.matrix(), permc_spec="COLAMD")
+
+    def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
+        """Return right + remainder - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump
+        and Oishi 2005).
+        """
+        total, low = right.copy(), remainder.copy()
+        for position in range(self.columns.shape[1]):
+            product, error = two_product(-self.coefficients[:, position, None], x[self.columns[:, position]])
+            total, carry = two_sum(total, product)
+            low = low + carry + error
+        return total + low
+
+    def prescribe(self, x: Floats, right: Floats) -> None:
+        """Set prescribed speeds, which have rows with a single coefficient 1, to their exact values in `x`, in
+        place.
+        """
+        single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
+        own = self.coefficients[single, 0] == 1
+        x[self.columns[single[own], 0]] = right[single[own]]
+
+    def size(self, x: Floats) -> Floats:
+        """Return |A| |x|, one value for each row and case."""
+        total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
+        return total
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, overload
 
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.results import Shown
 from geartrain.train import StateCase

@@ -9,7 +9,7 @@ Exact numbers
     integer_lattice                       integer rows in a rational span
     rational_angles                       angles as fractions of a turn
 Floats
-    rounding_bounds, bounded_polynomials  error-free transformations and a priori bounds; polynomials with such bounds
+    rounding_bounds, bounded_polynomials  error-free transformations; quotients of polynomials with error bounds
     sparse_least_squares                  least squares with a few entries per row
     roots                                 bracketed roots, one by one and vectorised
     chebyshev, polynomial_pieces          Chebyshev series and piecewise polynomials

@@ -67,19 +67,14 @@ def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequenc
                     above = stack[-1][0]
                     low[above] = min(low[above], low[column])
                 if low[column] == order[column]:
-                    found = _close(open_, column, done)
-                    blocks.append(Block(tuple(taken[each] for each in found), found))
+                    # a component consists of all columns that were opened since its first one
+                    found = [open_.pop()]
+                    while found[-1] != column:
+                        found.append(open_.pop())
+                    for each in found:
+                        done[each] = True
+                    blocks.append(Block(tuple(taken[each] for each in found), tuple(found)))
     return blocks
-
-
-def _close(open_: list[int], root: int, done: list[bool]) -> tuple[int, ...]:
-    found = []
-    while True:
-        column = open_.pop()
-        done[column] = True
-        found.append(column)
-        if column == root:
-            return tuple(found)
 
 
 def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int) -> list[Block]:
@@ -158,12 +153,9 @@ def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, in
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Extend the matching by a row through breadth-first search; return True if an augmenting path exists, else
-    False.
-    """
-    came: dict[
-        int, tuple[int, int | None]
-    ] = {}  # column -> the row that reached it, and the column matched to that row
+    """Extend the matching by a row through breadth-first search; return True if an augmenting path exists."""
+    # column -> the row that reached it, and the column matched to that row
+    came: dict[int, tuple[int, int | None]] = {}
     queue: list[tuple[int, int | None]] = [(root, None)]
     for row, own in queue:
         for column in rows[row]:
@@ -174,6 +166,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
             if column in row_of:
                 queue.append((row_of[column], column))
                 continue
+            # flip the matching along the path back to the root
             last: int | None = column
             while last is not None:
                 row_of[last], last = came[last]

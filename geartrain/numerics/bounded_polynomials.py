@@ -11,15 +11,14 @@ shared between polynomials are multiplied only once.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import reduce
 
 import numpy as np
 
 from geartrain.numerics.arrays import Floats
 from geartrain.numerics.exact import log10
-from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_error, sum_error
+from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF
 
 Monomial = tuple[tuple[int, int], ...]
 """Product of powers of variables: pairs (variable, power) in ascending order of variables; powers are positive or
@@ -55,9 +54,7 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """Return the sum of arrays in their order, and the sum of their absolute values; zeros of `shape` if there are
-    none.
-    """
+    """Return the sum of arrays in their order, and the sum of their absolute values; zeros of `shape` for no arrays."""
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)
@@ -88,88 +85,31 @@ def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Seq
     return True
 
 
-@dataclass(frozen=True, eq=False)
-class BoundedPolynomial:
-    """Sum of coefficients times monomials, with a bound on the rounding error of its values."""
+def bounded_quotient(
+    upper: Sequence[WholeTerm], lower: Sequence[WholeTerm], roundings: Sequence[int], product: Product
+) -> tuple[Floats, Floats]:
+    """Return the values of a quotient of two polynomials, and bounds on their absolute errors.
 
-    terms: tuple[tuple[float, Monomial], ...]
-    """Coefficients in float64, with their monomials."""
-    roundings: int
-    """Number of roundings in one term and the sum. The absolute error is at most roundings * u * (sum of absolute
-    terms).
+    upper, lower   terms of numerator and denominator
+    roundings      number of roundings in the value of each variable
+
+    A bound is infinite at poles, and at points where no digit is certain.
     """
-
-    @classmethod
-    def of(cls, terms: Sequence[tuple[int, Monomial]], scale: int, roundings: Sequence[int]) -> BoundedPolynomial:
-        """Return a polynomial with integer coefficients, divided by a scale that keeps them within float64.
-
-        roundings   number of roundings in the value of each variable
-        """
-        # the exact quotient is rounded once; coefficients may be out of the range of float64
-        scaled = tuple((float(Fraction(coefficient, scale)), monomial) for coefficient, monomial in terms)
-        return cls(scaled, sum_roundings([monomial for _, monomial in terms], roundings))
-
-    @cached_property
-    def relative(self) -> float | None:
-        """Bound on the relative error of every value; None if terms can cancel."""
-        signs = {coefficient > 0 for coefficient, _ in self.terms}
-        return self.roundings * UNIT_ROUNDOFF * SLACK if len(signs) == 1 else None
-
-    def __call__(self, product: Product) -> tuple[Floats, Floats | None]:
-        """Return the values and bounds on their absolute errors; None instead of the bounds if `relative` is known."""
-        each = (product(monomial) if one == 1 else one * product(monomial) for one, monomial in self.terms)
-        if self.relative is not None:
-            # terms of one sign: the size is the value, so a relative bound is sufficient
-            return reduce(np.add, each), None
-        value, size = sum_and_size(each)
-        return value, sum_error(self.roundings, size)
-
-    def bounded(self, product: Product) -> tuple[Floats, Floats]:
-        """Return the values and bounds on their absolute errors, also if `relative` is known."""
-        return _filled_in(*self(product), self.relative)
+    # divided by the largest coefficient, which may be out of the range of float64
+    scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)
+    with np.errstate(all="ignore"):
+        (top, off), (bottom, beside) = (_bounded_sum(side, scale, roundings, product) for side in (upper, lower))
+        value, left = top / bottom, np.abs(bottom) - beside
+        error = SLACK * ((off + np.abs(value) * beside) / left + 2 * UNIT_ROUNDOFF * np.abs(value))
+    return value, np.where((left > 0) & np.isfinite(error), error, np.inf)
 
 
-@dataclass(frozen=True, eq=False)
-class BoundedQuotient:
-    """Quotient of two bounded polynomials; only the numerator if `lower` is None."""
-
-    upper: BoundedPolynomial
-    lower: BoundedPolynomial | None
-
-    @classmethod
-    def of(cls, upper: Sequence[WholeTerm], lower: Sequence[WholeTerm], roundings: Sequence[int]) -> BoundedQuotient:
-        """Return the quotient of two sums of terms with integer coefficients and exponents of all variables.
-
-        roundings   number of roundings in the value of each variable
-        """
-        # divided by the largest coefficient, which may be out of the range of float64
-        scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)
-        above, below = ([(c, monomial_of(exponents)) for c, exponents in side] for side in (upper, lower))
-        return cls(BoundedPolynomial.of(above, scale, roundings), BoundedPolynomial.of(below, scale, roundings))
-
-    @property
-    def relative(self) -> float | None:
-        """Bound on the relative error of every value; None if it depends on the point."""
-        return self.upper.relative if self.lower is None else None
-
-    def __call__(self, product: Product) -> tuple[Floats, Floats | None]:
-        """Return the values and bounds on their absolute errors; None instead of the bounds if `relative` is known.
-
-        A bound is infinite at poles, and at points where no digit is certain.
-        """
-        if self.lower is None:
-            return self.upper(product)
-        (top, off), (bottom, beside) = self.upper.bounded(product), self.lower.bounded(product)
-        with np.errstate(all="ignore"):
-            value = top / bottom
-            left = np.abs(bottom) - beside
-            room = quotient_error(value, off, left, beside)
-        return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
-
-    def bounded(self, product: Product) -> tuple[Floats, Floats]:
-        """Return the values and bounds on their absolute errors, also if `relative` is known."""
-        return _filled_in(*self(product), self.relative)
-
-
-def _filled_in(value: Floats, error: Floats | None, relative: float | None) -> tuple[Floats, Floats]:
-    return value, np.asarray((relative or 0.0) * np.abs(value)) if error is None else error
+def _bounded_sum(
+    terms: Sequence[WholeTerm], scale: int, roundings: Sequence[int], product: Product
+) -> tuple[Floats, Floats]:
+    """Return the values of a polynomial divided by `scale`, and bounds on their absolute errors."""
+    monomials = [monomial_of(exponents) for _, exponents in terms]
+    # the exact quotient of two integers is rounded once
+    factors = [float(Fraction(coefficient, scale)) for coefficient, _ in terms]
+    value, size = sum_and_size(one * product(each) for one, each in zip(factors, monomials, strict=True))
+    return value, SLACK * sum_roundings(monomials, roundings) * UNIT_ROUNDOFF * size

@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ChebyshevSeries:
-    """Chebyshev series on the interval [start, end], an approximation of a smooth function that can be differentiated
-    and integrated.
-    """
+    """Chebyshev series on the interval [start, end], which can be differentiated and integrated."""
 
     coefficients: Floats
     start: float
@@ -69,9 +67,7 @@ class ChebyshevSeries:
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
-    """Return the Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to
-    coefficients.
-    """
+    """Return the Chebyshev points of the second kind on [-1, 1], and the matrix from values to coefficients."""
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
     # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate
     return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)

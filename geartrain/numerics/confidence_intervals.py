@@ -21,9 +21,7 @@ PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)  # 95 % range, quartiles and median
 
 
 def deviations(confidence: float = CONFIDENCE) -> float:
-    """Return the number z of standard deviations for which a normal variable is within +-z with probability
-    `confidence`.
-    """
+    """Return the z for which a standard normal variable is within +-z with the probability `confidence`."""
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 

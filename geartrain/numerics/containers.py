@@ -116,6 +116,7 @@ class FrozenFields:
     def __post_init__(self) -> None:
         for field in fields(self):  # type: ignore[arg-type]
             value = getattr(self, field.name)
+            # other mappings, such as lazy ones, are immutable already
             if type(value) is dict:
                 object.__setattr__(self, field.name, FrozenDict(value))
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from decimal import MAX_EMAX, MAX_PREC, Context, Decimal, Inexact, localcontext
+from decimal import MAX_EMAX, Context, Decimal, localcontext
 from fractions import Fraction
 
 
@@ -25,7 +25,7 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
     """Return n/d times a/b as a reduced fraction (numerator, positive denominator).
 
-    n/d must be reduced. a and b are short, so the gcds are cheap.
+    n/d must be reduced. a and b have few digits, so that the gcds take little time.
     """
     if b < 0:
         a, b = -a, -b
@@ -74,6 +74,14 @@ def as_float(value: Fraction | float) -> float | None:
     return number
 
 
+def nearest_float(value: Fraction) -> float:
+    """Return the nearest float64; 0 or an infinity, with the sign of the value, beyond its range."""
+    number = as_float(value)
+    if number is not None:
+        return number
+    return math.copysign(0.0 if abs(value) < 1 else math.inf, -1 if value < 0 else 1)
+
+
 def decimal(value: Fraction, digits: int = 10) -> str:
     """Format a number of any size in decimal notation.
 
@@ -98,34 +106,9 @@ def decimal(value: Fraction, digits: int = 10) -> str:
     number = as_float(value)
     if number is not None:
         return f"{number:.{digits}g}"
-    exponent = math.floor(log10(value))
-    mantissa = str(_scaled(abs(value), digits - 1 - exponent, digits))
-    # rounding may carry, and the logarithm may be inexact near a power of ten: the number of digits decides
-    exponent += len(mantissa) - digits
-    sign = "-" if value < 0 else ""
-    rest = f".{mantissa[1:digits]}" if digits > 1 else ""
-    return f"{sign}{mantissa[0]}{rest}e{exponent:+d}"
-
-
-def _scaled(value: Fraction, power: int, digits: int) -> int:
-    """Return round(value * 10**power), a number with about `digits` digits; only leading bits are used if they are
-    sufficient.
-    """
-    with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
-        near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
-        off = near - near.to_integral_value()
-        # 30 guard digits: the error of `off` is far below 1e-10
-        if abs(abs(off) - Decimal("0.5")) > Decimal("1e-10"):
-            return int(near.to_integral_value())
-    exact: Fraction = value * Fraction(10) ** power
-    return round(exact)  # a tie, or almost one: all digits are needed
-
-
-def _leading(number: int) -> Decimal:
-    """Return a long positive integer as a Decimal rounded to the precision of the context."""
-    # 1024 bits are about 308 digits, far more than the precision of the context
-    cut = max(number.bit_length() - 1024, 0)
-    return Decimal(number >> cut) * Decimal(2) ** cut
+    # a quotient of Decimals is rounded correctly, whatever the length of its terms
+    with localcontext(Context(prec=digits, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
+        return f"{Decimal(value.numerator) / Decimal(value.denominator):.{digits - 1}e}"
 
 
 _PLAIN, _SHORT = 2000, 600
@@ -136,8 +119,7 @@ _PLAIN, _SHORT = 2000, 600
 def fraction_text(value: Fraction | int) -> str:
     """Format an integer or Fraction of any size with all digits, as `str` does.
 
-    Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. This function
-    converts by divide and conquer in almost linear time, and does not change the limit of the process.
+    Python refuses to convert integers beyond 4300 digits. This function does not change the limit of the process.
 
     >>> fraction_text(Fraction(-254, 19)), len(fraction_text(7**20_000))
     ('-254/19', 16902)
@@ -155,8 +137,7 @@ def read_fraction(text: str) -> Fraction:
     top, _, bottom = text.partition("/")
     if max(len(top), len(bottom)) <= _SHORT:
         return Fraction(text)
-    sign, top = (-1, top[1:]) if top.startswith("-") else (1, top)
-    return coprime(sign * _integer(top), _integer(bottom or "1"))
+    return coprime(int(Decimal(top)), int(Decimal(bottom or "1")))
 
 
 def abridged_text(value: Fraction | int, most: int = 40) -> str:
@@ -228,36 +209,6 @@ def count_digits(number: int) -> int:
     return nearest + (number >= ten)
 
 
-def _integer(digits: str) -> int:
-    if len(digits) <= _SHORT:
-        return int(digits)
-    half = len(digits) // 2
-    ten: int = 10**half
-    return _integer(digits[:-half]) * ten + _integer(digits[-half:])
-
-
 def _digits(number: int) -> str:
-    if number.bit_length() <= _PLAIN:
-        return str(number)
-    # `Inexact` is trapped: rounding would raise an error, not print wrong digits
-    with localcontext(Context(prec=MAX_PREC, Emax=MAX_EMAX, Emin=-MAX_EMAX, traps=[Inexact])):
-        return ("-" if number < 0 else "") + str(_to_decimal(abs(number), abs(number).bit_length(), {}))
-
-
-def _to_decimal(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
-    """Convert an integer of the given number of bits to a Decimal by divide and conquer."""
-    if bits <= _PLAIN:
-        return Decimal(number)
-    half = bits >> 1
-    if half not in powers:
-        powers[half] = _power_of_two(half, powers)
-    upper = _to_decimal(number >> half, bits - half, powers)
-    return upper * powers[half] + _to_decimal(number & ((1 << half) - 1), half, powers)
-
-
-def _power_of_two(exponent: int, powers: dict[int, Decimal]) -> Decimal:
-    if exponent <= _PLAIN:
-        return Decimal(1 << exponent)
-    half = exponent >> 1
-    root = powers.get(half) or _power_of_two(half, powers)
-    return root * root * (1 << exponent % 2)
+    # Decimals have no limit on their number of digits, and their constructor never rounds
+    return str(number) if number.bit_length() <= _PLAIN else str(Decimal(number))

@@ -39,7 +39,7 @@ class FactoredRatios:
         self.top[at], self.bottom[at] = top, bottom
 
     def follow(self, at: int, parent: int, a: int, b: int) -> None:
-        """Define a number as a / b times a known number; a and b are short."""
+        """Define a number as a / b times a known number; a and b are integers of few digits."""
         n, d = times(self.top[parent], self.bottom[parent], a, b)
         self.parent[at] = parent
         if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:

@@ -45,9 +45,7 @@ class DisjointSets(Generic[V]):
         self._above: dict[V, V] = {}
 
     def find(self, thing: V) -> V:
-        """Return the representative of an element's set; it is the same for all elements of the set until sets are
-        merged.
-        """
+        """Return the representative of an element's set, the same for all its elements until sets are merged."""
         above = self._above
         while (head := above.setdefault(thing, thing)) != thing:
             above[thing] = above[head]  # path halving
@@ -94,6 +92,7 @@ class RatioSets(Generic[V]):
         """Record that the second quantity is `ratio` times the first, unless their ratio is already known."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         if root != other:
+            # the ratio of the representatives follows from the ratio of their members
             self._above[other] = root, ratio * times / multiple
 
     def ratio(self, first: V, second: V) -> Fraction | None:

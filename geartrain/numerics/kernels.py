@@ -17,11 +17,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cached_property, update_wrapper
 from hashlib import sha256
 from importlib import import_module
-from importlib.util import find_spec
 from threading import current_thread, main_thread
 from types import CodeType, FunctionType, ModuleType
 from typing import Any, Generic, ParamSpec, TypeVar, cast
@@ -49,18 +48,12 @@ def compilation() -> Iterator[None]:
     Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
     finalised. Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
     """
-    with _compilation_events(), _interruptible():
-        yield
-
-
-@contextmanager
-def _compilation_events() -> Iterator[None]:
-    if not _listeners:
-        yield
-        return
-    event = import_module("numba.core.event")
-    event.Listener.register(_Listener)
-    with event.install_listener("numba:compile", _Listener()):
+    with ExitStack() as opened:
+        if _listeners:
+            event = import_module("numba.core.event")
+            event.Listener.register(_Listener)
+            opened.enter_context(event.install_listener("numba:compile", _Listener()))
+        opened.enter_context(_interruptible())
         yield
 
 
@@ -139,10 +132,6 @@ class Kernel(Generic[P, R]):
         """Return the compiled function if `fast`, else the function in plain Python."""
         return self.compiled if fast else self
 
-    def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
-        """Return the function with some of the kernels that it calls directly replaced by others, by name."""
-        return Kernel(cast("Callable[P, R]", self._copy_with(kernels)))
-
     def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
         """Return a copy of the function in which some global names refer to other objects."""
         own = self._function
@@ -189,7 +178,7 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
     Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """
     if fast is None:
-        return seconds >= _PAYS and find_spec("numba") is not None and usable()
+        return seconds >= _PAYS and usable()
     if fast:
         _numba()
     return fast

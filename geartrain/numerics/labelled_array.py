@@ -43,6 +43,7 @@ class LabelledArray(Tabular, Result):
     def __post_init__(self) -> None:
         if self.values.shape != tuple(len(names) for names in self.labels):
             raise ValueError(f"shape {self.values.shape} does not fit the labels of {self.axes}")
+        # the instance is frozen, and so must its array be
         self.values.flags.writeable = False
 
     def __getitem__(self, key: str | tuple[str, ...]) -> Any:
@@ -102,9 +103,7 @@ class LabelledArray(Tabular, Result):
 
 
 def _shown(count: int) -> list[int | None]:
-    """Return the displayed positions of an axis: all of them, or the first and the last positions with None between
-    them.
-    """
+    """Return the displayed positions of an axis: all, or the first and the last ones with None between them."""
     if count <= _MOST:
         return list(range(count))
     return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]

@@ -6,7 +6,7 @@ the result of `make` whenever the attribute is read.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from typing import TYPE_CHECKING, Any
 
 import networkx as nx
@@ -29,8 +29,8 @@ class Lazy:
         return self._value
 
 
-class LazyDict(dict[str, Any]):
-    """Dictionary that computes its `Lazy` values when they are read; callers get only computed values.
+class LazyDict(MutableMapping[str, Any]):
+    """Mapping that computes its `Lazy` values when they are read; callers get only computed values.
 
     >>> requested = []
     >>> data = LazyDict(id="a", cost=Lazy(lambda: requested.append("cost") or 7))
@@ -40,65 +40,46 @@ class LazyDict(dict[str, Any]):
     (7, 7, {'id': 'a', 'cost': 7}, ['cost'])
     """
 
-    __slots__ = ()
+    __slots__ = ("_stored",)
+
+    def __init__(self, *values: Any, **more: Any) -> None:
+        self._stored: dict[str, Any] = dict(*values, **more)
 
     def __getitem__(self, key: str) -> Any:
-        value = super().__getitem__(key)
+        value = self._stored[key]
         return value() if isinstance(value, Lazy) else value
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        self._stored[key] = value
+
+    def __delitem__(self, key: str) -> None:
+        del self._stored[key]
 
     def __iter__(self) -> Iterator[str]:
-        # needed: dict(...) and update(...) copy stored values directly from a dictionary with the inherited __iter__
-        return super().__iter__()
+        return iter(self._stored)
 
-    def get(self, key: str, default: Any = None) -> Any:
-        """Return the value of a key, or `default` if the key is missing."""
-        if key not in self:
-            return default
-        return self[key]
+    def __len__(self) -> int:
+        return len(self._stored)
 
-    def pop(self, key: str, *default: Any) -> Any:
-        """Remove a key and return its value."""
-        value = super().pop(key, *default)
-        return value() if isinstance(value, Lazy) else value
-
-    def setdefault(self, key: str, default: Any = None) -> Any:
-        """Return the value of a key, inserting `default` first if the key is missing."""
-        super().setdefault(key, default)
-        return self[key]
-
-    def values(self) -> Any:
-        """Return all values; lazy values are computed."""
-        return self._made().values()
-
-    def items(self) -> Any:
-        """Return all items; lazy values are computed."""
-        return self._made().items()
+    def __contains__(self, key: object) -> bool:
+        return key in self._stored
 
     def copy(self) -> dict[str, Any]:
         """Return a plain dictionary of all values; lazy values are computed."""
-        return self._made()
+        return dict(self)
 
-    def __eq__(self, other: object) -> bool:
-        return self._made() == other
+    def __or__(self, other: Mapping[str, Any]) -> dict[str, Any]:
+        return dict(self) | dict(other)
 
-    def __ne__(self, other: object) -> bool:
-        return not self == other
-
-    __hash__ = None
-
-    def __or__(self, other: Mapping[str, Any]) -> Any:  # type: ignore[override]
-        return self._made() | dict(other)
+    def __ror__(self, other: Mapping[str, Any]) -> dict[str, Any]:
+        return dict(other) | dict(self)
 
     def __repr__(self) -> str:
-        stored = {key: super(LazyDict, self).__getitem__(key) for key in self}
-        shown = (f"{key!r}: {'...' if isinstance(value, Lazy) else repr(value)}" for key, value in stored.items())
+        shown = (f"{key!r}: {'...' if isinstance(value, Lazy) else repr(value)}" for key, value in self._stored.items())
         return "{" + ", ".join(shown) + "}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return LazyDict, (self._made(),)
-
-    def _made(self) -> dict[str, Any]:
-        return {key: self[key] for key in self}
+        return LazyDict, (dict(self),)
 
 
 if TYPE_CHECKING:

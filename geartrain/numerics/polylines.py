@@ -21,9 +21,8 @@ def simplified(points: Floats, tolerance: float) -> list[int]:
     [0, 2, 3, 4]
     """
     kept = {0, len(points) - 1}
-    waiting = [
-        (0, len(points) - 1)
-    ]  # a stack, because recursion could be too deep for a flank with thousands of points
+    # a stack, because recursion could be too deep for a flank with thousands of points
+    waiting = [(0, len(points) - 1)]
     while waiting:
         first, last = waiting.pop()
         if last - first < 2:

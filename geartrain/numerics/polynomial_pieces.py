@@ -34,9 +34,7 @@ _GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of p
 
 
 class PolynomialPiece(NamedTuple):
-    """Piece of a curve: end parameters, coefficients of powers of u in [-1, 1], shape (COUNT, k), maximum errors, shape
-    (k,).
-    """
+    """Piece of a curve: ends, coefficients of powers of u in [-1, 1], shape (COUNT, k), maximum errors, shape (k,)."""
 
     start: float
     end: float
@@ -58,20 +56,14 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
     if tail <= _NOISE and min(half[1] for half in halves) > tail / 4:
         return [piece]  # bisecting a smooth curve reduces the tail far more: the rest is noise
     if depth == _DEEPEST or not np.isfinite(tail):
-        raise RangeError(
-            Problem(
-                f"a curve cannot be interpolated near parameter {start:.6g}",
-                "the curve is not smooth or not finite there",
-                "split it into curves at its kinks, or use another parameter",
-            )
-        )
+        what = f"a curve cannot be interpolated near parameter {start:.6g}"
+        why = "the curve is not smooth or not finite there"
+        raise RangeError(Problem(what, why, "split it into curves at its kinks, or use another parameter"))
     return fitted(curve, start, middle, depth + 1) + fitted(curve, middle, end, depth + 1)
 
 
 def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple[PolynomialPiece, float]:
-    """Return the piece that interpolates the curve at Chebyshev nodes, and the relative size of its last
-    coefficients.
-    """
+    """Return the interpolant of the curve at Chebyshev nodes, and the relative size of its last coefficients."""
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
     t[0], t[COUNT - 1] = start, end  # rounding must not move a node outside, where the curve may be undefined
@@ -86,9 +78,7 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Return value and derivative at u of the pieces with index `piece`; `coefficients` has the shape (COUNT,
-    pieces).
-    """
+    """Return value and derivative at u of the pieces with index `piece`; `coefficients` has shape (COUNT, pieces)."""
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
     for row in coefficients[::-1]:  # Horner's rule in place for value and derivative
@@ -138,9 +128,7 @@ def ends(coefficients: Floats) -> Floats:
 
 
 def _turns(column: Floats) -> Floats:
-    """Return approximate stationary points u of a polynomial; their errors have only second-order effects on its
-    value.
-    """
+    """Return approximate stationary points u of a polynomial; their errors have second-order effects on its value."""
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
     u = np.linspace(-1, 1, 257)
     at = _polynomial(slope, u)

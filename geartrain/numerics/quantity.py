@@ -126,9 +126,7 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm and numbers
-    without a unit.
-    """
+    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm or no unit."""
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
@@ -139,9 +137,7 @@ def same_kind(first: str | None, second: str | None) -> bool:
 
 
 def nearest_unit(unit: str, dimension: str) -> str:
-    """Return advice on an unknown unit: the most similar known unit, such as `rpm` for RPM, or all units of the
-    dimension.
-    """
+    """Return advice on an unknown unit: the most similar unit, such as `rpm` for RPM, or all of the dimension."""
     known = units_of(dimension)
     if re.search(r"\b(year|yr|month)s?\b", unit):
         return (
@@ -167,15 +163,6 @@ def base_unit(dimension: str) -> str:
     ('m', 'turn')
     """
     return next(unit for unit, (kind, factor) in UNITS.items() if kind == dimension and factor == 1)
-
-
-def bounds_of(dimension: str) -> tuple[Fraction, Fraction]:
-    """Return the minimum and maximum magnitude of a nonzero quantity in base units.
-
-    Lengths of bodies have the narrowest bounds. Dimensions that are used in float computations have narrower bounds
-    than others. "time or length" has the widest bounds.
-    """
-    return _BOUNDS.get(dimension, _EXACT)
 
 
 _MOST_DIGITS = 400  # longer numbers are typing errors or attacks, and squaring them would take minutes
@@ -255,11 +242,7 @@ class Figure:
         if sign is not None:
             below = Fraction(right)
             if not below:
-                raise PydanticCustomError(
-                    "number",
-                    "'{text}' divides by zero",
-                    {"text": text, "fix": "write a denominator other than 0"},
-                )
+                raise bad("number", f"'{text}' divides by zero", "write a denominator other than 0")
             return cls(_within(value / below, text), None, text)
         return cls(_within(value, text), _half_unit(left), text)
 
@@ -276,11 +259,7 @@ class Figure:
 
 def _not_a_number(raw: object) -> PydanticCustomError:
     shown = repr(raw) if len(repr(raw)) <= 40 else repr(raw)[:37] + "..."
-    return PydanticCustomError(
-        "number",
-        "{shown} is not a number",
-        {"shown": shown, "fix": "write an integer, a fraction 254/19 or 1:30, or a decimal"},
-    )
+    return bad("number", f"{shown} is not a number", "write an integer, a fraction 254/19 or 1:30, or a decimal")
 
 
 def _within(value: Fraction, text: str) -> Fraction:
@@ -293,6 +272,7 @@ def _half_unit(text: str) -> Fraction | None:
     mantissa, _, exponent = text.lower().partition("e")
     if "." not in mantissa and not exponent:
         return None
+    # an exponent moves the last decimal: 1e3 is known to half a thousand
     decimals = len(mantissa.partition(".")[2])
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
@@ -392,7 +372,7 @@ class Quantity:
         if match is None and (number := re.match(r"[\d.]+ +(?=.*[A-Za-z])", text[:_MOST_DIGITS])):
             known = units_of(dimension)
             fix = f"for example, write '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
-            raise PydanticCustomError("unit", "'{text}' has an unknown unit", {"text": text, "fix": fix})
+            raise bad("unit", f"'{text}' has an unknown unit", fix)
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
             if not plain and figure.value:
@@ -405,31 +385,19 @@ class Quantity:
             raise _not_a_number(raw)
         unit = SPELT.get(unit, unit)
         if unit not in UNITS and unit not in IRRATIONAL:
-            raise PydanticCustomError(
-                "unit",
-                "'{text}' has an unknown unit",
-                {"text": text, "fix": nearest_unit(unit, dimension)},
-            )
+            raise bad("unit", f"'{text}' has an unknown unit", nearest_unit(unit, dimension))
         quantity = cls(Figure.parse(match[1]).value, unit, text)
         if quantity.dimension not in dimension.split(" or "):
-            raise PydanticCustomError(
-                "unit",
-                "'{text}' is {found}, but {dimension} is required",
-                {
-                    "text": text,
-                    "found": _with_article(quantity.dimension or "number"),
-                    "dimension": " or ".join(map(_with_article, dimension.split(" or "))),
-                    "fix": f"use one of: {units_of(dimension)}",
-                },
-            )
+            found = _with_article(quantity.dimension or "number")
+            wanted = " or ".join(map(_with_article, dimension.split(" or ")))
+            what = f"'{text}' is {found}, but {wanted} is required"
+            raise bad("unit", what, f"use one of: {units_of(dimension)}")
         return _in_range(quantity, dimension)
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return the quantity if it is in the range of its dimension, in which products and squares are floats; else raise
-    an error.
-    """
-    low, high = bounds_of(dimension)
+    """Return the quantity; raise an error outside of the range in which products and squares of its kind are floats."""
+    low, high = _BOUNDS.get(dimension, _EXACT)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity
     noun = _with_article(quantity.dimension or dimension)
@@ -458,11 +426,8 @@ def millimetres(length: Quantity) -> Fraction:
 
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     first = "mm" if dimension.startswith("length") else units_of(dimension).split(", ")[0]
-    return PydanticCustomError(
-        "unit",
-        "'{text}' has no unit",
-        {"text": text, "fix": f"for example, write '{text} {first}'; units: {units_of(dimension)}"},
-    )
+    fix = f"for example, write '{text} {first}'; units: {units_of(dimension)}"
+    return bad("unit", f"'{text}' has no unit", fix)
 
 
 def _with_article(noun: str) -> str:

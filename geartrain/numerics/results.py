@@ -178,6 +178,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
             return None
     except OverflowError:  # more items than `len` can return
         return None
+    # short tuples of numbers and names are shown, other containers by their length only
     if isinstance(values, tuple) and len(values) <= 4 and not hasattr(values, "_fields"):
         parts = [brief(each) for each in values]
         text = f"({', '.join(part or '-' for part in parts)})"
@@ -220,6 +221,7 @@ class Tabular(Shown):
         """Return the meaning of one column; "" if it is unknown."""
         own: Any = type(self)
         row = getattr(modules[own.__module__], self.ROW or own.__name__)
+        # a column of the row class has precedence over a field of the result with the same name
         known = {**field_docs(own), **field_docs(row), **self.MEANINGS}
         exact = known.get(column) or _property_doc(getattr(row, column, None))
         return exact or next((text for name, text in known.items() if fnmatchcase(column, name)), "")
@@ -299,16 +301,16 @@ def _cell(value: object) -> str:
     return escape(value) if isinstance(value, str) else f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def imported_function(room: str, name: str) -> Callable[..., Any]:
+def imported_function(module: str, name: str) -> Callable[..., Any]:
     """Import the function that draws or describes a result, by name.
 
     Modules that draw import modules that calculate, not the reverse. Results call drawing code only through this
     function, by name, when they are displayed.
 
-    room   module or package below `geartrain`
-    name   name of the public function or class in it
+    module   module or package below `geartrain`
+    name     name of the public function or class in it
     """
-    found: Callable[..., Any] = getattr(import_module(f"geartrain.{room}"), name)
+    found: Callable[..., Any] = getattr(import_module(f"geartrain.{module}"), name)
     return found
 
 
@@ -350,9 +352,7 @@ class Key:
     of: str = ""
     """Path of the attribute, `part.attribute` for an attribute of a part, "." for the object; by default `name`."""
     to: Callable[[Any], Any] | None = None
-    """Function that converts each number or object in the attribute, at any depth; its return annotation is the type in
-    the data.
-    """
+    """Function that converts each number or object in the attribute; its return annotation is the type in the data."""
     keys: tuple[str | Key, ...] = ()
     """Keys of each object in the attribute, if they differ from the keys of its class."""
 
@@ -440,6 +440,7 @@ def _plain_data(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]
         if key.name:
             found[key.name] = value
         else:
+            # a key without a name merges the keys of a part; a part that is None has none
             found |= value or {}
     return found
 

@@ -1,8 +1,8 @@
-"""Rounding in float64: error-free transformations of sums and products, and a priori error bounds.
+"""Rounding in float64: error-free transformations of sums and products, and constants of a priori error bounds.
 
 The relative error of a term after n roundings is at most n u / (1 - n u) (Higham, Accuracy and Stability of Numerical
-Algorithms, section 3.1). The bounds are of first order in u, times `SLACK`. They are valid without underflow and
-overflow, which the caller must ensure.
+Algorithms, section 3.1). Bounds are of first order in u, times `SLACK`. They are valid without underflow and overflow,
+which the caller must ensure.
 """
 
 from __future__ import annotations
@@ -45,21 +45,3 @@ UNIT_ROUNDOFF = 2.0**-53
 
 SLACK = 1 + 1e-6
 """Safety factor for the roundings of the bounds themselves and for the terms of second order."""
-
-
-def sum_error(roundings: int, size: Floats) -> Floats:
-    """Return a bound on the absolute error of a sum.
-
-    roundings   maximum number of roundings of one term, plus one for each term of the sum
-    size        sum of the absolute terms
-    """
-    return SLACK * roundings * UNIT_ROUNDOFF * size
-
-
-def quotient_error(value: Floats, off: Floats, room: Floats, beside: Floats) -> Floats:
-    """Return a bound on the absolute error of a computed quotient `value` whose numerator and denominator have errors.
-
-    off, beside   bounds on the errors of numerator and denominator
-    room          absolute denominator minus its error bound; no digit is certain if it is not positive
-    """
-    return SLACK * ((off + abs(value) * beside) / room + 2 * UNIT_ROUNDOFF * abs(value))

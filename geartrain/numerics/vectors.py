@@ -113,7 +113,5 @@ def beside(axis: Vector) -> Vector:
 
 
 def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
-    """Return the angle of u about the unit vector `axis` [rad], measured from `reference`, a unit vector perpendicular
-    to it.
-    """
+    """Return the angle of u about a unit vector `axis` [rad], from `reference`, a unit vector perpendicular to it."""
     return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # acos would lose half of the digits near 0

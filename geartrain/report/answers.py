@@ -299,8 +299,7 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
     """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or one
-    tooth
-    fewer.
+    tooth fewer.
     """
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
@@ -369,9 +368,7 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return a document on the outputs, targets and speeds of one state; None if the train of the answer is not
-    known.
-    """
+    """Return a document on the outputs, targets and speeds of one state; None if the answer's train is not known."""
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)
@@ -394,8 +391,7 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 def _errors(answer: Answer, link: str) -> str:
     """Return the condition number, estimated error and true error of a speed solved in floats, as a string; "" for an
-    exact
-    speed.
+    exact speed.
     """
     accuracy = answer.accuracy.get(link)
     if accuracy is None:

@@ -152,26 +152,7 @@ def cost(value: float) -> str:
 
 
 def describe_form_comparison(found: FormComparison) -> Document:
-    """Return a document that compares tooth forms with the 20 degree involute and lists the forms that cannot run.
-
-    Parameters
-    ----------
-    found : FormComparison
-        Result of `geartrain.teeth.form_comparison.compare_forms`; `to_dict()` returns its data.
-
-    Returns
-    -------
-    Document
-        Ratios for load on one tooth pair and for load shared by all pairs in contact; values of the involute.
-
-    Examples
-    --------
-    >>> from geartrain.teeth.conjugate import WheelPair
-    >>> from geartrain.teeth.form_comparison import compare_forms
-    >>> page = describe_form_comparison(compare_forms(WheelPair(24, 36), ["involute", "cycloidal"]))
-    >>> [row[:4] for row in page.sections[0].tables[0].rows]
-    [('involute', '0.5 + 0.5', '1.0000', '1.0000'), ('cycloidal', '0.5 + 0.5', '1.0021', 'inf')]
-    """
+    """Return a document that compares tooth forms with the 20 degree involute and lists the forms that cannot run."""
     text = (
         "Ratios to the 20 degree involute. Loss: mean power loss; stress: maximum Hertz pressure, infinite if the "
         "pressure angle is 0 at the pitch point; stress off pitch: the same more than a tenth of a pitch from the "

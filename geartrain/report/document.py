@@ -85,9 +85,7 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document of one table with the first `most` rows of a result's columns, and the number of
-    further rows.
-    """
+    """Return a document of one table with the first `most` rows of a result's columns, and the number of others."""
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
     more = [f"{count - most:,} more rows."] if count > most else []
@@ -195,9 +193,7 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, else shows it as
-    plain text.
-    """
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, and else shows its text."""
 
     cite: str
     url: str = ""
@@ -312,9 +308,7 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return the ratio output divided by input as `1 : n`, or as `n : 1` if the output is faster; a dash for
-    None or 0.
-    """
+    """Return output divided by input as `1 : n`, or as `n : 1` if the output is faster; a dash for None or 0."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:

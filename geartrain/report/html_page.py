@@ -26,9 +26,7 @@ WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""Content security policy for pages with a viewer: its frame inherits the policy, and hashes of its scripts are
-unknown.
-"""
+"""Content security policy of pages with a viewer, whose frame inherits it; hashes of its scripts are unknown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,22 +88,9 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return titles, paragraphs and tables of documents as HTML without the style and script of a page.
+    """Return documents as HTML for a notebook, without the style and script of a page; pictures are omitted.
 
-    Parameters
-    ----------
-    documents : sequence of Document
-        Documents to show; pictures and other extras of pages are omitted.
-
-    Returns
-    -------
-    str
-        HTML for a notebook. Texts are escaped.
-
-    Raises
-    ------
-    MissingExtraError
-        If jinja2 is not installed (extra `report`).
+    Raise `MissingExtraError` if jinja2 is not installed (extra `report`).
     """
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)

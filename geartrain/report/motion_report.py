@@ -355,9 +355,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" without such
-    pairs.
-    """
+    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" without such pairs."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -389,17 +387,15 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"The driver of {names} temporarily turns backwards. Then the other flanks drive, and the crossing of the "
             "backlash is not simulated."
         )
-    if left := [tally for tally in run.statistics if tally.error_within != 0 or tally.speed_within != 0]:
-        yield f"The run is too long to search every pitch: the extremes of {', '.join(map(_uncertainty_text, left))}."
+    if not all(tally.searched for tally in run.statistics):
+        from geartrain.dynamics.motion.superposition import Superposition
 
-
-def _uncertainty_text(tally: RunningStatistics) -> str:
-    error, speed = tally.error_within, tally.speed_within
-    if error is None or speed is None:
-        return f"{tally.name} may exceed the printed ones by any amount"
-    scale = abs(tally.mean) or 1.0  # for a mean speed of 0, relative to the input speed
-    by = f"{degrees(error):.2g} deg and {speed / scale:.2g} in speed"
-    return f"{tally.name} may exceed the printed ones by up to {by}"
+        bounds = Superposition(run.motion._forward if run.turns >= 0 else run.motion._backward).bounds
+        limits = (f"{name} {degrees(most):.5g} deg" for name, most in zip(run.motion.outputs, bounds, strict=True))
+        yield (
+            "The run is too long to search every pitch, so extremes are those of the computed positions; a shorter run "
+            f"is searched completely. The {run.motion._problem.deviation} p-p is at most {', '.join(limits)}."
+        )
 
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:

@@ -15,12 +15,10 @@ from geartrain.numerics.results import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import fault_text, joined_table, without_losses
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
-from geartrain.teeth.pair_results import friction_lock_at_speed
 from geartrain.teeth.rubbed_transmission import pair_friction
 from geartrain.teeth.triangular.triangular_mesh import (
     TriangularMesh,
     explain_clearance,
-    explain_friction_lock,
     triangular_figures,
 )
 from geartrain.teeth.triangular.triangular_transmission import contact_course
@@ -79,26 +77,10 @@ def collect_pair(
 ) -> PairDesign | TriangularPair | FormedPair:
     """Return the data on one pair of wheels outside a train.
 
-    Parameters
-    ----------
-    mesh : GearMesh
-        Mesh with its driving wheel.
-    outlines : sequence of WheelOutline
-        Outlines of the wheels that were constructed.
-    operation : PairOperation, optional
-        Operating conditions of the pair, for the impacts of triangular teeth.
+    outlines    outlines of the wheels that were constructed
+    operation   operating conditions, for the impacts of triangular teeth
 
-    Returns
-    -------
-    PairDesign, TriangularPair or FormedPair
-        Result class of conjugate teeth at their design distance, of triangular teeth, and of all other teeth.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> data = collect_pair(geartrain.load("planetary-24-18-60-involute").meshes[0]).to_dict()
-    >>> data["form"], data["teeth"], round(data["contact_ratio"], 3)
-    ('involute', [24, 18], 1.566)
+    The class depends on the teeth: conjugate at their design distance, triangular, or other.
     """
     if not isinstance(mesh, TriangularMesh):
         return _design(mesh, outlines) or FormedPair(mesh, tuple(outlines))
@@ -112,26 +94,8 @@ def describe_pair(
 ) -> Document:
     """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
-    Parameters
-    ----------
-    mesh : GearMesh
-        Mesh with its driving wheel.
-    outlines : sequence of WheelOutline
-        Outlines of the wheels that were constructed.
-    operation : PairOperation, optional
-        Operating conditions of the pair, for the impacts of triangular teeth.
-
-    Returns
-    -------
-    Document
-        Results of `collect_pair`, with the permitted range of a friction or clearance factor that is out of range.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> page = describe_pair(geartrain.load("planetary-24-18-60-involute").meshes[0])
-    >>> page.title, [section.title for section in page.sections]
-    ('Involute teeth 24/18 spur', ['Wheels', 'Path of contact', 'Losses and stresses', 'Friction'])
+    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
+    clearance factor that is out of range.
     """
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
@@ -183,24 +147,7 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(transmission: PinTransmission) -> Document:
-    """Return a document on a pin in a slot: mean ratio, amplitude, extreme speeds and friction.
-
-    Parameters
-    ----------
-    transmission : PinTransmission
-        Transmission function of the pin in the slot, with either one driving.
-
-    Returns
-    -------
-    Document
-        One section with the results of `geartrain.teeth.pair_results.pin_figures`.
-
-    Examples
-    --------
-    >>> from geartrain.teeth import PinToSlotTransmission
-    >>> describe_pin(PinToSlotTransmission(2, 1)).sections[0].tables[0].rows[0]
-    ('amplitude', '0.523598776 rad', '30 deg')
-    """
+    """Return a document on a pin in a slot, with either one driving: mean ratio, amplitude, speeds and friction."""
     from geartrain.teeth.pair_results import pin_figures
 
     found = pin_figures(transmission)
@@ -240,9 +187,7 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair with triangular teeth. For teeth that never touch, yield only sizes and
-    clearance.
-    """
+    """Yield the sections on a pair with triangular teeth; only sizes and clearance if the teeth never touch."""
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
@@ -266,8 +211,8 @@ def triangular_verdict(mesh: TriangularMesh) -> str:
         why, fix = explain_clearance(transmission, mesh.window)
         words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
     elif mesh.losses.locks:
-        what, why, fix = _friction_lock(mesh)
-        words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
+        (lock,) = mesh.friction_faults()
+        words = [f"Verdict: friction locks: {lock.what}.", f"Why: {lock.why}.", f"What to do: {lock.fix}."]
     return " ".join(word for word in words if word)
 
 
@@ -332,9 +277,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of every contact
-    interval.
-    """
+    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of contact intervals."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))
@@ -381,21 +324,13 @@ def _collisions(transmission: TriangularTransmission) -> Section:
     return Section("Collisions", (text,), (Table(header, rows),))
 
 
-def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
-    declared = mesh.wheels.friction_law
-    if declared is None:
-        return explain_friction_lock(mesh.transmission)
-    fault = friction_lock_at_speed(declared.law, mesh.transmission.locking_friction)
-    return fault.what, fault.why, fault.fix
-
-
 def _losses(mesh: TriangularMesh) -> Section:
     transmission = mesh.losses
     if (known := without_losses(mesh)) is not None:
         return known
     if transmission.locks:
-        what, why, _ = _friction_lock(mesh)
-        return Section("Friction", (f"{what}: {why}.",))
+        (lock,) = mesh.friction_faults()
+        return Section("Friction", (f"{lock.what}: {lock.why}.",))
     lines = [
         f"{mesh.friction_words}. Sliding efficiency: mean {transmission.efficiency_mean():.9f} at constant "
         f"driver torque (Eq. 34), {transmission.efficiency_at_constant_load():.9f} at constant load torque, minimum "

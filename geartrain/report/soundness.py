@@ -94,9 +94,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield the effects that the computed torques neglect, for each loaded state; nothing for teeth that cannot
-    turn.
-    """
+    """Yield the effects that computed torques neglect, for each loaded state; nothing if teeth cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:

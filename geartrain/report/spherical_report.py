@@ -122,9 +122,7 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return a document on tooth counts for which loops close and tips clear, best first, with counts of
-    rejected sets.
-    """
+    """Return a document on tooth counts for which loops close and tips clear, best first, and on rejected sets."""
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []
     for each in found:

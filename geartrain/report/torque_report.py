@@ -1,6 +1,4 @@
-"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns of the
-input.
-"""
+"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns."""
 
 from __future__ import annotations
 
@@ -167,7 +165,7 @@ def collect_torque_report(
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     """Return the torques of one state with the power flow and the efficiency in both directions."""
-    from geartrain.dynamics.torques.power_flow import find_power_flow, has_torque_units, watts_per_unit
+    from geartrain.dynamics.torques.power_flow import find_power_flow, watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
 
     declared, state, ways = train.declaration, found.state, drive_both_ways(train.mechanics, found.state)
@@ -178,7 +176,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
         found,
         DrivenWays(*map(DrivenFigures, ways)) if ways else None,
         watts_per_unit(declared, declared.case(state)),
-        has_torque_units(declared, state),
+        declared.has_torque_units(state),
         find_power_flow(found),
         {pair: impact.power for pair, impact in impacts.items()},
     )

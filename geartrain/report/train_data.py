@@ -216,6 +216,5 @@ def _has_strength(declared: Train, state: str | None) -> bool:
         return False
     if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):
         return False
-    from geartrain.dynamics.torques.power_flow import has_torque_units
 
-    return has_torque_units(declared, state)
+    return declared.has_torque_units(state)

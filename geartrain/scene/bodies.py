@@ -37,15 +37,12 @@ class BentWheel:
     """Flexible wheel of a strain wave gear in a layout, with the wave generator that deforms it."""
 
     wheel: str
-    """Name of the flexible wheel."""
     link: str
     """Link that is the wave generator."""
     axis: str
     """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from the generator's axis to the axis on which the wheel is declared: amplitude and direction of the wave
-    [mm].
-    """
+    """Vector from the generator's axis to the wheel's declared axis [mm]: amplitude and direction of the wave."""
     lobes: int
     """Number of lobes of the wave, the difference of the tooth counts of ring and wheel."""
 
@@ -71,10 +68,7 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return bodies and wheels with the flexible wheels on the axes of their generators, and the strain waves.
-
-    The arguments are not modified.
-    """
+    """Return new bodies and wheels, flexible wheels on their generators' axes, and the strain waves."""
     bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -110,10 +104,7 @@ def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of an internal gear, at most `height` [modules] inside the pitch circle.
-
-    The tooth has the shape of a tooth space of an external wheel.
-    """
+    """Return a nominal tooth of an internal gear, shaped as an external wheel's space, `height` [modules] high."""
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
     tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
@@ -154,10 +145,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """Return a tooth of a crown wheel, whose spaces are slightly wider than the given tooth of its mate.
-
-    section   one tooth of the mate: radius relative to its pitch radius and angle [rad], by increasing angle
-    """
+    """Return a crown wheel's tooth with spaces slightly wider than its mate's tooth `section` (radius, angle [rad])."""
     import numpy as np
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
@@ -170,10 +158,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread, as points around the axis of the worm.
-
-    height   addendum divided by the pitch radius
-    """
+    """Return the axial section of a worm's thread around its axis; `height` is addendum over pitch radius."""
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -200,10 +185,7 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angular thickness of a tooth at relative radius r [rad].
-
-    The flank is an involute, radial below the base circle, with the undercut of a rack.
-    """
+    """Return half the angular thickness [rad] of an involute tooth, undercut by a rack, at relative radius r."""
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
@@ -225,9 +207,7 @@ def _swept(z: float, r: float) -> float:
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
-    """Return a whole tooth, from the middle of one space to the middle of the next, from a flank that runs from root to
-    tip.
-    """
+    """Return a whole tooth, from the middle of one space to that of the next, from a flank from root to tip."""
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
@@ -272,10 +252,7 @@ def _role(stage: SceneContext, link: str) -> str:
 
 
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return the tooth profile of every wheel, as cut with the declared backlash, and notices.
-
-    Wheels that cannot be cut get nominal teeth. Each notice gives the reason why some wheels could not be drawn as cut.
-    """
+    """Return every wheel's tooth profile as cut, or nominal if it cannot be cut, and notices with the reasons."""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
@@ -289,9 +266,7 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield the reasons why planar wheels are not drawn as they are cut, each reason once, and flexible wheels without
-    a wave.
-    """
+    """Yield reasons why planar wheels are not drawn as cut, each once, and flexible wheels without a wave."""
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -401,9 +376,7 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle of a wheel's teeth, or of a worm's thread, relative to the axis [rad]; positive for a
-    right hand.
-    """
+    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad], positive for right hand."""
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)
@@ -433,11 +406,7 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power that is lost at each wheel's meshes; empty if no power loss can be
-    computed.
-
-    Half of the loss of a pair is assigned to each of its wheels.
-    """
+    """Return the fraction of input power lost at each wheel, half the loss of its pairs; empty if unknown."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

@@ -96,6 +96,7 @@ class _Mounting:
         self.turns: dict[str, float] = {}
         self.meetings: dict[str, tuple[tuple[Vector, Vector], int]] = {}
         self.mates: dict[str, list[Circuit]] = {}
+        self.pairs: list[Circuit] = []  # gear pairs whose wheels can be aligned with each other
         self.off: list[str] = []
         self.meshes: Mapping[str, GearMesh] = {mesh.name: mesh for mesh in stage.meshes}
         self.phases = {
@@ -105,18 +106,12 @@ class _Mounting:
             meeting = mesh_directions(stage, circuit) if circuit.kind == "gear" else None
             if meeting is not None:
                 self.meetings[circuit.id] = meeting
+                self.pairs.append(circuit)
                 for wheel in circuit.wheels:
                     self.mates.setdefault(wheel, []).append(circuit)
 
-    @property
-    def pairs(self) -> list[Circuit]:
-        """Gear pairs whose wheels can be aligned with each other."""
-        return [circuit for circuit in self.stage.train.circuits if circuit.id in self.meetings]
-
     def spread(self, first: Circuit) -> None:
-        """Place all wheels that meshes connect with a pair, by breadth-first search, except wheels that are already
-        placed.
-        """
+        """Place the wheels that meshes connect with a pair, by breadth-first search, unless already placed."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -139,31 +134,25 @@ class _Mounting:
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
         """Place the mate of a wheel that is already placed."""
-        position = self._position(circuit, own)
+        position = driving = self._position(circuit, own)
         if own == self._driver(circuit):
             self._set(circuit, 1 - own, position + self._ahead(circuit, position))
-            self._note_phase(circuit, position)
-            return
-        at = position - self._ahead(circuit)
-        for _ in range(_ROUNDS):  # fixed-point iteration: position and advance depend on each other
-            at = position - self._ahead(circuit, at)
-        self._set(circuit, 1 - own, at)
-        self._note_phase(circuit, at)
+        else:
+            driving = position - self._ahead(circuit)
+            for _ in range(_ROUNDS):  # fixed-point iteration: position and advance depend on each other
+                driving = position - self._ahead(circuit, driving)
+            self._set(circuit, 1 - own, driving)
+        if self._shift(circuit, driving):
+            self.off.append(circuit.id)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the distance by which a driver's tooth is ahead of the phase of its transmission function [pitches,
-        -1/2 to 1/2].
-        """
+        """Return how far a driver's tooth is ahead of its transmission function's phase [pitches, -1/2 to 1/2]."""
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
         # teeth repeat after a pitch, so the shift is reduced to the nearest equivalent phase
         shift = (position - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
         return shift if abs(shift) > _NEAR else 0.0
-
-    def _note_phase(self, circuit: Circuit, position: float) -> None:
-        if self._shift(circuit, position):
-            self.off.append(circuit.id)
 
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
         """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation
@@ -215,14 +204,11 @@ class _Mounting:
 
     def _way(self, circuit: Circuit, at: int) -> int:
         """Return 1 if a wheel turns in the positive sense about its body's direction, else -1."""
-        driver = self._driver(circuit)
-        setting = self.moved.driving.get(circuit.id)
-        forward = self._forward((circuit.i, circuit.j)[driver], circuit.carrier) if setting is None else setting.forward
+        driver, setting = self._driver(circuit), self.moved.driving.get(circuit.id)
+        links = (circuit.i, circuit.j)[driver], circuit.carrier
+        own, base = (self.stage.sense(link) * (self.stage.speed(link) or 0) for link in links)
+        forward = setting.forward if setting is not None else -1 if own < base else 1
         return forward if at == driver else forward * self.meetings[circuit.id][1]
-
-    def _forward(self, link: str, carrier: str) -> int:
-        own, base = self.stage.speed(link) or 0, self.stage.speed(carrier) or 0
-        return -1 if self.stage.sense(link) * own < self.stage.sense(carrier) * base else 1
 
     def _pitch(self, wheel: str) -> float:
         return 2 * pi / (self.stage.train.declaration.wheels[wheel][1].count or 1)
@@ -233,8 +219,7 @@ class _Mounting:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
                 "the driver of each of these pairs has several mates, and the first mesh determines its angle; driven "
-                "teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is "
-                "exact",
+                "teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is exact",
                 "",
             )
 
@@ -252,11 +237,7 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return the speeds of a train as functions of tooth counts, for the parts of its scene.
-
-    The result is None for a train without inputs or tooth counts, and for a train that is too strongly coupled or too
-    large.
-    """
+    """Return speeds as functions of tooth counts; None without inputs or counts, or if too coupled or too large."""
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
     driving_link = next((link for link, speed in case.inputs.items() if speed), None)
@@ -309,9 +290,7 @@ def _original(wheel: str, own: dict[str, str], link: str) -> str:
 
 
 def _parent(train: Train) -> str:
-    """Return the name with which a declaration can extend the train: the shipped train, or else the file that was
-    read.
-    """
+    """Return the name with which a declaration can extend the train: the shipped train, or the file read."""
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.quantity import turns_in
+from geartrain.numerics.results import Key
 from geartrain.numerics.vectors import Vector, dot, unit_or_z
 
 if TYPE_CHECKING:
@@ -27,9 +29,7 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """Train in one state, with its layout and the indices of its bodies and wheels, as the input of all parts of a
-    scene.
-    """
+    """Train in one state with its layout, as the input of all parts of a scene, with indices of bodies and wheels."""
 
     train: GearTrain
     answer: Answer
@@ -75,10 +75,7 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link divided by the speed of the driving link.
-
-        It is None if the speed is not determined, or if no link is driven.
-        """
+        """Return a link's exact speed over that of the driving link; None if undetermined or if none is driven."""
         found = self.speed(link)
         if found is None or self.driving_link is None:
             return None
@@ -103,9 +100,7 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if it is opposite to z or to the first declared parallel
-        axis.
-        """
+        """Return the unit direction of an axis, reversed if opposite to z or to the first declared parallel axis."""
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):
@@ -117,9 +112,7 @@ class SceneContext:
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the driving link in one time unit of the input (one minute for `100 rpm`); 1 if no link
-        is driven.
-        """
+        """Turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if none is driven."""
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration
@@ -157,3 +150,8 @@ def exact(value: Fraction | None) -> str | None:
 def rounded(value: Fraction | None) -> str:
     """Return a ratio as a decimal string; empty if the ratio is None."""
     return "" if value is None else decimal(value)
+
+
+def packed_key(name: str, kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> Key:
+    """Return the key of an array that is stored as base64 text of little-endian numbers of the given type."""
+    return Key(name, ".", to=lambda result: packed(getattr(result, name), kind))

@@ -18,10 +18,7 @@ class CountFormula(Shown):
     """
 
     wheels: Sequence[int]
-    """Tooth counts on which the formula depends, as indices into `SceneFormulas.wheels`.
-
-    An index occurs several times if equal planets share a count.
-    """
+    """Tooth counts of the formula as indices into `SceneFormulas.wheels`, repeated if equal planets share one."""
     numerator: Sequence[tuple[str, Sequence[int]]]
     """Terms of the numerator: a coefficient as a string, and exponents parallel to `wheels`, all 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]

@@ -87,10 +87,7 @@ def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return for each output the labels of the rows with a non-zero weight in that output.
-
-    Redundant rows have no weight.
-    """
+    """Return for each output the labels of the rows with a non-zero weight; redundant rows have no weight."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -151,9 +148,7 @@ _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the t
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
-    """Return every declared dial on which an output is read, once for each link that carries it and each pointer
-    axis.
-    """
+    """Return each declared dial with outputs, once for each link that carries it and each pointer axis."""
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
     width = _train_width(stage)
@@ -199,18 +194,14 @@ def _differences(line: Stroke) -> tuple[int, ...]:
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """Return the dial as a ball next to the axis of its pointer, which is used unless another pointer carries the
-    ball.
-    """
+    """Return the dial as a ball next to its pointer's axis, where it stays unless another pointer carries it."""
     place = stage.layout.axes.get(key[2])
     foot = (0.0, 0.0, 0.0) if place is None else place.point
     return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials, with each ball moved into the pointer of the link that carries it, if there is such a
-    pointer.
-    """
+    """Return the dials, with each ball moved into the pointer of the link that carries it, if there is one."""
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
 
@@ -243,9 +234,7 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
-    """Return the unit vector towards the reader of an output, along the axis of the output on the side that its dial
-    faces.
-    """
+    """Return the unit vector along an output's axis towards its reader, on the side that its dial faces."""
     declared = stage.train.declaration
     output = stage.outputs[name]
     along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
@@ -269,9 +258,7 @@ def _train_width(stage: SceneContext) -> float:
 
 
 def _side_width(stage: SceneContext, normal: Vector) -> float:
-    """Return the width of the side on which a dial is mounted [mm]; infinite for dials that face towards or away from
-    the viewer.
-    """
+    """Return the width of a dial's side [mm]; infinite for dials that face towards or away from the viewer."""
     # a cosine of 0.5 (60 degrees) separates dials on the front and back from dials on the sides
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
@@ -307,10 +294,7 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials, reduced in size so that they do not overlap; dials about one axis are nested.
-
-    Keys and their order are unchanged.
-    """
+    """Return the dials in the same order, reduced so that they do not overlap; dials about one axis are nested."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -336,10 +320,7 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state, in the order declared.
-
-    Hands on one dial are at increasing heights.
-    """
+    """Return a pointer for every output of the state, in the order declared; hands on one dial rise in order."""
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found = []
     for name in stage.outputs:
@@ -362,9 +343,8 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     # viewed against its axis, a positive angle is counter-clockwise
     sense = -1 if dot(stage.along(stage.train.kinematics.tree.axis(of)), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
-    circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]
-    order = {pair: at for at, pair in enumerate(pairs)}
-    circuits.sort(key=lambda circuit: order[circuit.id])
+    by_id = {circuit.id: circuit for circuit in stage.train.circuits}
+    circuits = [by_id[pair] for pair in pairs]
     bodies = dict.fromkeys(stage.body[link] for c in circuits for link in (c.j, c.i, c.carrier))
     wheels = dict.fromkeys(stage.wheel[wheel] for c in circuits if c.kind == "gear" for wheel in c.wheels)
     return Pointer(
@@ -399,10 +379,7 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext) -> SceneEpoch | None:
-    """Return the declared date with the turns of the driving link at that date.
-
-    The result is None if no date is declared, if the unit is not a time, or if no link is driven.
-    """
+    """Return the declared date in turns of the driving link; None without a date, a time unit or a driven link."""
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
@@ -418,16 +395,13 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the target speeds of an output relative to the driving link.
-
-    speed   speed of the output in the train's unit; a target without a sense takes the sense of the output
-    """
+    """Return an output's targets relative to the driving link, in the sense of its `speed` if they have none."""
     if stage.driving_link is None or speed is None:
         return ()
-    driving_link = stage.case.inputs[stage.driving_link]
+    driving_speed = stage.case.inputs[stage.driving_link]
     found = []
     for target in output.targets:
         goal = goal_of(stage.train.declaration, target)
         wanted = -goal.speed if not goal.signed and speed < 0 else goal.speed
-        found.append(PointerTarget(goal.label, fraction_text(wanted / driving_link), target.source or ""))
+        found.append(PointerTarget(goal.label, fraction_text(wanted / driving_speed), target.source or ""))
     return tuple(found)

@@ -92,14 +92,10 @@ class DialScale:
     radial: bool = False
     """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
     counted: int = 0
-    """Number of divisions after which declared numerals start again; 0 without declared numerals, when cells are
-    counted from 1.
-    """
+    """Number of divisions after which declared numerals restart; 0 without them, when cells are counted from 1."""
 
     def radius(self, turned: float) -> float:
-        """Return the relative radius of the scale after a number of turns from the inner end; for a circle always the
-        outer radius.
-        """
+        """Return the relative radius after a number of turns from the inner end; the outer radius for a circle."""
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
@@ -107,9 +103,7 @@ class DialScale:
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns. A pointer on a line reads the cell after that
-        line.
-        """
+        """Return the reading of a pointer after a number of turns; on a line, it reads the cell after the line."""
         along = turned % self.turns
         done = along / self.turns * self.divisions
         for name, first, span in self.names:
@@ -118,19 +112,13 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number with which a cell is read: its own number, or on a scale with numerals the number of the
-        line before the cell.
-        """
+        """Return the number by which a cell is read: its own, or that of the numbered line before the cell."""
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as a string, such as `Leo, degree 14`, with the glyph in that cell; empty without
-        divisions.
-
-        The surrounding scale is not read, because no declaration specifies which pointer is read on it.
-        """
+        """Return the reading, such as `Leo, degree 14`, with its cell's glyph; empty without divisions."""
         read, parts = self.read(turned), []
         if self.turns > 1:
             parts.append(f"turn {read.turn}")
@@ -177,10 +165,7 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals with their lines, by default up to twelve numerals from 0 on a circle without names.
-
-    A spiral, and a scale with names, has no numerals by default.
-    """
+    """Return the numerals and their lines: by default up to twelve from 0, on a circle without names only."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -280,10 +265,7 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield names, each in the middle of its divisions.
-
-    If names do not fit in the smallest letters, only every second to sixth name is engraved, or none.
-    """
+    """Yield names in the middles of their divisions; if they do not fit, only every second to sixth, or none."""
     radius = scale.outer - _BAND
     named = [part for part in scale.names if part[0]]
     # fewer names leave more space for each
@@ -301,18 +283,14 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _fitting(text: str, radius: float, turn: Fraction) -> float:
-    """Return the maximum height of the letters of a string along a part of a circle, in units of the radius of the
-    dial.
-    """
+    """Return the maximum height of a string's letters along a part of a circle, relative to the dial's radius."""
     return _FULL * 2 * pi * radius * float(turn) / max(text_length(text), 0.5)
 
 
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield the strokes of a string along a circle; if `turned`, strings below the centre are inverted, to be
-    readable.
-    """
+    """Yield a string's strokes along a circle; if `turned`, text below the centre is inverted to be readable."""
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
@@ -347,10 +325,7 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the groove and the cells inside it, which are as deep as the spacing of turns.
-
-    The first whole cell of a turn has its number.
-    """
+    """Yield the groove and the cells inside it, one turn deep; a turn's first whole cell has its number."""
     pitch = (scale.outer - scale.inner) / scale.turns
     every = -(-scale.divisions // (scale.turns * _MARKS))
     starts = {first for _, first, _ in scale.names}

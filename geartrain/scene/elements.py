@@ -60,10 +60,7 @@ class SceneHanger(Shown):
     """
 
     kind: Literal["pendulum", "line", "weight"]
-    """Kind of the part: pendulum, line or weight.
-
-    A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
-    """
+    """Kind of the part: a pendulum swings with its escape wheel; a weight falls on its line as the barrel turns."""
     body: int
     """Index of the body whose rotation moves the part."""
     point: Vector
@@ -109,15 +106,11 @@ class SceneBody(Shown):
     direction: Vector
     """Unit vector along the link's axis, in the reference direction of all axes that are parallel to it."""
     sense: int
-    """-1 if the declared axis points against `direction`, so that the speed about `direction` has the opposite sign;
-    else 1.
-    """
+    """-1 if the declared axis points against `direction`, which gives the speed the opposite sign; else 1."""
     speed: str | None
     """Exact speed about the declared axis, divided by the speed of the driving link; None if it is not determined."""
     shown: str | None
-    """Speed of the link at the declared inputs, in the train's unit: exact if the inputs are exact; None if not
-    determined.
-    """
+    """Speed of the link at the declared inputs, in the train's unit, exact if they are; None if undetermined."""
     decimal: str
     """Rounded speed of the link at the declared inputs, in the train's unit; empty if it is not determined."""
     start: float
@@ -153,9 +146,7 @@ class ToothProfile(Shown):
     height above the pitch cone, along the back cone.
     """
     hole: bool = False
-    """True if the profile is a closed curve, such as the pin of a lantern pinion. Its points then go once around
-    the curve.
-    """
+    """True if the profile is a closed curve, such as a lantern pinion's pin, whose points go once around it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,9 +203,7 @@ class SceneWheel(Shown):
     circuits: Sequence[str]
     """Names of the gear pairs to which the wheel belongs."""
     loss: float | None = None
-    """Fraction of the input power that is lost at the meshes of the wheel; None if the losses are not known, for
-    example without declared loads.
-    """
+    """Fraction of the input power that is lost at the wheel's meshes; None if unknown, as without loads."""
     helix: float = 0.0
     """Helix angle of the teeth, or of the thread of a worm, relative to the axis [rad]; positive for a right hand."""
     holes: Sequence[Sequence[float]] = ()
@@ -250,9 +239,7 @@ class ScenePair(Shown):
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
-    """Exact speed ratio of the pair's fundamental circuit: (w_i - w_k) / (w_j - w_k), equation (4) of
-    docs/theory.md.
-    """
+    """Exact speed ratio of the pair's circuit: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
     form: str
     """Tooth form of the pair; empty if its real teeth are not known."""
     text: str
@@ -295,9 +282,7 @@ class SceneCoupling(Shown):
     text: str
     """Equation of the coupling's fundamental circuit as a string."""
     slot_turn: float = 0.0
-    """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose
-    [rad]; 0 unless starting angles are declared.
-    """
+    """Angle from the line of `slot_at` and `pin_at` to the slot in the zero pose [rad]; 0 without starting angles."""
     pins_at: Sequence[Vector] = ()
     """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
     holes_at: Sequence[Vector] = ()
@@ -318,7 +303,6 @@ class SceneShiftElement:
     """
 
     id: str
-    """Name of the brake or clutch."""
     kind: Literal["brake", "clutch"]
     """Kind of the element: a brake, which fixes a body to the frame, or a clutch, which connects two bodies."""
     bodies: Sequence[int]

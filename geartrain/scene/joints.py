@@ -38,10 +38,7 @@ def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePai
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """Return the equation of a circuit as a string, such as `64 (b - frame) + 38 (c - frame) = 0`.
-
-    A name represents the declared speed of a link.
-    """
+    """Return a circuit's equation in declared speeds, such as `64 (b - frame) + 38 (c - frame) = 0`."""
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
@@ -83,9 +80,7 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield gear pairs whose real teeth cannot run, as dictionaries in the form of loops, with the reason and a
-    remedy.
-    """
+    """Yield pairs whose real teeth cannot run, in the form of loops (`_loop_data`), with reason and remedy."""
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -153,10 +148,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the axis of the pin's link to its first pin.
-
-    Pins in holes are placed midway between the axes that their link carries, if there are such axes.
-    """
+    """Return the unit vector from the pin link's axis to its first pin; pins in holes avoid carried axes."""
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
@@ -190,11 +182,7 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 
 
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the angle by which the slot in the zero pose deviates from the direction of its pin [rad].
-
-    A transmission function assumes that slot and pin are in line if both angles are 0. Declared starting angles may
-    differ.
-    """
+    """Return the slot's deviation from its pin in the zero pose [rad], which declared starting angles may cause."""
     setting = moved.driving.get(circuit.id)
     if setting is None:
         return 0.0
@@ -203,11 +191,7 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return pin radius and offset [mm]: as declared, otherwise from the placed axes, otherwise from default
-    proportions.
-
-    apart   distance between the placed axes [mm], to which declared sizes without a unit are scaled
-    """
+    """Return pin radius and offset [mm]: declared, or for axes placed `apart` [mm], or in default proportions."""
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
@@ -227,10 +211,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of the two links [mm].
-
-    If only one link has wheels, it is the height of its first wheel; without wheels, the height of the pin's axis.
-    """
+    """Return the height midway between the links' nearest wheels [mm], or of the only wheel, or of the pin's axis."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

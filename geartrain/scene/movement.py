@@ -10,13 +10,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.arrays import packed
 from geartrain.numerics.exact import fraction_text
-from geartrain.numerics.results import Key, Result, Shown, plain
-from geartrain.scene.context import SceneContext
+from geartrain.numerics.results import Result, Shown, plain
+from geartrain.scene.context import SceneContext, packed_key
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
@@ -38,13 +37,7 @@ class ErrorTable(Result):
     Movement : contains the tables of a scene.
     """
 
-    KEYS: ClassVar[tuple[str | Key, ...]] = (
-        "pair",
-        "period",
-        Key("breaks", "packed_breaks"),
-        Key("coefficients", "packed_coefficients"),
-        "uncertainty",
-    )
+    KEYS = ("pair", "period", packed_key("breaks"), packed_key("coefficients"), "uncertainty")
 
     pair: str
     """Name of the first gear pair or coupling with this transmission function."""
@@ -59,16 +52,6 @@ class ErrorTable(Result):
     """
     uncertainty: float
     """Maximum deviation of the table from the transmission error that it represents [rad]."""
-
-    @property
-    def packed_breaks(self) -> str:
-        """Breakpoints as a base64 string."""
-        return packed(self.breaks)
-
-    @property
-    def packed_coefficients(self) -> str:
-        """Coefficients as a base64 string, row by row."""
-        return packed(self.coefficients)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,9 +75,7 @@ class ErrorSource(Shown):
     transmission: int
     """Index of the pair's error table in `Movement.transmissions`."""
     cycles: str
-    """Exact number of periods of the transmission error per turn of the driving link; negative if the driver turns
-    backwards.
-    """
+    """Exact number of error periods per turn of the driving link; negative if the driver turns backwards."""
     start: float
     """Driver's forward angle S at the start, with all errors 0 [rad]."""
     sense: int
@@ -178,7 +159,6 @@ def tables_and_sources(
           about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
-    numbers: dict[tuple[float, bytes, bytes], int] = {}
     sources = []
     for source in composition.sources:
         transmission = tabulated(source.id, source.transmission)
@@ -190,7 +170,7 @@ def tables_and_sources(
         sources.append(
             ErrorSource(
                 pair=source.id,
-                transmission=numbers.setdefault(key, len(numbers)),
+                transmission=list(transmissions).index(key),
                 cycles=fraction_text(way * source.cycles),
                 start=source.start,
                 sense=source.sense,
@@ -244,7 +224,6 @@ class InitialPosition:
     error: float
     """Error of the driven side at S [rad]."""
     transmission: ToothTransmission
-    """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
         """Return the minimum error of the driven side [rad] at which an out-of-phase driver does not overlap it.
@@ -269,16 +248,11 @@ class MovementStart:
     """Initial positions, by pair or coupling with a transmission error."""
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
-    """Movement against the declared sense of the driving link, on the coast flanks; None if it is equal to the forward
-    movement.
-    """
+    """Movement on the coast flanks, against the driving link's sense; None if it equals the forward movement."""
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement of a train in its state.
-
-    It is still if no speed is determined, and the mean motion with a reason if the errors cannot be computed.
-    """
+    """Return the movement in a state: still if no speed is determined, mean with a reason if errors are unknown."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
@@ -329,11 +303,7 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement in reverse and notices.
-
-    The movement is None if it equals the forward movement `ahead`. If it cannot be computed, it is the mean motion, and
-    the notices give the reasons.
-    """
+    """Return the movement in reverse and notices: None if it equals `ahead`, or the mean motion if it fails."""
     try:
         composition = motion._backward
         _check_positions(composition, -float(motion.period or 1))
@@ -345,9 +315,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition, with kind `exact` if ratios are constant. Backlash may still cause
-    offsets.
-    """
+    """Return the movement of a composition: `exact` if ratios are constant, even if backlash causes offsets."""
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
@@ -371,9 +339,7 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Return the number of turns of the driving link after which all angles and errors repeat; None if the train does
-    not move.
-    """
+    """Return the turns of the driving link after which all angles and errors repeat; None if nothing moves."""
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

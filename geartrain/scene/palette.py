@@ -3,7 +3,7 @@
 Series differ in colour and in dashes; `series_dash` gives the number of distinct combinations. In print, areas differ
 in grey and hatch. Values are mapped to a scale of colours whose low end is close to the paper. In the light and the
 dark theme, any two of the ten colours, and each colour and the ink, remain distinguishable for readers with protanopia
-or deuteranopia (tests/scene/test_palette.py measures the CIEDE2000 difference under the simulation of Machado, Oliveira
+or deuteranopia (tests/scene/test_palette.py measures distances in CIE L*a*b* under the simulation of Machado, Oliveira
 and Fernandes 2009, A physiologically-based model for simulation of color vision deficiency, IEEE Trans. Vis. Comput.
 Graph. 15:1291). All colours have enough contrast to be read as text on their paper.
 """
@@ -46,9 +46,7 @@ class Theme:
     fault: str
     """Colour of errors and faulty parts."""
     fill: str
-    """Colour of faces of the object in a picture; `shade` is for faces that are turned away, `band` for flows and
-    marks.
-    """
+    """Colour of faces in a picture; `shade` is for faces that are turned away, `band` for flows and marks."""
     shade: str
     band: str
     scale: tuple[str, str, str]
@@ -138,8 +136,5 @@ def series_colour(at: int, theme: ThemeName = "light") -> str:
 
 
 def series_dash(at: int) -> Dash:
-    """Return the dashes of the series with an index, from 0 [line widths].
-
-    The first seventy combinations of colour and dashes are distinct, in print the first ten.
-    """
+    """Return a series' dashes [line widths] by its index; with the colours, 70 are distinct, in print 10."""
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

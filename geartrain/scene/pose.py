@@ -24,9 +24,7 @@ _ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, an
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Pose of a scene: angles A of all bodies about their directions [rad, modulo a turn], and rigid motions of the
-    bodies.
-    """
+    """Pose of a scene: angles A of the bodies about their directions [rad, modulo a turn], and rigid motions."""
 
     angles: Floats
     turned: Floats
@@ -47,10 +45,7 @@ class ScenePose:
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact turns of a body after `turns` of the driving link.
-
-    speed   speed relative to the driving link; a body with speed None does not turn
-    """
+    """Return the exact turns of a body at a relative speed, 0 if it is None, after `turns` of the driving link."""
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
@@ -94,9 +89,7 @@ def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
 
 
 def body_errors(scene: Scene, turns: Fraction) -> Floats:
-    """Return the error of each body's angle relative to its mean motion [rad]; zero for constant ratios without
-    offsets.
-    """
+    """Return the error of each body's angle relative to its mean motion [rad]; 0 for constant ratios."""
     movement = scene.movement
     delta = np.zeros(len(movement.sources))
     for step in movement.steps:
@@ -111,9 +104,7 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
-    """Compute the errors of a step in `delta` in place: directly if all drivers are known, else by fixed-point
-    iteration.
-    """
+    """Compute a step's errors in `delta` in place, directly if all drivers are known, else by iteration."""
     sources, known = list(step.sources), list(step.known)
     base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle
@@ -124,13 +115,9 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
             delta[at] = _delta(scene, scene.movement.sources[at], turns, float(each))
         if not step.own or np.abs(delta[sources] - before).max() < _CONVERGED:
             return
-    raise RangeError(
-        Problem(
-            f"the pose of '{scene.name}' does not converge",
-            "the fixed-point iteration for pairs that depend on each other diverges or is too slow",
-            "compute the motion with `GearTrain.motion`, or choose another number of turns",
-        )
-    )
+    why = "the fixed-point iteration for pairs that depend on each other diverges or is too slow"
+    fix = "compute the motion with `GearTrain.motion`, or choose another number of turns"
+    raise RangeError(Problem(f"the pose of '{scene.name}' does not converge", why, fix))
 
 
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:

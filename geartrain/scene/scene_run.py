@@ -13,15 +13,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tau
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.arrays import packed
 from geartrain.numerics.polylines import simplified
-from geartrain.numerics.results import Key, Result
+from geartrain.numerics.results import Result
 from geartrain.numerics.vectors import Vector, across, minus, plus, size, unit_or_z
+from geartrain.scene.context import packed_key
 from geartrain.wings import WingResult
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class LinkCourse(Result):
     SceneRun : contains a course for each body.
     """
 
-    KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
+    KEYS = ("rate", packed_key("samples", "<u4"), packed_key("angles", "<f4"))
 
     rate: float
     """Mean speed of the link about its declared axis in the replayed part [rad/s]."""
@@ -51,16 +51,6 @@ class LinkCourse(Result):
     """Indices of the simulation samples at which `angles` are stored. Shape (n,)."""
     angles: Floats
     """Angle that the link has turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
-
-    @property
-    def packed_samples(self) -> str:
-        """Entries of `samples` as base64 of little-endian uint32."""
-        return packed(self.samples, "<u4")
-
-    @property
-    def packed_angles(self) -> str:
-        """Entries of `angles` as base64 of little-endian float32."""
-        return packed(self.angles, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,19 +62,9 @@ class SceneContact(Result):
     SceneRun : contains the contacts of a run.
     """
 
-    KEYS: ClassVar[tuple[str | Key, ...]] = (
-        "name",
-        "kind",
-        "body",
-        "at",
-        "apart",
-        "coast",
-        "impact_rate",
-        "hardest",
-        Key("changes", "packed_changes"),
-        "states",
-        Key("impact_times", "packed_times"),
-        Key("impact_speeds", "packed_speeds"),
+    KEYS = (
+        *("name", "kind", "body", "at", "apart", "coast", "impact_rate", "hardest"),
+        *(packed_key("changes", "<u4"), "states", packed_key("impact_times"), packed_key("impact_speeds", "<f4")),
     )
 
     name: str
@@ -111,21 +91,6 @@ class SceneContact(Result):
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
     """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
-
-    @property
-    def packed_changes(self) -> str:
-        """Entries of `changes` as base64 of little-endian uint32."""
-        return packed(self.changes, "<u4")
-
-    @property
-    def packed_times(self) -> str:
-        """Entries of `impact_times` as base64 of little-endian float64."""
-        return packed(self.impact_times)
-
-    @property
-    def packed_speeds(self) -> str:
-        """Entries of `impact_speeds` as base64 of little-endian float32."""
-        return packed(self.impact_speeds, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,10 +181,7 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return the indices of the samples at which a contact changes, and the new states as letters.
-
-        Both are empty for contacts without flanks.
-        """
+        """Return indices of samples at which a contact changes, and new states as letters; empty without flanks."""
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
@@ -230,10 +192,7 @@ class ShownSamples:
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Return times since the first replayed sample [s] and closing speeds [rad/s] of a contact's impacts.
-
-        Impacts within one sample are merged into one impact with the first time and the maximum speed.
-        """
+        """Return a contact's impact times [s] and closing speeds [rad/s], with the impacts of one sample merged."""
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
         if not len(times):
@@ -299,10 +258,7 @@ def find_run(
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Return the tolerance of the stored angles of a link [rad], smaller for the driving link.
-
-    The page derives the ideal angles of all other links from the angle of the driving link.
-    """
+    """Return the tolerance of stored angles [rad], smaller for the driving link, which gives all ideal angles."""
     if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
@@ -321,9 +277,7 @@ def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield each contact with its kind, the body that carries the contact point, and the point in the zero pose
-    [mm].
-    """
+    """Yield each contact with its kind, the body that carries its point, and the point in the zero pose [mm]."""
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
@@ -335,10 +289,7 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the contact point of the pallets with the escape wheel, which is the largest wheel without mates [mm].
-
-    If all wheels of the link have mates, the largest wheel is used; without wheels, the origin.
-    """
+    """Return the pallets' contact point [mm]: on the link's largest wheel, if possible without mates, or the origin."""
     if not wheels:
         return (0.0, 0.0, 0.0)
     # an escape wheel has no mate among gears
@@ -356,6 +307,6 @@ def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
     if other.kind == "ring":
         one, other = other, one
     way = across(minus(other.centre, one.centre), one.direction)
-    if size(way) < 1e-9:
+    if size(way) < 1e-9:  # wheels on one axis have no line of centres
         way = one.reference
     return plus(one.centre, unit_or_z(way), one.radius)

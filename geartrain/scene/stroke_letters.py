@@ -129,9 +129,7 @@ _UNKNOWN = "0008585000"
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital of height 1 above the base line y = 0, and its width; a box for an unknown
-    letter.
-    """
+    """Return the strokes of a capital of height 1 on the base line y = 0, and its width; a box if unknown."""
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)
@@ -144,10 +142,7 @@ def _stroke(drawn: str) -> Stroke:
 
 
 def _rounded(corners: list[Point]) -> Iterator[Point]:
-    """Yield the points of a stroke with corners cut off at a quarter of their sides (Chaikin's algorithm).
-
-    End points are kept, unless a stroke is closed.
-    """
+    """Yield a stroke's points with corners cut at a quarter of their sides (Chaikin); open ends are kept."""
     closed = corners[0] == corners[-1]
     found = [] if closed else corners[:1]
     for (x, y), (u, v) in pairwise(corners):
@@ -189,9 +184,6 @@ def curved_text(text: str, height: float, radius: float, angle: float, inwards: 
         out, right = (sin(turned), cos(turned)), (cos(turned), -sin(turned))
         for stroke in letter_strokes(letter)[0]:
             yield tuple(
-                (
-                    (radius + v) * out[0] + u * right[0],
-                    (radius + v) * out[1] + u * right[1],
-                )
+                ((radius + v) * out[0] + u * right[0], (radius + v) * out[1] + u * right[1])
                 for u, v in ((way * (x * height - wide / 2), way * (y - 0.5) * height) for x, y in stroke)
             )

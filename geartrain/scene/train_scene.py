@@ -74,9 +74,7 @@ class DialFace(Shown):
     seated: bool = False
     """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
-    """Caption: the name of the dial. If dials on several axes have this name, the outputs that are read on this dial
-    follow in brackets.
-    """
+    """Caption: the dial's name, followed in brackets by its outputs if dials on several axes share the name."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
     """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and points in 1/4,000 of the
     radius. The x axis points to the reader's right and the y axis to the zero mark. The first point of a line is
@@ -144,16 +142,13 @@ class Pointer(Shown):
     speed: str | None
     """Exact speed of the output divided by the speed of the driving link; None if it is not determined."""
     shown: str | None
-    """Speed of the output at the declared inputs, in the train's unit: exact if the inputs are exact; None if not
-    determined.
-    """
+    """Speed of the output at the declared inputs, in the train's unit, exact if they are; None if undetermined."""
     decimal: str
     """Rounded speed of the output at the declared inputs, in the train's unit; empty if it is not determined."""
     sense: int
     """1 if a positive angle is clockwise for a reader of the dial, -1 if it is counter-clockwise."""
     text: str
-    """Sense of rotation of the pointer, such as `clockwise as read` or `at rest`; empty if its speed is not determined.
-    """
+    """Sense of the pointer, such as `clockwise as read` or `at rest`; empty if its speed is not determined."""
     pairs: Sequence[str]
     """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
@@ -171,10 +166,7 @@ class Pointer(Shown):
     reach: float = 0.0
     """Length of the hand relative to the radius of the scale; 0 for a pointer without a dial."""
     outline: Sequence[tuple[float, float]] = ()
-    """Outline of the hand relative to its length: distances from the axis, and half the width at each distance.
-
-    The outline is empty for a pointer without a dial.
-    """
+    """Outline relative to the hand's length: distances from the axis and half widths; empty without a dial."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,22 +225,15 @@ class Scene(Shown):
     notices: Sequence[Mapping[str, str]]
     """Problems of layout, teeth or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """Deviations of the bodies' angles while the driving link turns against its declared sense and the coast
-    flanks are in contact.
-
-    The value is None if these deviations are equal to `movement`.
-    """
+    """Deviations of angles with the driving link reversed, on the coast flanks; None if equal to `movement`."""
     unit_days: str | None = None
     """Length of the unit in days, exact, if the unit is a time; otherwise None."""
     elements: Sequence[SceneShiftElement] = ()
     """Brakes and clutches, each engaged or open in this state, in the order declared."""
     epoch: SceneEpoch | None = None
-    """Date that corresponds to a number of turns of the driving link; None if no date is declared, the unit is not a
-    time, or no link is driven.
-    """
+    """Date at a number of turns of the driving link; None without a date, a time unit or a driven link."""
     formulas: SceneFormulas | None = None
-    """Speeds as functions of tooth counts; None if they were not requested, do not exist, or the scene replays a run.
-    """
+    """Speeds as functions of tooth counts; None if not requested, not available, or for a replayed run."""
     asks: bool = True
     """True if outputs are declared, False if links are shown as outputs instead."""
     run: SceneRun | None = None
@@ -265,11 +250,7 @@ class Scene(Shown):
         return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the scene as plain data for JSON.
-
-        Arrays are encoded as base64 of little-endian numbers, row by row. The key `run` is included only for a scene
-        with a run.
-        """
+        """Return the scene as plain data, arrays as base64 of little-endian numbers, a run only if there is one."""
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:
             del named["run"]

@@ -63,6 +63,8 @@ def _word(args: list[str]) -> tuple[str, list[str]]:
     """Guess the intended search if its name is missing, and return its name and the arguments."""
     from geartrain.train.declaration_files import shipped
 
+    if args[0] == "epicyclic":
+        return "set", args[1:]
     if "--kind" in args:
         return "set", args
     if "--approximants" in args:

@@ -78,7 +78,11 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
         )
         for one in solutions
     ]
-    return Section("Solutions", (), [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
+    lines = [
+        "The ratio is output speed / input speed if the numerator wheels drive, input speed / output speed if they are "
+        "driven."
+    ]
+    return Section("Solutions", lines, [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
 
 
 def approximant_rows(found: Approximants) -> list[dict[str, Any]]:

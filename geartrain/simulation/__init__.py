@@ -5,7 +5,7 @@ in time with impacts and energy, vibration modes, contact pressure, root stress 
 
 contacts   moments of inertia, separation rates, and the contact model that is stepped
 steps      the equations of one step, the search for contacts, the energy balance
-time       runs and their figures, spectra, modes, step-by-step simulation
+time       runs and their results, spectra, modes, step-by-step simulation
 strength   pressures, stresses and wear of a loaded train: ISO 6336, Hertz, Lewis and Archard
 fmu        co-simulation units (FMI)
 answers    the results that commands print as JSON
@@ -89,41 +89,17 @@ __all__ = [
 ]
 
 _PLACES = {
-    **dict.fromkeys(("LinkInertia", "find_link_inertias"), "contacts.link_inertia"),
-    **dict.fromkeys(
-        ("PairSeparation", "SeparationRates", "find_separation", "find_tooth_impacts"), "contacts.separation_rate"
-    ),
-    **dict.fromkeys(("CoSimulationCase", "fmu_file"), "fmu.co_simulation"),
-    **dict.fromkeys(("StrengthReport", "collect_strength_report", "describe_strength"), "strength.strength_report"),
-    **dict.fromkeys(
-        (
-            "ArborStrength",
-            "FlankStrength",
-            "FlankWear",
-            "PairStrength",
-            "PinContact",
-            "PointContact",
-            "TrainStrength",
-            "WheelStrength",
-        ),
-        "strength.strength_results",
-    ),
-    "Simulation": "time.stepwise_simulation",
-    **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time.time_report"),
-    **dict.fromkeys(
-        (
-            "ContactInTime",
-            "EnergyAccount",
-            "ImpactList",
-            "OutputDeviation",
-            "ConvergedFigure",
-            "SpectrumPeak",
-            "TimeRun",
-        ),
-        "time.time_run",
-    ),
-    "time_run_figure": "time.time_run_plot",
-    **dict.fromkeys(("VibrationModes", "find_vibration_modes"), "time.train_in_time"),
+    "contacts.link_inertia": "LinkInertia find_link_inertias",
+    "contacts.separation_rate": "PairSeparation SeparationRates find_separation find_tooth_impacts",
+    "fmu.co_simulation": "CoSimulationCase fmu_file",
+    "strength.strength_report": "StrengthReport collect_strength_report describe_strength",
+    "strength.strength_results": "ArborStrength FlankStrength FlankWear PairStrength PinContact PointContact "
+    "TrainStrength WheelStrength",
+    "time.stepwise_simulation": "Simulation",
+    "time.time_report": "TimeReport collect_time_report describe_time_run",
+    "time.time_run": "ContactInTime ConvergedFigure EnergyAccount ImpactList OutputDeviation SpectrumPeak TimeRun",
+    "time.time_run_plot": "time_run_figure",
+    "time.train_in_time": "VibrationModes find_vibration_modes",
 }
 
-__getattr__ = lazy_names(__name__, _PLACES)
+__getattr__ = lazy_names(__name__, {name: place for place, names in _PLACES.items() for name in names.split()})

@@ -16,7 +16,7 @@ configuration, assembly                      axes, meshes and kinds of gear of a
 gear_sphere, gear_sizes                      mobility and assembly of a set; sizes of its gears
 pitch_cones                                  pitch and base cones of a pair
 tooth_count_search                           tooth numbers that nearly share one pitch (exhaustive search)
-axis_adjustment, symmetric_displacement      axes adjusted until all meshes have one pitch, or loops close (Newton)
+axis_adjustment                              axes adjusted until all meshes have one pitch, or loops close (Newton)
 """
 
 from __future__ import annotations
@@ -67,28 +67,15 @@ __all__ = [
 ]
 
 _PLACES = {
-    "Configuration": "configuration",
+    **dict.fromkeys(("spherical_divisibility_rule", "spherical_phasing"), "assembly"),
+    **dict.fromkeys(("Configuration", "to_train"), "configuration"),
+    **dict.fromkeys(("SphereSizing", "one_pitch", "size_gears"), "gear_sizes"),
     "GearSphere": "gear_sphere",
-    "GraphSet": "graph_set",
-    "NeighbourRatioWindow": "tooth_count_search",
-    "Polyhedron": "polyhedra",
-    "SphereSizing": "gear_sizes",
-    "SurveyRow": "polyhedron_gears",
-    "ToothCountCompromise": "tooth_count_search",
-    "ToothCountSuggestions": "tooth_count_search",
-    "from_graph": "graph_set",
-    "from_polyhedron": "polyhedron_gears",
-    "one_pitch": "gear_sizes",
-    "polyhedron": "polyhedra",
-    "ratio_windows": "tooth_count_search",
-    "size_gears": "gear_sizes",
-    "solid": "polyhedra",
-    "solid_names": "polyhedra",
-    "spherical_divisibility_rule": "assembly",
-    "spherical_phasing": "assembly",
-    "suggest_tooth_counts": "tooth_count_search",
-    "survey": "polyhedron_gears",
-    "to_train": "configuration",
+    **dict.fromkeys(("GraphSet", "from_graph"), "graph_set"),
+    **dict.fromkeys(("Polyhedron", "polyhedron", "solid", "solid_names"), "polyhedra"),
+    **dict.fromkeys(("SurveyRow", "from_polyhedron", "survey"), "polyhedron_gears"),
+    **dict.fromkeys(("NeighbourRatioWindow", "ratio_windows"), "tooth_count_search"),
+    **dict.fromkeys(("ToothCountCompromise", "ToothCountSuggestions", "suggest_tooth_counts"), "tooth_count_search"),
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -1,16 +1,17 @@
-"""Adjustment of gear axes until all meshes have one pitch (Levenberg's method), or until all loops close (Newton's
-method).
+"""Adjustment of gear axes until all meshes have one pitch (Levenberg's method), also with the symmetries of a solid, or
+until all loops close (Newton's method).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, azimuths, mesh_angles, moved, operating_pitch
+from geartrain.errors import GearTrainError, Problem
+from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, azimuths, moved, operating_pitch
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -21,34 +22,14 @@ if TYPE_CHECKING:
 Meshes = Sequence[tuple[int, int]]
 _MOST_STEPS = 80  # maximum number of steps of either method
 _EXACT = 1e-11
-"""Residual below which a fit is exact [rad, or pitch]; rounding causes about 1e-15."""
+"""Maximum difference of the logarithms of pitches below which they are equal; rounding causes about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
-"""Standard deviations [rad] of random displacements, which make tangencies independent that depend on each other by
-symmetry.
-"""
-_MOST_DENSE = 600  # meshes; the time of a dense singular value decomposition grows with the cube of their number
+"""Standard deviations [rad] of the random displacements that break the symmetry of a set."""
+_MOST_RETRIED = 600  # meshes; five fits of larger sets take more than a few seconds
+_SOLVED = 1e-13  # residual of a log pitch; rounding of axes leaves about 1e-15
 _PHASE_DAMPING = 1e-4  # keeps axes that neither loops nor pitches determine
 _LONGEST = 0.1
 """Maximum displacement of an axis in one step [rad]."""
-
-
-def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple[Floats, csr_array]:
-    """Return the tangency residual S_ij - asin(l z_i) - asin(l z_j) of every mesh [rad], and its Jacobian.
-
-    The columns of the Jacobian are two displacements of each axis along its `frames`, then the pitch l [radii of the
-    sphere]. Tooth numbers may be any positive numbers: `teeth` = sin rho and pitch 1 give the tangency of pitch cones.
-    """
-    from scipy.sparse import csr_array as sparse
-    from scipy.sparse import hstack
-
-    S, slopes = angle_rows(axes, meshes)
-    i, j = np.array(meshes).T
-    # kept below a crown gear, where the slope of the arc sine is infinite
-    sine = np.minimum(pitch * teeth, 1 - 1e-9)
-    widen = -teeth / np.sqrt(1 - sine**2)
-    cones = np.arcsin(sine)
-    J = hstack([slopes, sparse((widen[i] + widen[j])[:, None])], format="csr")
-    return S - cones[i] - cones[j], J
 
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
@@ -85,7 +66,7 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
 
 
 def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
-    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping.
+    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping, with J the derivative of `error`.
 
     For `damping` towards 0 it tends to the minimum-norm solution of J x = -error.
     """
@@ -102,7 +83,9 @@ def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
 
 @dataclass(frozen=True)
 class LoopCorners:
-    """Contacts of the gears in loops as parallel arrays: gear, next and previous gear, sign, and index of the loop."""
+    """Contacts of the gears in loops as arrays of equal length: gear, next and previous gear, sense of rotation, and
+    index of the loop. `count` is the number of loops.
+    """
 
     gear: Ints
     following: Ints
@@ -113,7 +96,7 @@ class LoopCorners:
 
 
 def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
-    """Return the corners of loops of gears; `side` is 1 or -1 for each gear, and opposite for meshing gears."""
+    """Return the corners of loops of gears; `side` is the sense of rotation of each gear, 1 or -1."""
     rows = [
         (gear, loop[(k + 1) % len(loop)], loop[k - 1], side[gear], at)
         for at, loop in enumerate(loops)
@@ -123,125 +106,90 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
     return LoopCorners(columns[0], columns[1], columns[2], columns[3], columns[4], len(loops))
 
 
-@dataclass(frozen=True)
-class AxisAdjustment:
-    """Adjusted axes, the pitch [radii of the sphere], and the residual at the end and after each step [rad for
-    `fit_pitch`, pitch for `fit_phases`].
+def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, seed: int = 0) -> tuple[Floats, list[float]]:
+    """Return axes near the given axes at which all meshes have one pitch, and the residual after each step.
+
+    Solutions are not unique; the fit returns a nearby solution. A symmetric set may have no solution with this
+    symmetry, so a fit that fails is repeated after random displacements of the axes by a few degrees. If the residual
+    of the returned axes exceeds rounding, no solution was found nearby.
     """
-
-    axes: Floats
-    pitch: float
-    residual: float
-    residuals: tuple[float, ...]
-
-    @property
-    def exact(self) -> bool:
-        """True if the conditions are satisfied to rounding."""
-        return self.residual < _EXACT
-
-
-def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int = 0) -> AxisAdjustment:
-    """Return axes near the given axes at which all meshes have one pitch, by Levenberg's method with minimum-norm
-    steps.
-
-    Solutions are not unique; the fit returns a nearby solution. If the tangencies depend on each other (symmetric
-    solids) and the fit fails, it is repeated after random displacements of the axes by a few degrees. If the result is
-    not `exact`, no solution was found nearby.
-    """
-    z = np.asarray(teeth, dtype=float)
     random = np.random.default_rng(seed)
-    residuals: list[float] = []
-    best: AxisAdjustment | None = None
+    history: list[float] = []
+    best = (np.inf, axes)
     for size in _TRIES:
         start = moved(axes, random.normal(size=(len(axes), 2)) * size) if size else axes
-        fit = _levenberg(start, meshes, z, pitch, residuals)
-        if best is None or fit.residual < best.residual:
-            best = fit
-        # only a symmetric configuration benefits from a random move
-        if best.exact or not tangencies_dependent(axes, meshes):
+        fitted, residuals = equalise_pitch(start, meshes, np.asarray(teeth, dtype=float))
+        history += residuals
+        if residuals[-1] < best[0]:
+            best = residuals[-1], fitted
+        if best[0] < _EXACT or len(meshes) > _MOST_RETRIED:
             break
-    assert best is not None
-    return AxisAdjustment(best.axes, best.pitch, best.residual, tuple(residuals))
+    return best[1], history
 
 
-def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
-    """Return True if the tangencies of cones about these axes are linearly dependent; False, without a test, above 600
-    meshes.
+def equalise_pitch(
+    axes: Floats, meshes: Meshes, teeth: Floats, movable: Collection[int] | None = None
+) -> tuple[Floats, list[float]]:
+    """Return axes at which the variance of the logarithm of the pitch has a local minimum, by Levenberg's method with
+    minimum-norm steps.
 
-    The test computes the rank of the derivative of the angles with respect to the axes and one more unknown, the pitch,
-    which changes all cones.
+    Minimum-norm steps keep all symmetries of the set. The residual after each step is the maximum magnitude of the
+    logarithm of a pitch divided by the mean pitch [1].
+
+    movable   gears whose axes may move; default all
     """
-    if len(meshes) > _MOST_DENSE:
-        return False
-    _, slopes = angle_rows(axes, meshes)
-    # numerical rank; one dimension is provided by the pitch
-    values = np.linalg.svd(slopes.toarray(), compute_uv=False)
-    return bool((values > 1e-9 * values[0]).sum() < len(meshes) - 1)
+    from scipy.sparse import csr_array, diags_array, hstack
 
-
-def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals: list[float]) -> AxisAdjustment:
-    error, J = tangency(axes, meshes, z, pitch)
+    # a frozen axis has derivatives 0
+    free = np.repeat([movable is None or gear in movable for gear in range(len(axes))], 2).astype(float)
+    level = csr_array(np.full((len(meshes), 1), -1.0))
+    logs, rows = pitch_rows(axes, meshes, teeth)
+    error = logs - logs.mean()
+    residuals = [float(np.abs(error).max())]
     # with almost no damping the first steps are those of Newton's method
-    size, damping = float(np.abs(error).max()), 1e-12
-    stalled = 0
+    damping, stalled = 1e-12, 0
     for _ in range(_MOST_STEPS):
-        step = minimum_step(J, error, damping)
-        step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max()), 1e-300))
-        tried = moved(axes, step[:-1].reshape(-1, 2))
-        # a step may at most halve the pitch, and no gear may exceed a crown gear
-        width = min(max(pitch + float(step[-1]), pitch / 2), (1 - 1e-9) / float(z.max()))
-        there, slopes = tangency(tried, meshes, z, width)
-        new = float(np.abs(there).max())
+        J = hstack([rows @ diags_array(free), level], format="csr")
+        step = minimum_step(J, error, damping)[:-1]
+        step *= min(1.0, _LONGEST / max(float(np.abs(step).max()), 1e-300))
+        tried = moved(axes, step.reshape(-1, 2))
+        logs, slopes = pitch_rows(tried, meshes, teeth)
+        there = logs - logs.mean()
+        stalled = stalled + 1 if np.abs(there).max() > 0.9 * residuals[-1] else 0
         better = float(there @ there) < float(error @ error)
-        stalled = stalled + 1 if new > 0.9 * size else 0
         if better:
-            axes, pitch, error, J, size = tried, width, there, slopes, min(new, size)
+            axes, error, rows = tried, there, slopes
         # Levenberg: less damping after a success, more after a failure
         damping = max(damping / 10, 1e-12) if better else damping * 100
         residuals.append(float(np.abs(error).max()))
         # converged to rounding, no further progress, or no descent at any damping
-        if size < 1e-15 or stalled > 12 or (stalled and size < 1e-13) or damping > 1e6:
+        if residuals[-1] < 1e-15 or stalled > 12 or (stalled and residuals[-1] < 1e-13) or damping > 1e6:
             break
-    return AxisAdjustment(axes, pitch, float(np.abs(error).max()), ())
+    return axes, residuals
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Return the predicted standard deviation of ln lambda after the first step of `fit_phases`."""
+    """Return the standard deviation of the logarithm of the pitch that is predicted after the first step of
+    `fit_phases`.
+    """
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
     logs, A = pitch_rows(axes, meshes, z)
     return float(np.std(logs + A @ phase_step(J, sums - np.round(sums), A, logs - logs.mean(), _PHASE_DAMPING)))
 
 
-def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> AxisAdjustment:
+def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> tuple[Floats, list[float]]:
     """Return axes near the given axes at which all loops close, and the variance of the logarithm of the pitch is
-    minimised.
+    minimised; also return the maximum closing error after each step [pitch].
 
     Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The sum of
     each loop becomes the integer that is nearest to the sum at the given axes.
     """
     z = np.asarray(teeth, dtype=float)
-    sums, _ = loop_sums(axes, corners, z)
-    # closing integers nearest to the given axes
+    sums, J = loop_sums(axes, corners, z)
     target = np.round(sums)
     residuals: list[float] = []
-    best = (np.inf, axes)
-    for taken in _phase_steps(axes, meshes, z, corners, target, residuals):
-        best = taken
-    residual, axes = best
-    S = mesh_angles(axes, meshes)
-    i, j = np.array(meshes).T
-    pitch = float(np.exp(np.log(operating_pitch(S, z[i], z[j])).mean()))
-    return AxisAdjustment(axes, pitch, residual, tuple(residuals))
-
-
-def _phase_steps(
-    axes: Floats, meshes: Meshes, z: Floats, corners: LoopCorners, target: Floats, residuals: list[float]
-) -> Iterator[tuple[float, Floats]]:
     previous = np.inf
-    sums, J = loop_sums(axes, corners, z)
-    residual = float(np.abs(sums - target).max(initial=0.0))
-    yield residual, axes
     for _ in range(_MOST_STEPS):
         logs, A = pitch_rows(axes, meshes, z)
         step = phase_step(J, sums - target, A, logs - logs.mean(), _PHASE_DAMPING)
@@ -249,19 +197,19 @@ def _phase_steps(
         step *= min(1.0, _LONGEST / max(longest, 1e-300))
         axes = moved(axes, step.reshape(-1, 2))
         sums, J = loop_sums(axes, corners, z)
-        residual = float(np.abs(sums - target).max(initial=0.0))
-        residuals.append(residual)
-        yield residual, axes
+        residuals.append(float(np.abs(sums - target).max(initial=0.0)))
         # converged, or limited by rounding
-        if longest < 1e-12 or (longest < 1e-7 and longest > previous / 2 and residual < 1e-12):
-            return
+        if longest < 1e-12 or (longest < 1e-7 and longest > previous / 2 and residuals[-1] < 1e-12):
+            break
         previous = longest
+    return axes, residuals
 
 
 def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
     """Return the step of a least squares problem with equality constraints, by one sparse Karush-Kuhn-Tucker system.
 
-    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s.
+    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s. The vector
+    `error` has the closing errors of the loops, `logs` the logarithms of the pitches; J and A are their derivatives.
     """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu
@@ -281,3 +229,81 @@ def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping:
     ).tocsc()
     right = np.concatenate([-(A.T @ logs), [float(logs.sum())], -error])
     return np.asarray(splu(system).solve(right)[:n])
+
+
+# --------------------------------------------------------------------------------------------- sets with symmetries
+
+
+@dataclass(frozen=True, eq=False)
+class SymmetricFreedom:
+    """Symmetries of a set of axes, and the displacements of the axes that keep these symmetries."""
+
+    matrices: Floats
+    """Orthogonal matrices of the symmetries, shape (order, 3, 3)."""
+    images: Ints
+    """Index of each gear's image under each symmetry, shape (order, gears)."""
+
+    def orbits(self) -> Ints:
+        """Return for each gear the index of the first gear in its orbit."""
+        first: Ints = self.images.min(axis=0)
+        return first
+
+    def mesh_orbits(self, meshes: Sequence[tuple[int, int]]) -> Ints:
+        """Return a number for each mesh; it is equal for meshes that the symmetries map to each other."""
+        pairs = np.sort(self.images[:, np.array(meshes, dtype=np.int64).reshape(-1, 2)], axis=2)
+        code: Ints = (pairs[..., 0] * self.images.shape[1] + pairs[..., 1]).min(axis=0)
+        return code
+
+    def symmetrised(self, axes: Floats) -> Floats:
+        """Return axes without the rounding errors that break the symmetries: the mean over all symmetries."""
+        mean = np.einsum("sgi,sij->gj", axes[self.images], self.matrices) / len(self.matrices)
+        return np.asarray(mean / np.linalg.norm(mean, axis=1)[:, None])
+
+    def freedom(self, gear: int, axis: Floats) -> Floats:
+        """Return an orthonormal basis of the directions in which a gear's axis may move, together with all its images.
+
+        The directions are perpendicular to the axis. Shape (0, 1 or 2, 3): none on an axis of rotation, one on a
+        mirror, because the symmetries that fix the gear must fix its direction of motion too.
+        """
+        # mean over the stabiliser: the projection onto its fixed vectors
+        kept = self.matrices[self.images[:, gear] == gear].mean(axis=0) - np.outer(axis, axis)
+        values, vectors = np.linalg.eigh((kept + kept.T) / 2)
+        # the mean over a group of matrices is a projection: eigenvalues 0 and 1, but for rounding
+        free: Floats = vectors[:, values > 0.5].T
+        return free
+
+
+def equal_pitch(
+    movement: SymmetricFreedom,
+    axes: Floats,
+    meshes: Sequence[tuple[int, int]],
+    teeth: Sequence[int],
+    movable: Collection[int],
+) -> Floats:
+    """Return the axes moved such that every mesh has the same pitch and all symmetries are kept, shape (gears, 3).
+
+    movable   indices of the gears that may move, as complete orbits
+
+    Logarithms of the pitches are equal within 1e-13. Raise `GearTrainError` if no solution is found near the given
+    axes.
+    """
+    z = np.asarray(teeth, dtype=float)
+    found = movement.symmetrised(equalise_pitch(axes, meshes, z, movable)[0])
+    logs, _ = pitch_rows(found, meshes, z)
+    left = float(np.abs(logs - logs.mean()).max())
+    if left > _SOLVED:
+        kinds = len(np.unique(movement.mesh_orbits(meshes)))
+        first = [int(gear) for gear in np.unique(movement.orbits()) if int(gear) in movable]
+        raise _refused(kinds, sum(len(movement.freedom(gear, axes[gear])) for gear in first), left)
+    return found
+
+
+def _refused(kinds: int, free: int, left: float) -> GearTrainError:
+    why = f"{kinds} kinds of mesh must have one pitch, and the symmetries leave {free} free parameters of the axes"
+    return GearTrainError(
+        Problem(
+            "no axes with one pitch for all meshes were found near the axes of the solid",
+            f"{why}; the best approximation deviates by up to {100 * left:.3g} %",
+            "change the tooth numbers, or omit exact=True to keep the axes of faces and vertices",
+        )
+    )

@@ -36,11 +36,6 @@ def angle_excess(u: Floats, i: Ints, j: Ints, target: Floats) -> Floats:
     return np.asarray(np.bincount(i, 2 * np.arctan(np.exp(u[j] - u[i])), len(u)) - target, dtype=float)
 
 
-def stiffness(u: Floats, i: Ints, j: Ints) -> Floats:
-    """Return the derivative of 2 atan(r_j/r_i) with respect to u_j for each pair: 1 / cosh(u_j - u_i)."""
-    return np.asarray(1 / np.cosh(u[j] - u[i]), dtype=float)
-
-
 def circle_vector(centre: complex, radius: float) -> Floats:
     """Return a circle of the plane as the vector (n, cos rho) / sin rho of its stereographic projection to the sphere.
 
@@ -49,17 +44,6 @@ def circle_vector(centre: complex, radius: float) -> Floats:
     """
     k = abs(centre) ** 2 - radius**2
     return np.array([centre.real, centre.imag, (k - 1) / 2, (k + 1) / 2]) / radius
-
-
-def line_vector(normal: complex, offset: float) -> Floats:
-    """Return the half-plane normal.x >= offset as a vector of the same kind as for a circle: (normal, offset,
-    offset).
-    """
-    return np.array([normal.real, normal.imag, offset, offset])
-
-
-def _stalls(residuals: Sequence[float]) -> bool:
-    return len(residuals) > 1 and residuals[-1] > residuals[-2] / 4
 
 
 def _no_packing(residual: float) -> RangeError:
@@ -87,7 +71,9 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the regions around each gear and the gears around each region, counterclockwise, as node numbers."""
+        """Return the regions around each gear and the gears around each region, counterclockwise, as numbers of nodes:
+        gears first, then regions.
+        """
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -110,10 +96,10 @@ class PlanarPacking:
         )
 
     def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
-        """Return the logarithms of all radii by Newton's method on a convex function; inf for the four circles through
-        infinity.
+        """Return the logarithms of all radii, and the maximum residual after each step [rad], by Newton's method on a
+        convex function. The four circles through infinity have the logarithm inf.
 
-        on_step   function called after each step; the maximum residual of each step [rad] is returned too
+        on_step   function called after each step
         """
         from scipy.sparse import coo_array
         from scipy.sparse.linalg import splu
@@ -130,7 +116,7 @@ class PlanarPacking:
         u, residuals = np.zeros(n), []
         excess = angle_excess(u, i, j, target)
         for _ in range(_MOST_STEPS):
-            w = stiffness(u, i, j)
+            w = 1 / np.cosh(u[j] - u[i])  # derivative of 2 atan(r_j/r_i) with respect to u_j
             rows, columns = np.concatenate([i, np.arange(n)]), np.concatenate([j, np.arange(n)])
             matrix = coo_array((np.concatenate([-w, np.bincount(i, w, n)]), (rows, columns)), shape=(n, n)).tocsc()
             # one radius is free: the packing of the plane has no scale
@@ -143,7 +129,9 @@ class PlanarPacking:
             residuals.append(float(np.abs(excess).max()))
             on_step()
             # stop also when the residual no longer falls: what is left is the rounding of many angles
-            if np.abs(step).max() < 1e-13 or (residuals[-1] < 1e-11 and _stalls(residuals)):
+            if np.abs(step).max() < 1e-13 or (
+                residuals[-1] < 1e-11 and len(residuals) > 1 and 4 * residuals[-1] > residuals[-2]
+            ):
                 break
         else:
             raise _no_packing(residuals[-1])
@@ -195,7 +183,9 @@ class PlanarPacking:
         for node, place in centre.items():
             vectors[node] = circle_vector((place - middle) / scale, r[node] / scale)
         for node, (m, offset) in offsets.items():
-            vectors[node] = line_vector(m, (offset - (m.conjugate() * middle).real) / scale)
+            # limit of `circle_vector` for the half-plane m.x >= distance
+            distance = (offset - (m.conjugate() * middle).real) / scale
+            vectors[node] = m.real, m.imag, distance, distance
         # counterclockwise in the plane is clockwise on the sphere seen from outside
         vectors[:, 2] *= -1
         return vectors
@@ -225,14 +215,6 @@ def boost(v: Floats) -> Floats:
     return made
 
 
-def centring_step(points: Floats) -> Floats:
-    """Return the Newton step (a rapidity vector) to the frame in which points sum to 0: H v = sum p, H = sum (I - p
-    p^T).
-    """
-    H = len(points) * np.eye(3) - points.T @ points
-    return np.asarray(np.linalg.solve(H, points.sum(axis=0)), dtype=float)
-
-
 def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
     """Return the centred circle packing of a 3-connected planar map.
 
@@ -240,16 +222,8 @@ def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
     """
     plane = PlanarPacking(gears, regions)
     u, residuals = plane.radii()
-    vectors = plane.layout(u)
-    vectors = _centred(vectors, plane.meshes)
-    packing = _polished(vectors, gears, plane, residuals)
-    # rounding in the refinement shifts the centre by as much, so centring and refinement are repeated once
-    both = np.concatenate([packing.axes, packing.region_axes]), np.concatenate([packing.cones, packing.region_cones])
-    return _polished(_upright(_centred(_vectors(*both), plane.meshes), plane.meshes[0]), gears, plane, residuals)
-
-
-def _vectors(axes: Floats, cones: Floats) -> Floats:
-    return np.concatenate([axes, np.cos(cones)[:, None]], axis=1) / np.sin(cones)[:, None]
+    vectors = _upright(_centred(plane.layout(u), plane.meshes), plane.meshes[0])
+    return _polished(vectors, gears, plane, residuals)
 
 
 def _circles(vectors: Floats) -> tuple[Floats, Floats]:
@@ -265,7 +239,8 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
     for _ in range(_MOST_STEPS):
         touch = vectors[i] + vectors[j]
         points = touch[:, :3] / np.linalg.norm(touch[:, :3], axis=1)[:, None]
-        v = centring_step(points)
+        # Newton step, a rapidity vector, to the frame in which points sum to 0: H v = sum p, H = sum (I - p p^T)
+        v = np.linalg.solve(len(points) * np.eye(3) - points.T @ points, points.sum(axis=0))
         length = float(np.linalg.norm(v))
         # centred to rounding; a zero step has no direction
         if length < 1e-15:

@@ -62,19 +62,6 @@ _SAME = 1e-11
 """Relative difference below which pitches are equal: the rounding of axes in floats."""
 
 
-def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
-    """Return the tooth number of every gear; raise `QuestionError` with the kinds whose tooth numbers are not
-    chosen.
-    """
-    require_tooth_numbers(
-        kinds_in_order(configuration),
-        configuration.teeth,
-        "sizes depend on the teeth of every kind of gear",
-        "give teeth={{{}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
-    )
-    return np.array([configuration.teeth[kind] for kind in configuration.kinds], dtype=np.int64)
-
-
 def one_pitch(configuration: Configuration) -> float:
     """Return lambda, half the module that all meshes have in common, for the chosen tooth numbers; equation (1) of
     docs/sphere.md.
@@ -151,7 +138,13 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     >>> found.exact, [round(degrees(cone), 6) for cone in found.cones[0]]
     (True, [23.522418, 13.85495])
     """
-    z = teeth_of(configuration)
+    require_tooth_numbers(
+        kinds_in_order(configuration),
+        configuration.teeth,
+        "sizes depend on the teeth of every kind of gear",
+        "give teeth={{{}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
+    )
+    z = np.array([configuration.teeth[kind] for kind in configuration.kinds], dtype=np.int64)
     if not configuration.meshes:
         raise QuestionError(Problem("no gears mesh", "sizes depend on the meshes", "declare at least one mesh"))
     i, j = np.array(configuration.meshes).T
@@ -363,7 +356,6 @@ def _solid_with_proof(configuration: Configuration) -> str:
         return ""
     if counts == (62, 120):
         return "rhombicosidodecahedron"
-    # the twisted cap keeps only one of the three rings of squares, so not every face has an opposite face
-    # faces opposite each other
+    # with the twisted cap of J37, not every face has an opposite face
     across = np.abs(separations(configuration.axes) - pi) < 1e-9
     return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"

@@ -18,7 +18,6 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.spherical.axis_adjustment import (
-    AxisAdjustment,
     LoopCorners,
     corners_of,
     fit_phases,
@@ -93,7 +92,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
-        raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "remove this mesh")
+        raise _refused(f"{alone[0]} meshes with itself", "a mesh joins two different gears", "remove this mesh")
     # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
@@ -144,15 +143,6 @@ def _check_bipartite(found: nx.Graph[Any]) -> None:
 
 def _refused(what: str, why: str, fix: str) -> QuestionError:
     return QuestionError(Problem(f"the graph cannot be packed: {what}", why, fix))
-
-
-def turning_senses(found: nx.Graph[Any], names: Sequence[Hashable]) -> Ints:
-    """Return the sense of rotation of each gear, +1 or -1, by a two-colouring of the graph."""
-    import networkx as nx
-
-    # meshing gears turn in opposite senses, so a two-colouring gives the senses
-    colours = nx.bipartite.color(found)
-    return np.array([1 if colours[name] else -1 for name in names], dtype=np.int64)
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
@@ -235,14 +225,6 @@ def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[
     return [np.array(teeth, dtype=np.int64) for teeth in best]
 
 
-def kabsch_aligned(axes: Floats, onto: Floats) -> Floats:
-    """Return the axes rotated to match other axes as closely as possible (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
-    U, _, V = np.linalg.svd(axes.T @ onto)
-    # the nearest orthogonal matrix may be a reflection: the direction of its minimum singular value is then reversed
-    flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(U @ V)))])
-    return np.asarray(axes @ U @ flip @ V, dtype=float)
-
-
 def from_graph(
     graph: nx.Graph[Any] | Edges,
     minimum_teeth: int = 12,
@@ -296,13 +278,18 @@ def from_graph(
     >>> found.exact, set(found.configuration.teeth.values())
     (('pitch', 'phases'), {12})
     """
+    import networkx as nx
+
     if aim not in ("pitch", "phases"):
         raise QuestionError(
             Problem(f"the aim {aim!r} is unknown", "the aim is 'pitch' or 'phases'", "pass aim='pitch'")
         )
     named = checked_graph(graph)
     names = list(named)
-    gears, regions, side = len(names), regions_of(named), turning_senses(named, names)
+    gears, regions = len(names), regions_of(named)
+    # meshing gears turn in opposite senses, so a two-colouring gives the senses
+    colours = nx.bipartite.color(named)
+    side = np.array([1 if colours[name] else -1 for name in names], dtype=np.int64)
     packing = pack_circles(*with_region_circles(gears, regions, names))
     axes, cones = packing.axes[:gears], packing.cones[:gears]
     meshes = tuple(mesh for mesh in packing.meshes if mesh[1] < gears)
@@ -312,7 +299,7 @@ def from_graph(
     corners = corners_of([walk for at, walk in enumerate(regions) if at != largest], side)
     if aim == "pitch":
         z = choices[0]
-        fit = fit_pitch(axes, meshes, z, float((np.sin(cones) / z).mean()))
+        fit = fit_pitch(axes, meshes, z)
     else:
         # the rounding whose pitches remain most uniform when loops are closed
         z = min(choices[:_MOST_CHOICES], key=lambda z: forecast_spread(axes, meshes, z, corners))
@@ -326,12 +313,14 @@ def _answer(
     z: Ints,
     aim: Aim,
     packing: SpherePacking,
-    fit: AxisAdjustment,
+    fit: tuple[Floats, list[float]],
     corners: LoopCorners,
 ) -> GraphSet:
     labels = tuple(str(name) for name in names)
-    # a common rotation is removed, so that displacements are meaningful
-    axes = kabsch_aligned(fit.axes, packing.axes[: len(names)])
+    from scipy.spatial.transform import Rotation
+
+    # a common rotation is removed, so that displacements are meaningful (Kabsch's algorithm)
+    axes = Rotation.align_vectors(packing.axes[: len(names)], fit[0])[0].apply(fit[0])
     chosen = dict(zip(labels, z.tolist(), strict=True))
     title = f"{len(names)} gears on a planar graph"
     configuration = Configuration(labels, axes, meshes, labels, (0,) * len(names), chosen, title)
@@ -339,7 +328,7 @@ def _answer(
     residue = float(np.abs(sums - np.round(sums)).max(initial=0.0))
     apart = np.linalg.norm(axes - packing.axes[: len(names)], axis=1)
     return GraphSet(
-        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), fit.residuals
+        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), tuple(fit[1])
     )
 
 
@@ -381,7 +370,9 @@ class GraphSet(Result):
     moved: Floats
     """Displacement of each axis from its direction in the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
-    """Residual after each step of the adjustment [rad for "pitch", pitch for "phases"]."""
+    """Residual after each step of the adjustment: maximum deviation of the logarithm of a pitch from its mean [1] for
+    "pitch", maximum closing error [pitch] for "phases".
+    """
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, aim {self.aim}, residue {self.residue:.3g} pitches"

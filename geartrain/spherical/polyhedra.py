@@ -197,7 +197,7 @@ class Polyhedron(Shown):
 
     @property
     def size(self) -> float:
-        """Distance of the farthest vertex from the origin."""
+        """Distance of the farthest vertex from the origin, in the unit of the vertices."""
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
@@ -299,12 +299,16 @@ def _checked(points: ArrayLike) -> Floats:
     except (TypeError, ValueError):
         vertices = np.empty(0)
     if vertices.ndim != 2 or vertices.shape[1] != 3 or not np.isfinite(vertices).all():
-        raise _refused("the vertices are not a list of points", "a point has three finite coordinates x, y, z")
+        raise _refused(
+            "the vertices are not a list of points", "a point has three finite coordinates", "give [x, y, z] each"
+        )
     if len(vertices) < 4:
-        raise _refused(f"{len(vertices)} points do not make a solid", "a polyhedron has at least four vertices")
+        raise _refused(
+            f"{len(vertices)} points do not make a solid", "a polyhedron has at least four vertices", "add vertices"
+        )
     spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     if spread[2] <= NEAR * spread[0]:
-        raise _refused("the points are in one plane", "a polyhedron has a positive volume")
+        raise _refused("the points are in one plane", "a polyhedron has a positive volume", "add a vertex outside it")
     _check_apart(vertices, NEAR * float(spread[0]) / len(vertices) ** 0.5)
     return vertices
 
@@ -327,7 +331,9 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
     try:
         hull = ConvexHull(vertices / scale)
     except QhullError:
-        raise _refused("the points are nearly in one plane", "a polyhedron has a positive volume") from None
+        raise _refused(
+            "the points are nearly in one plane", "a polyhedron has a positive volume", "move them apart"
+        ) from None
     # a point inside the hull would never carry a face
     inside = sorted(set(range(len(vertices))) - set(hull.vertices.tolist()))
     if inside:
@@ -355,7 +361,7 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     ways = np.roll(arms, -1, axis=0) - arms
     area = float(np.cross(arms, ways).sum(axis=0) @ normal / 2)
     if area < NEAR * scale**2:
-        raise _refused(f"face {index.tolist()} has no area", "its vertices are on one line")
+        raise _refused(f"face {index.tolist()} has no area", "its vertices are on one line", "remove one of them")
     lengths = np.linalg.norm(ways, axis=1)
     # sines of the exterior angles: 0 for a point on an edge
     turns = np.cross(np.roll(ways, 1, axis=0), ways) @ normal / (np.roll(lengths, 1) * lengths)
@@ -397,7 +403,7 @@ def _coordinates(point: Floats) -> str:
     return "(" + ", ".join(f"{x:.6g}" for x in point) + ")"
 
 
-def _refused(what: str, why: str, fix: str = "correct the vertices") -> GearTrainError:
+def _refused(what: str, why: str, fix: str) -> GearTrainError:
     return GearTrainError(Problem(what, why, fix))
 
 

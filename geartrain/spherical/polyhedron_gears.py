@@ -16,10 +16,10 @@ import numpy as np
 
 from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.numerics.results import Result
+from geartrain.spherical.axis_adjustment import SymmetricFreedom, equal_pitch
 from geartrain.spherical.configuration import Configuration, require_tooth_numbers
 from geartrain.spherical.gear_sphere import GearSphere
 from geartrain.spherical.polyhedra import Polyhedron, from_the_top, polyhedron, solid
-from geartrain.spherical.symmetric_displacement import SymmetricFreedom, equal_pitch
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

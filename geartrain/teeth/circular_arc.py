@@ -172,9 +172,7 @@ class CircularArc(ToothForm):
         """
         for z in (z1, z2):
             if not _FEWEST <= z <= _MOST_TEETH:
-                why = (
-                    f"circular-arc teeth are computed for {_FEWEST} to {_MOST_TEETH} teeth (BS 978 begins at 6 leaves)"
-                )
+                why = f"the model covers {_FEWEST} to {_MOST_TEETH} circular-arc teeth (BS 978 begins at 6 leaves)"
                 raise refused(f"a wheel of {z} teeth cannot have circular-arc teeth", why, IDEAL)
         pinion = self.pinion or (1 if z1 < z2 else 2)
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)

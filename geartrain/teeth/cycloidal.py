@@ -99,13 +99,7 @@ class Cycloidal(ConjugateToothForm):
             raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
+        """Return the pair at its design centre distance."""
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact

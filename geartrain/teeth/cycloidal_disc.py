@@ -48,28 +48,21 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class CycloidalDisc:
-    """Lobed disc of a cycloidal reducer and the ring of pins in which it rolls. Lengths are in modules.
-
-    Attributes
-    ----------
-    lobes : int
-        Number of lobes of the disc. The ring has one pin more.
-    circle : float
-        Radius of the circle through the centres of the pins.
-    pin : float
-        Radius of a pin.
-    clearance : float
-        Distance by which the outline of the disc is set back from every pin.
-    deflection : float or None
-        Deflection of one pin under the whole force on the pitch circle of the disc. None: all pins that push are loaded
-        in proportion to their lever arms, as if there were no clearance.
-    """
+    """Lobed disc of a cycloidal reducer and the ring of pins in which it rolls. Lengths are in modules."""
 
     lobes: int
+    """Number of lobes of the disc. The ring has one pin more."""
     circle: float
+    """Radius of the circle through the centres of the pins [module]."""
     pin: float
+    """Radius of a pin [module]."""
     clearance: float = 0.0
+    """Distance by which the outline of the disc is set back from every pin [module]."""
     deflection: float | None = None
+    """Deflection of one pin under the whole force on the pitch circle of the disc [module].
+
+    None: all pins that push are loaded in proportion to their lever arms, as if there were no clearance.
+    """
 
     @property
     def pins(self) -> int:
@@ -181,10 +174,15 @@ class CycloidalDisc:
         found: Floats = np.take_along_axis(angles, enough.argmax(axis=0)[None], axis=0)[0]
         return found
 
+    @property
+    def _phases(self) -> Floats:
+        """Equally spaced angles of one pin over a pitch [rad]."""
+        return np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)
+
     @cached_property
     def bearing_pins(self) -> tuple[int, int]:
         """Minimum and maximum number of pins that carry load at the same time."""
-        loads = self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))
+        loads = self.loads(self._phases)
         # the lever arm of a pin on the line of centres is 0 except for rounding error
         number = (loads > 1e-9 * loads.max()).sum(axis=0)
         return int(number.min()), int(number.max())
@@ -211,12 +209,12 @@ class CycloidalDisc:
     @cached_property
     def maximum_load(self) -> float:
         """Maximum force on a pin divided by the tangential force at the disc's pitch circle."""
-        return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
+        return float(self.loads(self._phases).max())
 
     @property
     def loss(self) -> float:
         """Mean power loss over a pitch, divided by the output power and by the friction coefficient."""
-        return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
+        return float(self.sliding(self._phases)[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
@@ -225,6 +223,7 @@ class CycloidalDisc:
 
         `tolerance` is the maximum distance of a chord from the lobe [module]; 4096 chords are the maximum.
         """
+        # doubled, because the excess of a chord falls with the square of their number
         number = _MIN_CHORDS
         while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
             number *= 2
@@ -276,16 +275,8 @@ class CycloidalDisc:
 class DiscTransmission(ExactRatio, ToothTransmission):
     """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
 
-    Parameters
-    ----------
-    disc : CycloidalDisc
-        The disc and its pins.
-    friction : float
-        Coefficient of friction, 0 or more.
-    driver : {1, 2}
-        1 if the disc drives, 2 if the ring drives.
-    direction : {1, -1}
-        1 for forward motion, -1 for backward motion, in which the coast flanks drive.
+    `driver` is 1 if the disc drives, 2 if the ring drives; `direction` -1 reverses the motion, in which the coast
+    flanks drive.
     """
 
     def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -315,32 +306,11 @@ class DiscTransmission(ExactRatio, ToothTransmission):
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
         return found
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]."""
-        # the load is given on the driven side, so the loss is added to the input power
-        found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
-        return found
-
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return sliding speed and friction terms of all pins combined into one contact, weighted by their loads."""
         speed, lost = self.disc.sliding(self._phase(S))
+        # the load is given on the driven side, so the loss is added to the input power
         return ContactRubbing(speed[None], lost[None], np.zeros_like(lost)[None])
-
-    @cached_property
-    def _sampled(self) -> Floats:
-        return self.efficiency(np.linspace(0, self.period, _PHASES, endpoint=False))
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency over a pitch at constant driver torque."""
-        return float(self._sampled.mean())
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the mean efficiency over a pitch at constant torque of the driven wheel."""
-        return float(1 / (1 / self._sampled).mean())
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency at any driver angle."""
-        return float(self._sampled.min())
 
 
 # ------------------------------------------------------------------------------------------------------ pair of a train

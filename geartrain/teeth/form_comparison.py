@@ -6,7 +6,7 @@ constructs the pair with these arcs. Losses, stresses and temperatures are ratio
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, get_args
@@ -42,7 +42,9 @@ class MeasuredForm(Result):
     name: str
     """Name of the form as requested, including the variant (reading)."""
     path: PathOfContact | None
+    """Path of contact; None if the form rejects the wheels."""
     measures: PathMeasures | None
+    """Losses and loads; None for teeth that cannot run."""
     ratios: PathRatios | None = None
     """Losses and loads divided by the values of the involute; None for the involute itself and for teeth that cannot
     run.
@@ -58,10 +60,7 @@ class MeasuredForm(Result):
     @property
     def pitches(self) -> tuple[float, float] | None:
         """Arcs of approach and recess [pitch], one of which may be negative; None without a path of contact."""
-        if self.path is None:
-            return None
-        approach, recess = self.path.arcs
-        return approach / self.path.pitch.p, recess / self.path.pitch.p
+        return None if self.path is None else self.path.pitches
 
     @property
     def pressure_angle(self) -> float | None:
@@ -165,9 +164,20 @@ def compare_forms(
     base = _pair_result("involute", reference_involute(wheels, arcs))
     if base.measures is None:
         raise _reference_error(base)
-    found = [_form_result(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
-    # without this row, an advantage of the arcs would be attributed to the tooth form
-    found += _recess_only_involute(found, wheels, arcs, angle, base.measures)
+    found = []
+    for name in names:
+        model, reading = known[name]
+        own = angle if "pressure_angle" in model.model_fields else {}
+        try:
+            found.append(_pair_result(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base.measures))
+        except GearTrainError as error:
+            refused = (ToothFault("refused", 0, nan, each.what, each.why, each.fix) for each in error.problems)
+            found.append(MeasuredForm(name, None, None, faults=tuple(refused)))
+    recess = (form.pitches for form in found if form.runs and form.pitches and form.pitches[0] <= 0 < arcs[0])
+    if (own_arcs := next(recess, None)) is not None:
+        # without this row, an advantage of the arcs would be attributed to the tooth form
+        involute = Involute.pair_of_arcs(wheels, own_arcs, angle)
+        found.append(_pair_result("involute, recess only", involute, base.measures))
     models = [model for name, (model, _) in known.items() if name in names]
     return FormComparison((int(wheels.z1), int(wheels.z2)), _matched_text(models, arcs), base, tuple(found))
 
@@ -214,43 +224,6 @@ def _reference_error(base: MeasuredForm) -> QuestionError:
         Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "arcs")
         for fault, fix in zip(base.faults, fixes, strict=True)
     )
-
-
-def _form_result(
-    name: str,
-    model: type[ConjugateToothForm],
-    reading: Mapping[str, str],
-    wheels: WheelPair,
-    arcs: tuple[float, float],
-    angle: Mapping[str, str],
-    base: PathMeasures,
-) -> MeasuredForm:
-    """Return the result for one form with these arcs; if the form rejects the wheels, its faults are of kind
-    "refused".
-    """
-    own = angle if "pressure_angle" in model.model_fields else {}
-    try:
-        return _pair_result(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
-    except GearTrainError as error:
-        refused = (ToothFault("refused", 0, nan, each.what, each.why, each.fix) for each in error.problems)
-        return MeasuredForm(name, None, None, faults=tuple(refused))
-
-
-def _recess_only_involute(
-    found: Sequence[MeasuredForm],
-    wheels: WheelPair,
-    arcs: tuple[float, float],
-    angle: Mapping[str, str],
-    base: PathMeasures,
-) -> Iterator[MeasuredForm]:
-    """Yield the involute with the arcs of the first form whose contact is in recess only; nothing without such a form.
-
-    The comparison with this involute separates the effect of the arcs from the effect of the form.
-    """
-    for form in found:
-        if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:
-            yield _pair_result("involute, recess only", Involute.pair_of_arcs(wheels, form.pitches, angle), base)
-            return
 
 
 def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:

@@ -96,9 +96,10 @@ class GearMesh(Shown, ABC):
     def _with_friction(self, transmission: TransmissionFunction) -> TransmissionFunction:
         if self.wheels.friction_law is None:
             return transmission
-        from geartrain.teeth.rubbed_transmission import rubbed
+        from geartrain.teeth.rubbed_transmission import RubbedTransmission, pair_friction
 
-        return rubbed(transmission, self.wheels)
+        by = pair_friction(self.wheels)
+        return transmission if by is None else RubbedTransmission(transmission, by)
 
     @property
     def pitch_radius(self) -> float | None:
@@ -245,7 +246,7 @@ class GearMesh(Shown, ABC):
 
         from geartrain.teeth.outlines.contour import Contour
         from geartrain.teeth.outlines.tooth_outline import repeated
-        from geartrain.teeth.outlines.wheel_outline import WheelOutline, bore
+        from geartrain.teeth.outlines.wheel_outline import WheelOutline, blank_contours
 
         size = self.own_size
         scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
@@ -253,12 +254,7 @@ class GearMesh(Shown, ABC):
         tooth, mate = (self.requirement(name, scale, tolerance).cut() for name in self.gear.pair[:: 3 - 2 * gear])
         z, other = self.wheels.counts[:: 3 - 2 * gear]
         distance = self.wheels.touching if size is None else size.distance
-        teeth = Contour.of(repeated(tooth.tooth, z)).scaled(cut.module)
-        if tooth.kind == "ring":
-            rim = 2 * cut.module if cut.rim is None else cut.rim
-            contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
-        else:
-            contours = [teeth, *bore(cut, tooth.root * cut.module)]
+        contours = blank_contours(Contour.of(repeated(tooth.tooth, z)), tooth.kind, tooth.root, cut)
         # the thickness at the pitch circle is interpolated on one flank of the flattened tooth
         points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
         side = points[points[:, 1] >= 0]

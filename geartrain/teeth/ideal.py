@@ -34,20 +34,7 @@ class Ideal(ToothForm):
     form: Literal["ideal"] = Field(description="Name of the tooth form")
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-        """Return None, because ideal teeth are completely described by the ratio of tooth counts.
-
-        Parameters
-        ----------
-        wheels : MeshingWheels
-            The two wheels as declared.
-        shaft_angle : callable
-            Not used.
-
-        Returns
-        -------
-        None
-            Ideal teeth have no mesh.
-        """
+        """Return None, because ideal teeth are completely described by the ratio of tooth counts."""
 
     def transmission(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
         """Return the transmission function of a pair, which has a constant speed ratio.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import atan, cos, pi, sin, sqrt, tan
+from math import asin, atan, cos, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -100,43 +100,19 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None, because involute teeth run at any centre distance; `pair` uses the declared distance.
-
-        Returns
-        -------
-        None
-            No centre distance differs from the design distance.
-        """
+        """Return None, because involute teeth run at any centre distance; `pair` uses the declared distance."""
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its declared centre distance; by default, at the distance without backlash.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
+        """Return the pair at its declared centre distance; by default, at the distance without backlash."""
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the involute pair with the given arcs of contact. The declared addenda are ignored.
+        """Return the pair with the given arcs of contact, equal tooth thicknesses and no backlash.
 
-        Parameters
-        ----------
-        wheels : WheelPair
-            The two wheels.
-        arcs : tuple of float
-            Arcs of approach and recess with gear 1 driving [pitch]; one may be negative.
-        given : mapping
-            Other parameters of the form: its pressure angle.
-
-        Returns
-        -------
-        ConjugatePair
-            Pair with equal tooth thicknesses and without backlash.
+        The declared addenda are ignored, and of `given` only the pressure angle is used. One arc may be negative.
         """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
@@ -147,15 +123,7 @@ class Involute(ConjugateToothForm):
     def slant_pressure(self, wheels: WheelPair) -> float:
         """Return the ratio of the normal force on helical teeth to its transverse component, 1 or more.
 
-        Parameters
-        ----------
-        wheels : WheelPair
-            The two wheels.
-
-        Returns
-        -------
-        float
-            Reciprocal of the cosine of the base helix angle, whose sine is sin(helix angle) cos(pressure angle).
+        It is the reciprocal of the cosine of the base helix angle, whose sine is sin(helix angle) cos(pressure angle).
         """
         return 1 / sqrt(1 - (sin(wheels.helix) * cos(self.pressure_angle.si)) ** 2)
 
@@ -167,27 +135,14 @@ class Involute(ConjugateToothForm):
     # ------------------------------------------------------------------------------------------------ parallel axes
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
-        """Return the bottom clearance between the root of one wheel and the tip of its mate.
-
-        Returns
-        -------
-        float
-            Clearance [module], negative if the tip interferes with the root.
+        """Return the bottom clearance between the root of one wheel and the tip of its mate [module], negative if
+        they overlap.
         """
-        found = self.involutes(wheels)
-        own, mate = (found.first, found.second) if gear == 1 else (found.second, found.first)
-        if not found.second.ring:
-            return found.distance - mate.tip - own.root
-        free = own.root - mate.tip if gear == 2 else mate.tip - own.root
-        return free - found.distance
+        return self.involutes(wheels).bottom_clearance(gear)
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at a centre distance other than the declared one.
-
-        Returns
-        -------
-        float or None
-            Backlash on the pitch circle [module]; None if the axes are closer than the base circles allow.
+        """Return the backlash at another centre distance [module]; None if the axes are closer than the base circles
+        allow.
         """
         found = self.involutes(wheels)
         # in a ring the teeth separate as the centre distance decreases
@@ -258,7 +213,7 @@ class Involute(ConjugateToothForm):
 
     def _bevel(self, wheels: WheelPair) -> ConjugatePair:
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-        from geartrain.teeth.conjugate.involute_geometry import base_cone, cone_height, spherical_arc
+        from geartrain.teeth.conjugate.involute_geometry import cone_height, spherical_arc
 
         if sum(figure.value for figure in self.shift):
             raise refused(
@@ -274,7 +229,8 @@ class Involute(ConjugateToothForm):
         for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
             height = float(self.addendum[at].value + self.shift[at].value)
             tip = R + cone_height(R, z, height)
-            if not base_cone(R, psi) <= tip < pi:
+            # half-angle of the base cone of a spherical involute: its sine is sin R cos psi
+            if not asin(sin(R) * cos(psi)) <= tip < pi:
                 raise refused(
                     f"the tip cone of wheel {at + 1} is out of range",
                     f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below "

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import ToothFault
 
-_CUT_MARGIN = (
-    1 + 1e-8
-)  # safety factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
+_CUT_MARGIN = 1 + 1e-8  # factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
 
 
 class Lantern(ConjugateToothForm):
@@ -60,8 +58,7 @@ class Lantern(ConjugateToothForm):
     arcs: TwoFigures | None = Field(
         None,
         description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default one pitch on "
-        "the "
-        "addendum of the pins' mate, beyond the part that the pins cut off",
+        "the addendum of the pins' mate, beyond the part that the pins cut off",
     )
     addendum: Figure | None = Field(None, description="Addendum of the pins' mate in modules, instead of arcs")
 
@@ -74,18 +71,7 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None; a centre distance other than the design distance is rejected.
-
-        Returns
-        -------
-        None
-            The centre distance is equal to the design distance.
-
-        Raises
-        ------
-        RangeError
-            If another centre distance is declared.
-        """
+        """Return None. Raises `RangeError` if a centre distance other than the design distance is declared."""
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
@@ -98,13 +84,10 @@ class Lantern(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
+        """Return the pair at its design centre distance.
 
-        Raises
-        ------
-        GearTrainError
-            If pins do not reach the pitch circle or touch each other; `RangeError` for bevel wheels and for a ring of
-            pins.
+        Raises `GearTrainError` if pins do not reach the pitch circle or touch each other, `RangeError` for bevel wheels
+        and for a ring of pins.
         """
         from geartrain.teeth.conjugate.closed_form_sides import flank_start, lantern, pin_angle
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -136,18 +119,9 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair whose arc of contact is the sum of `arcs`. All contact is in recess.
+        """Return the pair whose arc of contact is the sum of `arcs`, with all contact in recess.
 
         The arc is extended by the part of the mate's flanks that the approaching pins cut off.
-
-        Parameters
-        ----------
-        wheels : WheelPair
-            The two wheels.
-        arcs : tuple of float
-            Arcs of approach and recess with gear 1 driving [pitch]. Only their sum is used.
-        given : mapping
-            Other parameters of the form.
         """
         usual = conjugate_pair_of(cls.declared(given), wheels)
         # a negative arc of approach is the part of the recess that the pins cut off
@@ -178,13 +152,7 @@ class Lantern(ConjugateToothForm):
         return (fault,)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
-        """Return the wheel that carries the pins, the radius of the pin circle and the radius of a pin.
-
-        Returns
-        -------
-        LanternPins
-            Pins, with lengths in modules.
-        """
+        """Return the pins, with lengths in modules."""
         from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -193,8 +161,8 @@ class Lantern(ConjugateToothForm):
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
         """Return the distance of the pins from the axis and their radius [module]."""
-        A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
-        B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
+        pins = self.lantern_pins(wheels)
+        A, B = pins.circle, pins.radius
         z = wheels.z1 if self.pins == 1 else wheels.z2
         # such pins do not intersect the pitch circle
         if abs(A - R) >= B:

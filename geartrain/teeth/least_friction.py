@@ -68,8 +68,7 @@ class LeastFriction(ConjugateToothForm):
     arcs: TwoFigures | None = Field(
         None,
         description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default 1/2 each, for "
-        "the "
-        "literal shape [0, 1]",
+        "the literal shape [0, 1]",
     )
 
     @model_validator(mode="after")
@@ -122,23 +121,17 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
+        """Return the pair at its design centre distance."""
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
 
     def _usual(self, pitch: PitchSurfaces) -> PathOfContact:
-        from geartrain.teeth.conjugate.optimal_sides import least_friction
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
+        from geartrain.teeth.conjugate.optimal_sides import involute, least_friction
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         psi, u = (self.pressure_angle or _MAXIMUM_ANGLE).si, float((self.margin or _MARGIN).value)
         approach, recess = (
-            least_friction(pitch, b, X, psi, u, self._weight(pitch)) if X else none(psi)
+            least_friction(pitch, b, X, psi, u, self._weight(pitch)) if X else involute(0.0, psi)
             for b, X in zip((pitch.A, pitch.B), arcs_of(self.arcs or (_HALF, _HALF), pitch), strict=True)
         )
         return PathOfContact(pitch, approach, recess)
@@ -162,10 +155,12 @@ class LeastFriction(ConjugateToothForm):
 
     def _literal(self, pitch: PitchSurfaces) -> PathOfContact:
         from geartrain.teeth.conjugate.closed_form_sides import extremal
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
+        from geartrain.teeth.conjugate.optimal_sides import involute
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
         approach, recess = (
-            extremal(pitch, X, first, last) if X else none(0.0) for X in arcs_of(self.arcs or (_NONE, _WHOLE), pitch)
+            extremal(pitch, X, first, last) if X else involute(0.0, 0.0)
+            for X in arcs_of(self.arcs or (_NONE, _WHOLE), pitch)
         )
         return PathOfContact(pitch, approach, recess)

@@ -287,13 +287,13 @@ def friction_lock(friction: float, locking: float) -> Problem:
     )
 
 
-def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
-    """Return the problem of teeth that lock under the friction law named `transmission`, at their speed.
+def friction_lock_at_speed(law: str, locking: float) -> Problem:
+    """Return the problem of teeth that lock under the friction law named `law`, at their speed.
 
     `locking` is the minimum constant coefficient of friction that locks the teeth.
     """
     return Problem(
-        f"the friction law '{transmission}' locks these teeth at this speed",
+        f"the friction law '{law}' locks these teeth at this speed",
         f"the driver cannot overcome the sliding friction at some angle; the limit is a coefficient of {locking:.6g}",
         "give a law with less friction or another speed, or let the other wheel drive",
     )

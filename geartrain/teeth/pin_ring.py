@@ -179,13 +179,7 @@ class PinRing(ToothForm):
         return DiscTransmission(self.disc(z1, module), friction, driver)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a disc and its ring. The pair may name them in either order.
-
-        Returns
-        -------
-        GearMesh
-            Mesh for the analysis of a train.
-        """
+        """Return the mesh of a disc and its ring. The pair may name them in either order."""
         from geartrain.teeth.cycloidal_disc import DiscMesh
 
         del shaft_angle
@@ -206,18 +200,7 @@ class PinRing(ToothForm):
         return super().own_backlash(pair) if self.clearance.value else None
 
     def thinned(self, backlash: Quantity) -> PinRing:
-        """Return a copy with the clearance between lobes and pins that gives the required backlash.
-
-        Parameters
-        ----------
-        backlash : Quantity
-            Backlash on the pitch circle, in modules or with a unit.
-
-        Returns
-        -------
-        PinRing
-            Copy whose `clearance` is half the backlash.
-        """
+        """Return a copy whose `clearance` between lobes and pins is half the required backlash."""
         # both flanks are set back, so the backlash is twice the clearance
         half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
         return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

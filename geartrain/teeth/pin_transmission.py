@@ -6,7 +6,7 @@ The driver's angle S is measured from the direction that points from the pin's a
 from __future__ import annotations
 
 from fractions import Fraction
-from math import acos, acosh, atan2, inf, log, nan, pi, sqrt
+from math import atan2, inf, nan, pi, sqrt
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
@@ -23,30 +23,6 @@ if TYPE_CHECKING:
 _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflows nor overflows
 # the mean of a smooth periodic function over equidistant samples is exact to rounding error unless r is close to e
 _SAMPLES = 4096
-
-
-def log_share(r: float, e: float) -> float:
-    """Return ln((r + e)/(r - e))/pi for r > e.
-
-    This is the increase of the mean of 1/eta over a turn of the *slot* per unit of friction, with the efficiency
-    eta = 1/(1 + f |tan d|). The angle between pin radius and slot is d, with sin d = (e/r) sin psi at slot angle psi.
-    """
-    return log((r + e) / (r - e)) / pi
-
-
-def mean_over_the_pin(r: float, e: float, f: float) -> float:
-    """Return the mean of 1/(1 + f |tan d|) over a turn of the pin, r > e; d is the angle between pin radius and slot.
-
-    With -f it is the mean of 1/(1 - f |tan d|), which is finite for c > -1. With c = f e/sqrt(r^2 - e^2) and
-    tan(S/2) = sqrt((r - e)/(r + e)) tan(u/2) the mean is the integral over 0 <= u <= pi of
-    sqrt(r^2 - e^2)/(pi (r + e cos u)(1 + c sin u)). Partial fractions reduce it to a logarithm and an arc cosine.
-    """
-    width = sqrt((r - e) * (r + e))
-    c = f * e / width
-    # sqrt(1 - c^2) as a product: near c = 1, where the quotient is 1, the difference loses half its digits
-    apart = sqrt(abs(1 - c) * (1 + c))
-    inner = 2 * (acos(c) / apart if c < 1 else 1 if c == 1 else acosh(c) / apart)
-    return (1 - f * log_share(r, e) + f * f * r * inner / (pi * width)) / (1 + f * f)
 
 
 class PinTransmission(TransmissionFunction):
@@ -159,13 +135,7 @@ class PinToSlotTransmission(PinTransmission):
         self.ratio = Fraction(1 if pin_radius > offset else 0)
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error: slot angle minus mean motion.
-
-        Returns
-        -------
-        ndarray
-            Transmission error [rad of the slot], of the shape of S.
-        """
+        """Return the transmission error [rad of the slot]: slot angle minus mean motion."""
         S = np.asarray(S, dtype=float)
         less, more = min(self.r, self.e), max(self.r, self.e)
         # more - less cos S as a sum, which does not cancel near r = e
@@ -197,31 +167,14 @@ class PinToSlotTransmission(PinTransmission):
         return min(far, near), max(far, near)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency |cos d|/(|cos d| + f |sin d|) at driver angles S [rad].
-
-        Returns
-        -------
-        ndarray
-            Efficiency, of the shape of S; 0 at the dead points of a follower with friction.
+        """Return the efficiency |cos d|/(|cos d| + f |sin d|) at driver angles S [rad]; 0 at the dead points of a
+        follower with friction.
         """
         along, _ = self._reach(S)
         across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
         along = np.abs(along)
         whole = along + across  # 0 only at a dead point without friction, where the efficiency is 1
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency over a turn of the pin at constant torque on the pin."""
-        if self.r > self.e:
-            return mean_over_the_pin(self.r, self.e, self.friction)
-        return float(np.mean(self.efficiency(self._turn_samples())))
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the efficiency 1/(1 + (f/pi) ln((r + e)/(r - e))) at constant torque on the slot; NaN for a follower.
-
-        The work of a constant torque on a follower is 0 over a complete oscillation.
-        """
-        return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
 
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r.
@@ -279,13 +232,7 @@ class SlotToPinTransmission(PinTransmission):
             )
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error: pin angle minus mean motion.
-
-        Returns
-        -------
-        ndarray
-            Transmission error [rad of the pin], of the shape of S.
-        """
+        """Return the transmission error [rad of the pin]: pin angle minus mean motion."""
         across, along = self._sides(S)
         return np.asarray(-np.arctan2(across, along))
 
@@ -306,37 +253,18 @@ class SlotToPinTransmission(PinTransmission):
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency 1 - f |tan d| at driver angles S [rad]; d is the angle between pin radius and slot.
+        """Return the efficiency 1 - f |tan d| at driver angles S [rad]; 0 where friction locks the pin.
 
-        Returns
-        -------
-        ndarray
-            Efficiency, of the shape of S; 0 where friction locks the pin.
+        The angle between pin radius and slot is d.
         """
         across, along = self._sides(S)
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot at constant torque on the
-        slot.
-
-        The mean is NaN if friction locks the pin at any angle.
-        """
-        return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return work output divided by work input at constant torque on the pin; NaN if friction locks the pin."""
-        return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
 
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, at the maximum of the angle d, where sin d = e/r; NaN if friction locks the
         pin.
         """
-        return nan if self._locks else 1 - self.friction * self._maximum_tangent
-
-    @property
-    def _locks(self) -> bool:
-        return self.friction >= self.locking_friction
+        return nan if self.locks else 1 - self.friction * self._maximum_tangent
 
     @property
     def locking_friction(self) -> float:

@@ -50,58 +50,44 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
     runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair that
     does not run gives the reason.
     """
-    mates: dict[str, list[str]] = {name: [] for name in gears}
-    for first, second in pairs:
-        mates[first].append(second)
-        mates[second].append(first)
+    # the ring of a pair is named last, as the tooth form requires
+    edges = [(second, first) if gears[first].internal else (first, second) for first, second in pairs]
     found: dict[str, StandardTeeth] = {}
     for name in gears:
         if name not in found:
-            group = _connected(name, mates)
-            designs = (_design(group, gears, mates, angle) for angle in _ANGLES)
+            group = _connected(name, edges)
+            own = {edge for edge in edges if edge[0] in group}
+            designs = (_design(group, own, gears, angle) for angle in _ANGLES)
             runs = next((design for design in designs if design is not None), None)
             found |= runs or {each: StandardTeeth(_ANGLES[0], ADDENDUM) for each in group}
     return found
 
 
-def _connected(first: str, mates: Mapping[str, list[str]]) -> list[str]:
-    known, waiting = {first: None}, [first]
-    while waiting:
-        for mate in mates[waiting.pop()]:
-            if mate not in known:
-                known[mate] = None
-                waiting.append(mate)
-    return list(known)
+def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
+    """Return the wheels that are connected with the first one, including it."""
+    known = [first]
+    # the list grows while it is read
+    for name in known:
+        mates = (mate for edge in edges if name in edge for mate in edge)
+        known += [mate for mate in dict.fromkeys(mates) if mate not in known]
+    return known
 
 
 def _design(
-    group: Iterable[str], gears: Mapping[str, UndeclaredWheel], mates: Mapping[str, list[str]], angle: int
+    group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
     """Return the teeth of connected wheels by name; None if some pair cannot run at this pressure angle [deg]."""
-    addenda: dict[str, float] = {}
-    # each pair once, whichever of its wheels is visited first
-    edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
-    for name in group:
-        heights = [_tallest(*_ring_last(gears[name], gears[mate]), angle) for mate in mates[name]]
-        if None in heights:
+    addenda = dict.fromkeys(group, ADDENDUM)
+    for first, second in edges:
+        heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, height, height))
+        if (tallest := next(heights, None)) is None:
             return None
         # the mate with the lowest limit decides, since a wheel has one addendum
-        addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
+        addenda[first], addenda[second] = min(addenda[first], tallest), min(addenda[second], tallest)
     # each addendum is the minimum over all mates of a wheel, so that pairs must be checked with both addenda
-    for first, second in edges:
-        own, mate = (first, second) if not gears[first].internal else (second, first)
-        if not _runs(gears[own], gears[mate], angle, addenda[own], addenda[mate]):
-            return None
+    if not all(_runs(gears[one], gears[two], angle, addenda[one], addenda[two]) for one, two in edges):
+        return None
     return {name: StandardTeeth(angle, addendum) for name, addendum in addenda.items()}
-
-
-def _ring_last(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
-    return (second, first) if first.internal else (first, second)
-
-
-def _tallest(first: UndeclaredWheel, second: UndeclaredWheel, angle: int) -> float | None:
-    """Return the largest addendum with which a pair runs [module]; None if it runs with no addendum of the list."""
-    return next((height for height in _ADDENDA if _runs(first, second, angle, height, height)), None)
 
 
 # pairs with equal tooth numbers recur in a train and in a search

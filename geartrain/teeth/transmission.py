@@ -1,4 +1,4 @@
-"""Transmission functions of pairs: the interface of all tooth forms and pins, the constant ratio, derived functions.
+"""Transmission functions of pairs: the interface of all tooth forms and pins, and functions derived from others.
 
 Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
 tooth of the driver is on the line of centres (a pin points at the other axis). The sign of the speed ratio of an
@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
-from math import degrees, inf
-from typing import TYPE_CHECKING, NamedTuple
+from math import degrees, inf, nan
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.results import Shown
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -24,6 +27,11 @@ if TYPE_CHECKING:
 
 
 _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
+_NODES = 16  # Gauss-Legendre nodes of an interval
+_ROUNDING = 1e-14  # of an integral: smaller differences between an interval and its halves are rounding error
+_DEEPEST, _DEEPEST_SLOW = 40, 2  # maximum number of bisections of an interval
+_END = 1e-9  # of an interval: at its ends the next tooth pair, or the other side of the pitch point, counts too
+_SAMPLES = 1001  # samples of an interval in the search for the minimum efficiency
 
 
 def check_friction(friction: float) -> float:
@@ -57,10 +65,7 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at some driver angles: arrays with one row for each contact, NaN without contact.
-
-    The efficiency of a contact with a coefficient of friction f is (1 + f out) / (1 + f into).
-    """
+    """Sliding of the teeth of a pair at driver angles: arrays with one row for each contact, NaN without contact."""
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
@@ -68,6 +73,24 @@ class ContactRubbing(NamedTuple):
     """Change of the input power of a contact per unit friction coefficient, divided by the power without friction."""
     out: Floats
     """Change of the output power of a contact per unit friction coefficient, divided by the power without friction."""
+
+    def efficiency(self, friction: float | Floats) -> Floats:
+        """Return the efficiency at each driver angle; NaN without contact, or if friction locks one of the contacts.
+
+        Contacts at the same time share the driver's torque equally. A contact with the coefficient f transmits the
+        fraction (1 + f out) / (1 + f into) of its power.
+
+        friction   coefficient of friction, one value or one for each contact
+        """
+        import numpy as np
+
+        touching = ~np.isnan(self.out)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            into, out = 1 + friction * self.into, 1 + friction * self.out
+            # a factor of 0 or less means that friction absorbs all power of the contact
+            each = np.where(touching, np.where((out > 0) & (into > 0), out / into, nan), 0.0)
+            found: Floats = each.sum(axis=0) / touching.sum(axis=0)
+        return found
 
 
 class TransmissionFunction(Shown, ABC):
@@ -107,6 +130,8 @@ class TransmissionFunction(Shown, ABC):
     ratio: Fraction
     period: float
     friction: float = 0.0
+    slow: ClassVar[bool] = False
+    """True if each evaluation is slow; losses are then computed at few angles."""
 
     def _summary(self) -> str:
         return f"ratio {self.ratio}, period {degrees(self.period):.6g} deg, friction {self.friction:g}"
@@ -141,7 +166,6 @@ class TransmissionFunction(Shown, ABC):
             Speed ratio, of the shape of S.
         """
 
-    @abstractmethod
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return the efficiency (output power divided by input power) at driver angles S.
 
@@ -153,8 +177,9 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ndarray
-            Efficiency, 0 to 1, of the shape of S; NaN where teeth are not in contact.
+            Efficiency, 0 to 1, of the shape of S; NaN where teeth are not in contact or friction locks them.
         """
+        return self.rubbing(S).efficiency(self.friction)
 
     @abstractmethod
     def speed_range(self) -> tuple[float, float]:
@@ -168,17 +193,94 @@ class TransmissionFunction(Shown, ABC):
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side]."""
 
-    @abstractmethod
     def efficiency_mean(self) -> float:
         """Return the mean efficiency over driver angles at constant driver torque; NaN if friction locks the pair."""
+        if self.locks:
+            return nan
+        weights, efficiency, _ = self._efficiencies
+        return float((weights * efficiency).sum() / weights.sum())
 
-    @abstractmethod
     def efficiency_at_constant_load(self) -> float:
-        """Return work output divided by work input at constant load torque; NaN if friction locks the pair."""
+        """Return work output divided by work input at constant load torque; NaN if friction locks the pair, or if the
+        load does no work because the mean ratio is 0.
+        """
+        if self.locks or not self.ratio:
+            return nan
+        weights, efficiency, speed = self._efficiencies
+        # at constant load torque, the output power is proportional to the speed, the input power to speed / efficiency
+        return float((weights * speed).sum() / (weights * (speed / efficiency)).sum())
 
-    @abstractmethod
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency at any driver angle; NaN if friction locks the pair."""
+        """Return the minimum efficiency, from 1001 samples of each smooth interval, or from the quadrature nodes if
+        evaluation is slow; NaN if friction locks the pair.
+        """
+        if self.locks:
+            return nan
+        if self.slow:
+            # the efficiency at the nodes is known already
+            return float(self._efficiencies[1].min())
+        import numpy as np
+
+        share = np.linspace(_END, 1 - _END, _SAMPLES)
+        S = np.concatenate([low + (high - low) * share for low, high in self.smooth_intervals()])
+        return float(np.nanmin(self.efficiency(S)))
+
+    @cached_property
+    def _efficiencies(self) -> tuple[Floats, Floats, Floats]:
+        """Weights of the quadrature nodes with contact, and efficiency and speed ratio at these nodes."""
+        import numpy as np
+
+        S, weights = self.graded_nodes(lambda S: self.speed(S) / self.efficiency(S))
+        efficiency = self.efficiency(S)
+        touching = ~np.isnan(efficiency)
+        return weights[touching], efficiency[touching], self.speed(S[touching])
+
+    def graded_nodes(self, integrand: Callable[[Floats], Floats]) -> tuple[Floats, Floats]:
+        """Return the nodes of a Gauss-Legendre quadrature over one period [rad of the driver], and their weights.
+
+        Smooth intervals are bisected until the integral is accurate to rounding error, or at most twice if evaluation
+        is slow. Intervals in which the integrand is NaN are not divided.
+
+        Parameters
+        ----------
+        integrand : callable
+            Function of driver angles [rad], which returns an array of their shape.
+
+        Returns
+        -------
+        tuple of ndarray
+            Nodes and weights; the sum of the weights is 1.
+        """
+        import numpy as np
+
+        x, w = np.polynomial.legendre.leggauss(_NODES)
+
+        def nodes(low: Floats, high: Floats) -> Floats:
+            found: Floats = ((low + high) / 2)[:, None] + ((high - low) / 2)[:, None] * x
+            return found
+
+        def integral(low: Floats, high: Floats) -> Floats:
+            found: Floats = integrand(nodes(low, high)) @ w * (high - low) / 2
+            return found
+
+        low, high = np.array(self.smooth_intervals()).T
+        done = []
+        with np.errstate(divide="ignore", invalid="ignore"):
+            whole = integral(low, high)
+            scale = np.nansum(np.abs(whole))
+            for _ in range(_DEEPEST_SLOW if self.slow else _DEEPEST):
+                middle = (low + high) / 2
+                low, high = np.append(low, middle), np.append(middle, high)
+                halves = integral(low, high)
+                # NaN, as without contact, is not above the tolerance, so that such an interval is not divided
+                off = np.abs(halves.reshape(2, -1).sum(axis=0) - whole)
+                rough = np.tile(off > _ROUNDING * np.maximum(scale, np.abs(whole)), 2)
+                done.append((low[~rough], high[~rough]))
+                low, high, whole = low[rough], high[rough], halves[rough]
+                if not len(low):
+                    break
+        low, high = (np.concatenate(ends) for ends in zip(*done, (low, high), strict=True))
+        return nodes(low, high).ravel(), (((high - low) / 2)[:, None] * w).ravel() / (high - low).sum()
 
     @property
     def locking_friction(self) -> float:
@@ -212,13 +314,6 @@ class TransmissionFunction(Shown, ABC):
         what = "the sliding speed of this pair is not known"
         why = "sliding speeds are computed for pairs of teeth only"
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
-
-    def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing] | None:
-        """Return driver angles of a period [rad], quadrature weights, and `rubbing` at these angles.
-
-        Only functions that are slow to evaluate at other angles return nodes. None means that any angles may be used.
-        """
-        return None
 
     def kinks(self) -> list[float]:
         """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous; by default
@@ -341,9 +436,9 @@ class ExactRatio(TransmissionFunction):
         """Return the speed ratio at driver angles S, which is constant."""
         return self._constant(S, float(self.ratio))
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S, which is 1."""
-        return self._constant(S, 1.0)
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """Return one contact without sliding."""
+        return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum speed ratio, which are equal."""
@@ -356,18 +451,6 @@ class ExactRatio(TransmissionFunction):
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error [rad of the driven side] and its rms deviation, which is 0."""
         return self.lag, 0.0
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency, which is 1."""
-        return 1.0
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the efficiency at constant load torque, which is 1."""
-        return 1.0
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, which is 1."""
-        return 1.0
 
     def steepest_fall(self) -> float:
         """Return the maximum rate at which the speed ratio decreases [1/rad], which is 0."""
@@ -403,6 +486,10 @@ class DerivedTransmission(TransmissionFunction):
     def kinks(self) -> list[float]:
         """Return the driver angles of the kinks of the underlying function [rad]."""
         return self.transmission.kinks()
+
+    def smooth_intervals(self) -> list[tuple[float, float]]:
+        """Return the smooth intervals of the underlying function [rad]."""
+        return self.transmission.smooth_intervals()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
         """Return the upward steps of the speed ratio of the underlying function."""

@@ -44,25 +44,32 @@ _WANTED = 1e-15  # driven pitches, or of the mean speed: rounding error of the f
 _GOOD = 1e-12  # in the same units: if no table is as accurate, the function itself is evaluated
 
 
-class HasKinks(Protocol):
-    """Periodic function with known kinks."""
+class PeriodicTransmission(Protocol):
+    """Periodic function with known kinks, such as a transmission function."""
 
     @property
     def period(self) -> float:
         """Period [rad of the driver]."""
 
+    @property
+    def ratio(self) -> Fraction:
+        """Mean speed ratio."""
+
     def kinks(self) -> list[float]:
         """Return the driver angles at which the function or a derivative is discontinuous [rad]."""
+
+    def error(self, S: Floats) -> Floats:
+        """Return the transmission error [rad] at driver angles S [rad]."""
+
+    def speed(self, S: Floats) -> Floats:
+        """Return the speed ratio at driver angles S [rad]."""
 
 
 class CellTable:
     """Table of a periodic function of the driver angle, on `cells` uniform cells that are divided at the kinks.
 
-    Attributes
-    ----------
-    uncertainty : float
-        Estimated maximum difference from the function, in the unit of the function: twice the maximum difference found
-        at points between the nodes and near the ends of the cells.
+    `uncertainty` is the estimated maximum difference from the function, in its unit: twice the maximum difference found
+    at points between the nodes and near the ends of the cells.
     """
 
     def __init__(
@@ -125,7 +132,7 @@ class CellTable:
         return np.asarray(found)
 
 
-def folded_kinks(transmission: HasKinks) -> Floats:
+def folded_kinks(transmission: PeriodicTransmission) -> Floats:
     """Return the distinct kinks of a function modulo its period in ascending order [rad]."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
@@ -148,17 +155,9 @@ def fit(
 class TabulatedTransmission(DerivedTransmission):
     """Transmission function evaluated from tables, each made on first use.
 
-    Results over a whole period, such as the mean efficiency, are those of the underlying function.
-
-    Parameters
-    ----------
-    transmission : TransmissionFunction
-        Underlying transmission function.
-    tolerance : float
-        Maximum error of the tables: of the transmission error in driven pitches (or periods), of the speed ratio
-        relative to its mean, and of the efficiency.
-    degree : int
-        Degree of the polynomials.
+    Results over a whole period, such as the mean efficiency, are those of the underlying function. `tolerance` is the
+    maximum error of the transmission error in driven pitches (or periods), of the speed ratio relative to its mean, and
+    of the efficiency; `degree` is the degree of the polynomials.
     """
 
     def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
@@ -245,20 +244,6 @@ class TransmissionTables(NamedTuple):
     """
 
 
-class PeriodicTransmission(HasKinks, Protocol):
-    """Function of which a table can be made, such as a transmission function."""
-
-    @property
-    def ratio(self) -> Fraction:
-        """Mean speed ratio."""
-
-    def error(self, S: Floats) -> Floats:
-        """Return the transmission error [rad] at driver angles S [rad]."""
-
-    def speed(self, S: Floats) -> Floats:
-        """Return the speed ratio at driver angles S [rad]."""
-
-
 class TransmissionTable(NamedTuple):
     """Tables of error and speed of one transmission function over its period [rad]."""
 
@@ -284,10 +269,11 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
         error = fit(transmission.error, transmission.period, cuts, _WANTED * ratio * transmission.period, KERNEL_DEGREE)
         speed = fit(transmission.speed, transmission.period, cuts, _WANTED * ratio, KERNEL_DEGREE)
         # with both tables on the same cells, the kernel looks up an angle once
-        if error.cells < speed.cells:
-            error = CellTable(transmission.error, transmission.period, cuts, speed.cells, KERNEL_DEGREE)
-        elif speed.cells < error.cells:
-            speed = CellTable(transmission.speed, transmission.period, cuts, error.cells, KERNEL_DEGREE)
+        cells = max(error.cells, speed.cells)
+        error, speed = (
+            table if table.cells == cells else CellTable(function, transmission.period, cuts, cells, KERNEL_DEGREE)
+            for table, function in ((error, transmission.error), (speed, transmission.speed))
+        )
         found = TransmissionTable(transmission.period, error, speed)
         good = (
             found.error.uncertainty <= _GOOD * ratio * transmission.period and found.speed.uncertainty <= _GOOD * ratio
@@ -310,12 +296,7 @@ def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> Tran
         1 / period,
         coarse,
         period - coarse,
-        np.array(
-            [
-                max(transmission.error.cells, transmission.speed.cells) / transmission.period
-                for transmission in transmissions
-            ]
-        ),
+        np.array([max(each.error.cells, each.speed.cells) / each.period for each in transmissions]),
         ends[:-1],
         ends[1:] - 1,
         np.concatenate(([0], np.cumsum([len(each) for each in kinks]))).astype(np.int64),

@@ -49,20 +49,14 @@ class UniformStress(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
-        from geartrain.teeth.conjugate.optimal_sides import uniform_stress
-        from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
+        """Return the pair at its design centre distance."""
+        from geartrain.teeth.conjugate.optimal_sides import involute, uniform_stress
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch, psi = wheels.pitch, self.pressure_angle.si
         A, B = pitch.A, pitch.B
         approach, recess = (
-            uniform_stress(pitch, a, b, X, psi) if X else none(psi)
+            uniform_stress(pitch, a, b, X, psi) if X else involute(0.0, psi)
             for a, b, X in zip((B, A), (A, B), arcs_of(self.arcs, pitch), strict=True)
         )
         return self._standard(PathOfContact(pitch, approach, recess), wheels)

@@ -82,13 +82,7 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair of `wheels` with teeth of this form, at the design centre distance.
-
-        Raises
-        ------
-        GearTrainError
-            If `wheels` cannot have teeth of this form. The message gives a fix.
-        """
+        """Return the pair at its design centre distance."""
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch = wheels.pitch
@@ -100,8 +94,7 @@ class UniformTemperature(ConjugateToothForm):
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
         """Return approach and recess side with gamma = (A + B) / heat."""
-        from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
-        from geartrain.teeth.conjugate.path_of_contact import none
+        from geartrain.teeth.conjugate.optimal_sides import bounded_heat, involute, uniform_heat
 
         psi = (self.minimum_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
@@ -109,12 +102,15 @@ class UniformTemperature(ConjugateToothForm):
         # the contact speed is w + A S on gear 1 and w - B S on gear 2, so that reading a has b = -A in recess
         for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):
             if not X:
-                found.append(none(0.0))
+                found.append(involute(0.0, 0.0))
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
-            # the contact would stop near the pitch point
             elif b + gamma <= 0:
-                raise _heat_error(pitch, gamma)
+                raise refused(
+                    f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
+                    "the contact would stop near the pitch point",
+                    "give a smaller heat or a larger depth",
+                )
             else:
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]
@@ -136,11 +132,3 @@ class UniformTemperature(ConjugateToothForm):
         )
         gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)
-
-
-def _heat_error(pitch: PitchSurfaces, gamma: float) -> Exception:
-    return refused(
-        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
-        "the contact would stop near the pitch point",
-        "give a smaller heat or a larger depth",
-    )

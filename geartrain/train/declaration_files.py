@@ -1,101 +1,22 @@
 """Loading of declarations from a path, a shipped name, text or plain data, with everything that they inherit.
 
-JSON files are read with `json`, which is faster and gives the same data as YAML would. Their line numbers are computed
-only if they are needed.
+A JSON file is read by the YAML parser, because JSON is a subset of YAML 1.2.
 """
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
-from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 from itertools import count
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from types import MappingProxyType
 from typing import Any
 
-from geartrain.errors import DeclarationError, Loc, Problem, suggest
+from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.declaration import Train
-from geartrain.train.validation import declare, has_short_forms, written_out
-from geartrain.train.yaml_nodes import MOST_DEPTH, MOST_VALUES, YamlNode, as_yaml, node_from_data, parse_yaml
-
-# ------------------------------------------------------------------------------------------------------------ json text
-
-
-# JSON and YAML escape or refuse other characters in different ways
-_PLAIN = re.compile(r"[\n\r -\[\]-~]*")
-
-
-@dataclass(frozen=True)
-class JsonMarks:
-    """Line numbers of a JSON file, computed by the YAML parser on first use."""
-
-    text: str
-    name: str
-
-    def __call__(self, loc: Loc) -> str:
-        return self._node.place_of(loc)
-
-    @cached_property
-    def _node(self) -> YamlNode:
-        try:
-            return parse_yaml(self.text, self.name)
-        except DeclarationError:  # valid JSON that is not valid YAML, for example with a very long key
-            return YamlNode({}, self.name)
-
-
-def parse_json(text: str) -> dict[str, Any] | None:
-    """Parse `text` as a JSON mapping in which all scalars remain strings; None if YAML might read it differently.
-
-    Duplicate keys, nan, infinity, deep nesting and too many values also return None, so that the YAML parser
-    reports them with line numbers.
-    """
-    values = sum(map(text.count, ",:{}[]{["))  # upper bound on the number of parser events
-    if values >= MOST_VALUES or not _PLAIN.fullmatch(text):
-        return None
-    try:
-        data = json.loads(
-            text, object_pairs_hook=_mapping, parse_int=str, parse_float=str, parse_constant=_refuse_constant
-        )
-    except (ValueError, RecursionError):
-        return None
-    return data if isinstance(data, dict) and _is_shallow(data) else None
-
-
-def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return the entries of a JSON object. Raises `ValueError` for a duplicate key."""
-    found = {key: _BOOLEANS[value] if value is True or value is False else value for key, value in pairs}
-    if len(found) < len(pairs):
-        raise ValueError
-    return found
-
-
-_BOOLEANS = {True: "true", False: "false"}
-
-
-def _refuse_constant(name: str) -> Any:
-    raise ValueError(name)
-
-
-def _is_shallow(data: Any) -> bool:
-    """Return True if the nesting depth is within the limit and no list contains true or false."""
-    level = [data]
-    for _ in range(MOST_DEPTH):
-        level = [part for each in level for part in (each.values() if type(each) is dict else each)
-                 if type(part) in (dict, list, bool)]  # fmt: skip
-        if any(type(part) is bool for part in level):
-            return False
-        if not level:
-            return True
-    return False
-
-
-# ---------------------------------------------------------------------------------------------------- declaration files
-
+from geartrain.train.validation import declare, written_out
+from geartrain.train.yaml_nodes import YamlNode, as_yaml, node_from_data, parse_yaml
 
 _MOST_BYTES = 64 * 2**20
 _MOST_PARENTS = 2000
@@ -182,20 +103,7 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
     if isinstance(source, str) and "\n" in source:
         return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
     path = _find_file(source, known)
-    if path.suffix == ".json" and (train := _read_json(path)) is not None:
-        return train
     return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
-
-
-def _read_json(path: Path) -> Train | None:
-    """Read a train from a JSON file; None if it inherits, has short forms, or has a problem."""
-    text = _read(path)
-    data = parse_json(text)
-    if data is None or "extends" in data or "remove" in data or has_short_forms(data):
-        return None
-    with suppress(DeclarationError):  # the YAML parser raises it again with line numbers
-        return declare({"name": path.stem, **data}, JsonMarks(text, str(path)))
-    return None
 
 
 def write_declaration(train: Train) -> str:
@@ -237,17 +145,9 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """Return a file and all files that it extends, directly or indirectly.
+    """Return a YAML file and all files that it extends, directly or indirectly.
 
-    Parameters
-    ----------
-    path : Path
-        A YAML file.
-
-    Raises
-    ------
-    DeclarationError
-        If one of the files is missing or cannot be read.
+    Raises `DeclarationError` if one of the files is missing or cannot be read.
     """
     child = parse_yaml(_read(path), str(path))
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import yaml
@@ -46,7 +47,7 @@ def with_short_forms(text: str) -> str:
     >>> print(with_short_forms("gears:\n  - {pair: [p, w]}"), end="")
     gears: [p ~ w]
     """
-    return _rewritten(text, {"revolutes": _short_joints, "gears": _short_pairs})
+    return _rewritten(text, {"revolutes": _short_joints, "gears": partial(_pairs, write=_short_pair)})
 
 
 def with_long_forms(text: str) -> str:
@@ -67,7 +68,7 @@ def with_long_forms(text: str) -> str:
     >>> print(*with_long_forms("gears:\n  - p ~ w").splitlines(), sep=" /")
     gears: /  - {pair: [p, w]}
     """
-    return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
+    return _rewritten(text, {"revolutes": _long_joints, "gears": partial(_pairs, write=_long_pair)})
 
 
 def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
@@ -176,14 +177,6 @@ def _short_joints(written: _SectionSource) -> list[str] | None:
     return list(_section("revolutes", merged, written.head, "{}", ""))
 
 
-def _short_pairs(written: _SectionSource) -> list[str] | None:
-    entries = [written.entry(_short_pair(written, node), node) for node in written.items]
-    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
-        return None
-    all_short = not any(each.text.startswith("{") for each in entries)
-    return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))
-
-
 def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
     """Return the short form of a gear pair, or its source text if it has further keys."""
     wheels = _pair_of(written, node, {"pair"})
@@ -212,18 +205,20 @@ def _long_joints(written: _SectionSource) -> list[str] | None:
     return list(_section("revolutes", entries, written.head, "", "- "))
 
 
-def _long_pairs(written: _SectionSource) -> list[str] | None:
-    entries = [written.entry(_long_pair(written, node), node) for node in written.items]
-    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
-        return None
-    return list(_section("gears", entries, written.head, "", "- "))
-
-
 def _long_pair(written: _SectionSource, node: yaml.Node) -> str:
     if isinstance(node, yaml.ScalarNode) and node.value.count("~") == 1:
         first, second = (wheel.strip() for wheel in node.value.split("~"))
         return f"{{pair: [{first}, {second}]}}"
     return written.source(node)
+
+
+def _pairs(written: _SectionSource, write: Callable[[_SectionSource, yaml.Node], str]) -> list[str] | None:
+    """Return the lines of the gear pairs with each entry in another form; None if no entry changes."""
+    entries = [written.entry(write(written, node), node) for node in written.items]
+    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
+        return None
+    all_short = not any(each.text.startswith("{") for each in entries)
+    return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))
 
 
 def _section(key: str, entries: Sequence[_Entry], head: str, brackets: str, bullet: str) -> Iterator[str]:

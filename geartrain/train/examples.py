@@ -49,7 +49,7 @@ def one_line(key: str, value: Any) -> str:
 
 
 _OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches", "sources", "materials")
-"""Keys of mappings whose keys are names that a user chooses."""
+"""Keys, such as `links`, of mappings from names that a user chooses."""
 
 
 def example_line(loc: Loc, kind: type) -> str:
@@ -68,7 +68,7 @@ def example_line(loc: Loc, kind: type) -> str:
 
 
 def _named(key: str) -> Iterator[Any]:
-    """Yield the values of a key in the examples."""
+    """Yield all values of one key in the examples, at any level."""
     # reversed, so that the stack returns values in the order of the examples
     stack: list[Any] = [data for _, data in example_data()][::-1]
     while stack:

@@ -120,9 +120,11 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
     """Return the function whose value identifies an entry of a list."""
-    if kind == "revolutes":
-        return lambda node: frozenset(texts(node.mapping.get("pair")))
-    return _pair_name if kind == "gears" else _coupling_name
+    return {"revolutes": _joined_links, "gears": _pair_name, "couplings": _coupling_name}[kind]
+
+
+def _joined_links(node: YamlNode) -> frozenset[str]:
+    return frozenset(texts(node.mapping.get("pair")))
 
 
 def _pair_name(node: YamlNode) -> str:
@@ -153,46 +155,31 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
     couplings.
     """
-    # turning pairs have no names, and are removed by their two links
-    gone = {key: list(texts(node)) for key, node in remove.mapping.items() if key != "revolutes"}
-    joints = (
-        [frozenset(texts(node)) for node in remove.mapping["revolutes"].items] if "revolutes" in remove.mapping else []
-    )
-    _check_known(root, remove, gone, joints)
-    links = set(gone.get("links", ()))
-    wheels = set(gone.get("wheels", ()))
+    gone: dict[str, list[object]] = {key: list(texts(node)) for key, node in remove.mapping.items()}
+    if "revolutes" in remove.mapping:
+        # turning pairs have no names, and are removed by their two links
+        gone["revolutes"] = [frozenset(texts(node)) for node in remove.mapping["revolutes"].items]
+    _check_known(root, remove, gone)
+    links, wheels = set(gone.get("links", ())), set(gone.get("wheels", ()))
     for link in links:
-        wheels.update(_child(root, "links", link, "wheels"))
+        wheels.update(_child(root, "links", str(link), "wheels"))
     result = dict(root.mapping)
-    for key in ("outputs", "dials", "states", "axes"):
+    for key in ("links", "outputs", "dials", "states", "axes"):
         if key in gone and key in result:
             result[key] = _drop(result[key], gone[key])
     if "links" in result:
-        kept = _drop(result["links"], links)
-        result["links"] = YamlNode(
-            {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}, kept.place, kept.keys
-        )
-    pairs, couplings = set(gone.get("gears", ())), set(gone.get("couplings", ()))
-    _filter(
-        result,
-        "revolutes",
-        lambda node: (
-            not links.intersection(ends := set(texts(node.mapping.get("pair")))) and frozenset(ends) not in joints
-        ),
-    )
-    _filter(
-        result,
-        "gears",
-        lambda node: not wheels.intersection(texts(node.mapping.get("pair"))) and _pair_name(node) not in pairs,
-    )
-    _filter(
-        result,
-        "couplings",
-        lambda node: (
-            not links.intersection(node.mapping[key].text for key in ("pin", "slot") if key in node.mapping)
-            and _coupling_name(node) not in couplings
-        ),
-    )
+        kept = result["links"]
+        parts = {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}
+        result["links"] = YamlNode(parts, kept.place, kept.keys)
+    for key, ends, removed in (
+        ("revolutes", lambda node: texts(node.mapping.get("pair")), links),
+        ("gears", lambda node: texts(node.mapping.get("pair")), wheels),
+        ("couplings", lambda node: (node.mapping[end].text for end in ("pin", "slot") if end in node.mapping), links),
+    ):
+        if key in result:
+            entries, named = result[key].items, gone.get(key, ())
+            left = [node for node in entries if removed.isdisjoint(ends(node)) and _identity(key)(node) not in named]
+            result[key] = YamlNode(left, result[key].place)
     return YamlNode(result, root.place, root.keys)
 
 
@@ -202,55 +189,35 @@ def _child(node: YamlNode, *keys: str) -> Mapping[str, YamlNode]:
     return node.mapping
 
 
-def _drop(node: YamlNode, names: Iterable[str]) -> YamlNode:
+def _drop(node: YamlNode, names: Iterable[object]) -> YamlNode:
     gone = set(names)
     return YamlNode({name: part for name, part in node.mapping.items() if name not in gone}, node.place, node.keys)
 
 
-def _without_wheels(link: YamlNode, wheels: set[str]) -> YamlNode:
+def _without_wheels(link: YamlNode, wheels: set[object]) -> YamlNode:
     """Return a link without the wheels named in `wheels`; the link itself if it has none of them."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link
     return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)
 
 
-def _filter(result: dict[str, YamlNode], key: str, keep: Callable[[YamlNode], bool]) -> None:
-    if key in result:
-        result[key] = YamlNode([node for node in result[key].items if keep(node)], result[key].place)
-
-
-def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]], joints: list[frozenset[str]]) -> None:
-    known: dict[str, set[str]] = {
+def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[object]]) -> None:
+    """Raise `DeclarationError` if `remove` names parts that the parent does not have."""
+    known: dict[str, set[Any]] = {
         key: set(_child(root, key)) for key in ("links", "outputs", "dials", "states", "axes")
     }
     known["wheels"] = {wheel for link in _child(root, "links").values() for wheel in _child(link, "wheels")}
-    known["gears"] = {_pair_name(node) for node in root.mapping.get("gears", YamlNode([], "")).items}
-    known["couplings"] = {_coupling_name(node) for node in root.mapping.get("couplings", YamlNode([], "")).items}
+    for key in ("revolutes", "gears", "couplings"):
+        known[key] = {_identity(key)(node) for node in root.mapping.get(key, YamlNode([], "")).items}
     problems = []
     for key, names in gone.items():
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
-                fix = suggest(name, known[key], otherwise="delete this entry")
-                problems.append(
-                    Problem(
-                        f"`remove` names the unknown part '{name}'",
-                        f"the parent has no such entry in {key}",
-                        fix,
-                        remove.place_of((key, at)),
-                    )
-                )
-    present = {
-        frozenset(texts(node.mapping.get("pair"))) for node in root.mapping.get("revolutes", YamlNode([], "")).items
-    }
-    for at, joint in enumerate(joints):
-        if joint not in present:
-            problems.append(
-                Problem(
-                    f"`remove` names an unknown turning pair of {' and '.join(sorted(joint))}",
-                    "the parent does not declare it",
-                    "delete this entry",
-                    remove.place_of(("revolutes", at)),
-                )
-            )
+                if isinstance(name, frozenset):
+                    part, fix = f"turning pair of {' and '.join(sorted(name))}", "delete this entry"
+                else:
+                    part, fix = f"part '{name}'", suggest(str(name), known[key], otherwise="delete this entry")
+                why = f"the parent has no such entry in {key}"
+                problems.append(Problem(f"`remove` names the unknown {part}", why, fix, remove.place_of((key, at))))
     if problems:
         raise DeclarationError(problems)

@@ -226,12 +226,7 @@ class WheelManufacture(Declared):
 
 
 class Filing(Declared):
-    """Fitting of a pair by filing: where the pair jams, the most protruding flank is filed until the teeth pass.
-
-    See Also
-    --------
-    PairMounting : has it as `filing`
-    """
+    """Fitting of a pair by filing: where the pair jams, the most protruding flank is filed until the teeth pass."""
 
     stroke: Annotated[
         LengthOff,

@@ -77,13 +77,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it.
-
-    See Also
-    --------
-    Dial : one with a pointer
-    DialRing : one around a dial
-    """
+    """Divisions of a scale, with their labels and numerals: common fields of a dial and of the ring around it."""
 
     divisions: Whole = Field(
         1, description="Number of divisions along all turns; default the sum of the spans of its names"
@@ -221,12 +215,9 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial faces away from an observer at one side of the train.
+    """Return True if a dial faces away from an observer; sides as declared by `Dial.face` and `View.from_`.
 
-    Parameters
-    ----------
-    face, seen_from : str or None
-        Sides as declared by `Dial.face` and `View.from_`. A dial with face None faces the observer.
+    A dial with face None faces the observer.
     """
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 

@@ -41,12 +41,7 @@ Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 
 
 
 class AddedParts(Declared):
-    """Parts that a reconstruction may add to the surviving parts.
-
-    See Also
-    --------
-    Reconstruction : has it as `add`
-    """
+    """Parts that a reconstruction may add to the surviving parts."""
 
     wheels: PartNumber = Field(0, description="Maximum number of added wheels")
     arbors: PartNumber | None = Field(None, description="Maximum number of added arbors; default no limit")
@@ -69,12 +64,7 @@ class AddedParts(Declared):
 
 
 class GivenCoupling(Declared):
-    """Known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation.
-
-    See Also
-    --------
-    Reconstruction : has them as `given`
-    """
+    """Known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation."""
 
     pair: tuple[Id, Id] = Field(description="Two links, beginning with the link of the pin")
     kind: Literal["pin_and_slot"] = Field(
@@ -83,12 +73,7 @@ class GivenCoupling(Declared):
 
 
 class PriorCost(Declared):
-    """Factors by which each assumption reduces the prior probability of a candidate.
-
-    See Also
-    --------
-    Reconstruction : has it as `cost`
-    """
+    """Factors by which each assumption reduces the prior probability of a candidate."""
 
     wheel: Factor = Field(Figure.parse(10), description="Factor for each added wheel")
     arbor: Factor = Field(Figure.parse(10), description="Factor for each added arbor")
@@ -101,10 +86,6 @@ class MeasuredGeometry(Declared):
     A misfit has the weight exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the
     twelve pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The default spread of distances
     corresponds to the same errors if only one wheel is measured.
-
-    See Also
-    --------
-    Reconstruction : has it as `geometry`
     """
 
     module: Spread = Field(

@@ -17,7 +17,6 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 
 from geartrain.errors import (
-    MOST_REPORTED,
     DeclarationError,
     Loc,
     Marks,
@@ -71,9 +70,6 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
         node = written_out(node_from_data(data))
         data, marks = node.plain(), marks or node.place_of
     place = marks or dotted
-    head = _head(data)
-    if head is not None:  # a large file may have a million errors, so its beginning is checked first
-        _check_head(head, place)
     try:
         train = Train.model_validate(data)
     except ValidationError as error:
@@ -85,48 +81,7 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     return train
 
 
-_HEAD = 200
-"""Number of entries of each collection that are validated first in a large declaration."""
-_LARGE = 20_000
-
-
-def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return the first entries of each collection of a large declaration, to two levels; None for a small one.
-
-    The values of a tooth count are kept complete, because the lengths of its lists are compared.
-    """
-    if sum(_size(part) for part in data.values()) < _LARGE:
-        return None
-    # known keys first: unknown keys must not displace them from the head
-    known = {key: data[key] for key in Train.model_fields if key in data}
-    return {key: _first(part) for key, part in (known | dict(islice(data.items(), _HEAD))).items()}
-
-
-def _size(part: Any) -> int:
-    """Estimate the number of values of a part, counting two levels of collections."""
-    if not isinstance(part, Mapping | list | tuple):
-        return 1
-    inner = part.values() if isinstance(part, Mapping) else part
-    return len(part) + sum(len(value) for value in inner if isinstance(value, Mapping | list | tuple))
-
-
-def _first(part: Any, key: str = "") -> Any:
-    if key in ("teeth", "cutting"):
-        return part
-    if isinstance(part, Mapping):
-        return {name: _first(value, name) for name, value in islice(part.items(), _HEAD)}
-    if isinstance(part, list | tuple):
-        return [_first(value) for value in islice(part, _HEAD)]
-    return part
-
-
-def _check_head(head: Mapping[str, Any], place: Marks) -> None:
-    """Raise `DeclarationError` if the head of a declaration has more problems than are reported."""
-    try:
-        Train.model_validate(head)
-    except ValidationError as error:
-        if error.error_count() > MOST_REPORTED:
-            raise DeclarationError(_problems_of(error, place)) from None
+_LOOKED_UP = 200  # unknown keys for which similar keys are searched
 
 
 def _problems_of(error: ValidationError, place: Marks) -> Iterator[Problem]:
@@ -136,7 +91,7 @@ def _problems_of(error: ValidationError, place: Marks) -> Iterator[Problem]:
     unknown = (item["loc"] for item in errors if item["type"] == "extra_forbidden" and item["loc"][:-1] in incomplete)
     misspelt = {
         (*loc[:-1], close[0])
-        for loc in islice(unknown, _HEAD)
+        for loc in islice(unknown, _LOOKED_UP)
         if (close := nearest_names(str(loc[-1]), _keys_at(loc[:-1])))
     }
     return (_problem_of(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
@@ -150,7 +105,7 @@ def _union_tags(kind: Any) -> tuple[Any, ...]:
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Return a mapping from tag to class of every friction law."""
+    """Return the class of each friction law by its tag, the value of `law`."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
@@ -237,7 +192,7 @@ def _without_space(loc: Loc, value: Any) -> str:
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
-    """Return the discriminator key and the allowed tags from the error of an unknown tag."""
+    """Return the key that selects a model, and its allowed values, from pydantic's error on an unknown value."""
     context = error["ctx"]
     return context["discriminator"].strip("'"), tuple(context["expected_tags"].replace("'", "").split(", "))
 
@@ -351,7 +306,7 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
 
 
 def _single_link(axis: str, place: str) -> Problem:
-    why = "its list begins with the link that carries the other links"
+    why = "the first link of its list carries the other links"
     return Problem(
         f"axis '{axis}' has fewer than two links", why, f"for example, write `{axis}: [frame, arbor]`", place
     )

@@ -7,6 +7,7 @@ rejected. Plain Python data can be converted to nodes as well, and a declaration
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,12 +16,14 @@ import yaml
 from pydantic import BaseModel
 
 from geartrain.errors import MOST_REPORTED, DeclarationError, Loc, Marks, Problem, dotted
+from geartrain.numerics.containers import collector_paused
 
 MOST_DEPTH = 32
 MOST_VALUES = 3_000_000  # about 200,000 links; the parser needs 0.25 kB for each value
 MOST_EXPANDED = 1_000_000
 _NULLS = {"", "~", "null", "Null", "NULL"}
-_TAGS = {f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "bool", "null", "seq", "map")}
+_STANDARD = ("str", "int", "float", "bool", "null", "timestamp", "merge", "value", "seq", "map")
+_TAGS = {f"tag:yaml.org,2002:{kind}" for kind in _STANDARD}
 
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -73,21 +76,45 @@ class YamlNode:
         return place
 
 
+@collector_paused()
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError` for invalid
-    YAML.
+    """Parse `text` as one YAML document; `name` is the file name in the places of the nodes. Raises `DeclarationError`
+    for invalid YAML.
     """
-    builder = _Builder(name)
     try:
-        for event in yaml.parse(text, Loader=_Loader):
-            builder.take(event)
+        _check_limits(text, name)
+        root = yaml.compose(text, Loader=_Loader)
     except yaml.MarkedYAMLError as error:
         raise DeclarationError(_syntax(error, name, text)) from None
     except (yaml.YAMLError, RecursionError) as error:
         raise DeclarationError(
             Problem("this is not YAML", str(error).splitlines()[0], "save it as UTF-8 text", name)
         ) from None
-    return builder.finish()
+    reader = _Reader(name)
+    node = reader.node(root) if root is not None else YamlNode(None, name)
+    if reader.problems:
+        raise DeclarationError(reader.problems)
+    if node.value is None:
+        why = "a declaration has at least the key `links`"
+        raise DeclarationError(Problem("the declaration is empty", why, "begin with `links:`", name))
+    if not isinstance(node.value, dict):
+        why = "a train is declared by keys such as links and gears"
+        raise DeclarationError(Problem("the declaration is not a mapping", why, "begin with `links:`", node.place))
+    return node
+
+
+def _check_limits(text: str, name: str) -> None:
+    """Raise `DeclarationError` for too many values or deep nesting, on which the recursive composer would fail."""
+    depth = 0
+    for values, event in enumerate(yaml.parse(text, Loader=_Loader), 1):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if values > MOST_VALUES:
+            why = f"a file has at most {MOST_VALUES} values"
+            fix = "build the train in Python with `GearTrain.declare`"
+            raise DeclarationError(Problem("the file is too large", why, fix, name))
+        if depth > MOST_DEPTH:
+            place = f"{name}:{event.start_mark.line + 1}" if event.start_mark else name
+            raise DeclarationError(_too_deep(place))
 
 
 def _too_deep(place: str) -> Problem:
@@ -102,6 +129,15 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     if "nesting depth" in why:  # libyaml 0.2.6 and newer refuse deep nesting themselves
         return _too_deep(place)
     lines = text.splitlines()
+    if "single document" in why:
+        why, fix = "a file declares one train", "declare each train in its own file"
+        return Problem("a second document begins", why, fix, place)
+    if "undefined alias" in why:
+        alias = re.split(r"[\s,\]}]", lines[mark.line][mark.column :])[0] if mark else "*"
+        fix = f"write the value out, or put the anchor '&{alias[1:]}' on an earlier value"
+        return Problem(
+            f"alias '{alias}' has no anchor", "an alias can repeat only a value that ends before it", fix, place
+        )
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
         return Problem(
             "the line contains a tab", "YAML is indented with spaces only", "replace the tab with spaces", place
@@ -116,152 +152,70 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     return Problem("invalid YAML syntax", why, fix, place)
 
 
-class _Builder:
-    """Iterative construction of nodes from parser events. Deep nesting is refused before the call stack overflows."""
+class _Reader:
+    """Conversion of composed YAML to nodes; problems with keys and tags are collected."""
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self.root: YamlNode | None = None
-        self.open: list[tuple[YamlNode, list[tuple[str, str] | None]]] = []
-        self.anchors: dict[str, YamlNode] = {}
-        self.unfinished: set[int] = set()
         self.problems: list[Problem] = []
-        self.values = self.expanded = 0
+        self.expanded = 0
+        self._found: dict[yaml.Node, YamlNode | None] = {}
 
-    def take(self, event: yaml.Event) -> None:
-        """Process one event of the parser. Raises `DeclarationError` for content that exceeds a limit or cannot be read
-        further.
+    def node(self, composed: yaml.Node) -> YamlNode:
+        """Return a composed node with everything in it; an alias has the node that it repeats.
+
+        Raises `DeclarationError` for content that exceeds a limit, and for an alias within its own value.
         """
-        self.values += 1
-        if self.values > MOST_VALUES:
-            why = f"a file has at most {MOST_VALUES} values"
-            raise DeclarationError(
-                Problem("the file is too large", why, "build the train in Python with `GearTrain.declare`", self.name)
-            )
+        place = f"{self.name}:{composed.start_mark.line + 1}"
+        if composed in self._found:
+            return self._repeated(self._found[composed], place)
         # stops early, because a large file that is wrong can have millions of problems
         if len(self.problems) > MOST_REPORTED + 1:
             raise DeclarationError(self.problems)
-        place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
-        match event:
-            case yaml.ScalarEvent():
-                self._check_tag(event.tag, place)
-                # only an unquoted null becomes None: "null" in quotes is a string
-                plain = event.implicit[0] and event.value in _NULLS and event.style in (None, "")
-                self._put(YamlNode(None if plain else event.value, place), event.anchor, place)
-            case yaml.MappingStartEvent() | yaml.SequenceStartEvent():
-                self._check_tag(event.tag, place)
-                node = YamlNode({} if isinstance(event, yaml.MappingStartEvent) else [], place)
-                if len(self.open) >= MOST_DEPTH:
-                    raise DeclarationError(_too_deep(place))
-                if event.anchor:
-                    self.anchors[event.anchor] = node
-                self.unfinished.add(id(node))
-                self.open.append((node, [None]))
-            case yaml.MappingEndEvent() | yaml.SequenceEndEvent():
-                node, _ = self.open.pop()
-                self.unfinished.discard(id(node))
-                self._put(node, None, node.place)
-            case yaml.AliasEvent():
-                self._put(self._alias(event.anchor, place), None, place)
-            case yaml.DocumentStartEvent() if self.root is not None:
-                raise DeclarationError(
-                    Problem(
-                        "a second document begins",
-                        "a file declares one train",
-                        "declare each train in its own file",
-                        place,
-                    )
-                )
+        if composed.tag not in _TAGS:
+            what = f"tag '{composed.tag}' is not supported"
+            raise DeclarationError(Problem(what, "a declaration is plain data", "remove the tag", place))
+        self._found[composed] = None  # not finished
+        made = YamlNode(composed.value, place)
+        if isinstance(composed, yaml.MappingNode):
+            made.value = {}
+            for key, value in composed.value:
+                self._add(made, self.node(key), self.node(value))
+        elif isinstance(composed, yaml.SequenceNode):
+            made.value = [self.node(part) for part in composed.value]
+            made.size += sum(part.size for part in made.value)
+        elif composed.tag.endswith(":null") and composed.value in _NULLS:
+            made.value = None
+        self._found[composed] = made
+        return made
 
-    def _alias(self, anchor: str | None, place: str) -> YamlNode:
-        target = self.anchors.get(anchor or "")
-        if target is None or id(target) in self.unfinished:
-            what = f"alias '*{anchor}' " + ("contains itself" if target else "has no anchor")
-            raise DeclarationError(
-                Problem(
-                    what,
-                    "an alias can repeat only a value that ends before it",
-                    f"write the value out, or put the anchor '&{anchor}' on an earlier value",
-                    place,
-                )
-            )
+    def _repeated(self, target: YamlNode | None, place: str) -> YamlNode:
+        if target is None:
+            why = "an alias can repeat only a value that ends before it"
+            raise DeclarationError(Problem("an alias contains itself", why, "write the value out", place))
         # aliases of aliases grow exponentially ("billion laughs"), so the expanded size is counted
         self.expanded += target.size
         if self.expanded > MOST_EXPANDED:
-            raise DeclarationError(
-                Problem(
-                    "the aliases expand to too many values",
-                    f"at most {MOST_EXPANDED} values are allowed after expansion",
-                    "write the values out",
-                    place,
-                )
-            )
+            why = f"at most {MOST_EXPANDED} values are allowed after expansion"
+            raise DeclarationError(Problem("the aliases expand to too many values", why, "write the values out", place))
         return target
 
-    def _check_tag(self, tag: str | None, place: str) -> None:
-        if tag and tag != "!" and tag not in _TAGS:
-            raise DeclarationError(
-                Problem(f"tag '{tag}' is not supported", "a declaration is plain data", "remove the tag", place)
+    def _add(self, mapping: YamlNode, key: YamlNode, value: YamlNode) -> None:
+        """Add an entry to a mapping; report a key that is null, repeated, or not a scalar."""
+        if not isinstance(key.value, str):
+            text = "null" if key.value is None else "a list or mapping"
+            self.problems.append(
+                Problem(f"{text} is used as a key", "keys are names", "quote it, or give a name", key.place)
             )
-
-    def _put(self, node: YamlNode, anchor: str | None, place: str) -> None:
-        if anchor:
-            self.anchors[anchor] = node
-        if not self.open:
-            self.root = node
             return
-        parent, pending = self.open[-1]
-        if isinstance(parent.value, list):
-            parent.value.append(node)
-            parent.size += node.size
-        elif pending[0] is None:
-            if not isinstance(node.value, str):
-                text = "null" if node.value is None else "a list or mapping"
-                self.problems.append(
-                    Problem(f"{text} is used as a key", "keys are names", "quote it, or give a name", place)
-                )
-            # a unique substitute for an invalid key, so that parsing continues and collects further problems
-            key = node.text if isinstance(node.value, str) else f"?{place}"
-            pending[0] = (key, place)
-        else:
-            key, key_place = pending[0]
-            pending[0] = None
-            if key in parent.mapping:
-                self.problems.append(
-                    Problem(
-                        f"key '{key}' is given twice",
-                        f"it is also at {parent.keys[key]}, and one of the two values would be lost",
-                        "rename or remove one of the two keys",
-                        key_place,
-                    )
-                )
-            parent.mapping[key] = node
-            parent.keys[key] = key_place
-            parent.size += node.size
-
-    def finish(self) -> YamlNode:
-        """Return the root node. Raises `DeclarationError` with all problems that were collected."""
-        if self.problems:
-            raise DeclarationError(self.problems)
-        if self.root is None or self.root.value is None:
-            raise DeclarationError(
-                Problem(
-                    "the declaration is empty",
-                    "a declaration has at least the key `links`",
-                    "begin with `links:`",
-                    self.name,
-                )
+        if key.value in mapping.value:
+            why = f"it is also at {mapping.keys[key.value]}, and one of the two values would be lost"
+            self.problems.append(
+                Problem(f"key '{key.value}' is given twice", why, "rename or remove one of the two keys", key.place)
             )
-        if not isinstance(self.root.value, dict):
-            raise DeclarationError(
-                Problem(
-                    "the declaration is not a mapping",
-                    "a train is declared by keys such as links and gears",
-                    "begin with `links:`",
-                    self.root.place,
-                )
-            )
-        return self.root
+        mapping.value[key.value] = value
+        mapping.keys[key.value] = key.place
+        mapping.size += value.size
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:

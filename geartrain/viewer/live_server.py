@@ -35,21 +35,11 @@ class LivePages:
 class LiveServer:
     """Web server for the pages of a train, reachable only from this computer, that runs until it is interrupted.
 
-    Parameters
-    ----------
-    make : callable
-        Function that builds the pages; a `GearTrainError` is shown above the last pages.
-    watched : callable
-        Function that returns the files to watch; it is called after each change.
-    port : int
-        Port number, 0 for any free port.
+    A missing tornado or watchdog raises `MissingExtraError`, and a port that cannot be used `QuestionError`.
 
-    Raises
-    ------
-    MissingExtraError
-        If tornado or watchdog is not installed.
-    QuestionError
-        If the port is in use or not a valid port.
+    make      function that builds the pages; a `GearTrainError` is shown above the last pages
+    watched   function that returns the files to watch; it is called after each change
+    port      port number, 0 for any free port
     """
 
     def __init__(self, make: Callable[[], LivePages], watched: Callable[[], Iterable[Path]], port: int = 0) -> None:
@@ -75,9 +65,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and count the version; if the train has errors, keep the last pages and store the error
-        message.
-        """
+        """Rebuild the pages and count the version; on errors of the train, keep the old pages and store the message."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -86,13 +74,7 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until the process is interrupted (Ctrl+C).
-
-        Parameters
-        ----------
-        report : callable
-            Function called after each change with the error message; the message is empty if the train has no error.
-        """
+        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or empty."""
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))
 
@@ -175,10 +157,7 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page.
-
-        It permits the script of the page, frames of this server, and the web socket to this server.
-        """
+        """Return the outer page's security policy: its script, frames of this server, and the web socket to it."""
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

@@ -29,8 +29,7 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
     "\u2028": "\\u2028",
     "\u2029": "\\u2029",
 }
-"""Escapes of characters that could end a script element or start another; in JSON strings they have the same meaning.
-"""
+"""Escapes of characters that could end or start a script element; they mean the same in JSON strings."""
 
 
 _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
@@ -75,13 +74,9 @@ def page(
     (True, True, False)
     """
     if len(scenes) < 1 + compare:
-        raise QuestionError(
-            Problem(
-                "there are too few scenes for a page",
-                f"a page requires at least one scene, or two to compare, and the number given is {len(scenes)}",
-                "pass at least one scene, or at least two with compare=True",
-            )
-        )
+        why = f"a page requires at least one scene, or two to compare, and the number given is {len(scenes)}"
+        fix = "pass at least one scene, or at least two with compare=True"
+        raise QuestionError(Problem("there are too few scenes for a page", why, fix))
     # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
@@ -118,12 +113,8 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
     >>> "sun fixed" in train_page(geartrain.load("planetary"))
     True
     """
-    return page(
-        [
-            build_scene(train, each, formulas=True)
-            for each in ((state,) if state is not None else train.states or (None,))
-        ]
-    )
+    states = (state,) if state is not None else train.states or (None,)
+    return page([build_scene(train, each, formulas=True) for each in states])
 
 
 @dataclass(frozen=True)
@@ -192,9 +183,7 @@ def _words(scene: Scene) -> str:
 
 
 def own_script_only(program: str) -> str:
-    """Return a content security policy that permits inline styles and one script, identified by its hash, and no
-    images.
-    """
+    """Return a content security policy for inline styles and one script, identified by its hash; no images."""
     digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
     allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'"
     return f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"

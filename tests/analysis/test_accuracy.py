@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from fractions import Fraction
 from math import degrees
@@ -13,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from commands import LOCKED, RIGHT, call
+from dynamics.test_uncounted_losses import PIN
 
 from geartrain import GearTrain, load
 from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
@@ -131,27 +130,9 @@ def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(tr
     ]
 
 
-def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
-    code = (
-        "import sys, geartrain; from geartrain.analysis import find_accuracy; "
-        "find_accuracy(geartrain.load('pennestri-2002')); "
-        "heavy = ('geartrain.teeth.triangular.triangular_transmission', 'geartrain.dynamics.motion'); "
-        "print([name for name in sys.modules if name.startswith(heavy)])"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
-
-
 def test_torque_over_a_turn_is_measured_by_its_samples() -> None:
     """A pin in a slot with friction: the mean has converged long before the most samples."""
-    train = load("""
-links: {frame: {}, a: {}, b: {}}
-revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm, friction: 0.3}]
-inputs: {a: 1}
-loads: {b: -10 N m}
-""")
-    rows = {row.method: row for row in find_accuracy(train, positions=20).methods if row.stage == "torques"}
+    rows = {row.method: row for row in find_accuracy(load(PIN), positions=20).methods if row.stage == "torques"}
     over = [row for method, row in rows.items() if method.startswith("over 1 turns")]
     assert [row.method.split(", ")[1] for row in over] == [f"{n} samples" for n in (20_000, 2_000, 200, 20)]
     assert [row.error is None for row in over] == [True, False, False, False]

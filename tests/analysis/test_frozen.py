@@ -127,7 +127,6 @@ def test_what_a_train_does_not_have_is_refused_with_what_it_has() -> None:
         "unknown method 'quick'": lambda: train.solve(method="quick"),  # type: ignore[arg-type]
         "unknown link 'nowhere'": lambda: train.driven("nowhere", one),
         "unknown link 'noone'": lambda: train.driven(other, "noone"),
-        "unknown link 'here'": lambda: floats(condition_of=["here"]),
         "unknown input 'nothing'": lambda: floats(inputs={one: [1.0], "nothing": [1.0]}),
         "is not finite": lambda: floats(inputs={link: [float("nan")] for link in train.declaration.inputs}),
         "the tolerance nan is out of range": lambda: train.motion(tolerance=float("nan")),

@@ -1,4 +1,4 @@
-"""A browser for the pages: Chromium, headless, drawing WebGL in software; what a page says and asks for is kept."""
+"""Browser for the pages: headless Chromium with software WebGL, which records messages and requests of pages."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ from stills import NAMES, SWITCHES, find_browser
 from viewing import DESK, GALLERY, Opening, html_of, wait
 
 ROOT = Path(__file__).parent.parent.parent
-PATIENCE = 90_000  # ms: software draws slowly on a busy machine
+PATIENCE = 90_000  # ms: software rendering is slow on a busy machine
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    # playwright leaves its loop and its pipes to the interpreter's end
+    # playwright closes its event loop and pipes only when the interpreter exits
     config.addinivalue_line("filterwarnings", "ignore::pytest.PytestUnraisableExceptionWarning")
 
 
 @dataclass
 class Shown:
-    """A page in the browser: `errors` and warnings it logged, and the addresses it asked for beside its own."""
+    """Page in the browser, with the `errors` and warnings that it logged, and the addresses that it requested."""
 
     page: Page
     errors: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
 
     def run(self, script: str, argument: Any = None) -> Any:
-        """The value of an expression, or of a function of `argument`, in the page."""
+        """Return the value of an expression, or of a function of `argument`, in the page."""
         return self.page.evaluate(script, argument)
 
     def angles(self, turns: Sequence[str | float], outputs: Sequence[str]) -> list[list[float]]:
-        """The angles (rad) of outputs, a list for each number of turns of the lead; asked at once, so drawn once."""
+        """Return the angles of outputs [rad] for each number of turns of the driving link, in one call."""
         script = """([turns, outputs]) => turns.map((each) => {
           geartrain.setTurns(each);
           return outputs.map((name) => geartrain.pointer(0, name).angle);
@@ -48,51 +48,12 @@ class Shown:
         return [[float(angle) for angle in row] for row in self.run(script, [list(turns), list(outputs)])]
 
 
-# lists, ticks and sliders; what is typed into a text field remains
-CONTROLS = "[...document.querySelectorAll('select, input[type=checkbox], input[type=range]')]"
-VALUES = f"() => {CONTROLS}.map((each) => each.type === 'checkbox' ? each.checked : each.value)"
-RESTORE = f"""(values) => {{
-  const click = (selector) => document.querySelector(selector)?.click();
-  click('.round[aria-label=pause]');
-  click('[aria-label="play backwards"][aria-pressed=true]');
-  click('[data-key=reset]'); // all counts as declared
-  values.forEach((value, n) => {{
-    const each = {CONTROLS}[n], key = each.type === 'checkbox' ? 'checked' : 'value';
-    if (each[key] === value) return;
-    each[key] = value;
-    for (const kind of ['input', 'change']) each.dispatchEvent(new Event(kind, {{ bubbles: true }}));
-  }});
-  click('[role=tab]');
-  click('[data-look=free]');
-  document.activeElement?.blur();
-  geartrain.setTurns('0');
-}}"""
-
-
-@dataclass
-class OpenedPage:
-    """A page that several tests use one after the other: `values` are those of its controls when it opened."""
-
-    shown: Shown
-    values: list[Any] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.values = self.shown.run(VALUES)
-
-    def restore(self) -> None:
-        """Bring the page back to the state in which it opened, as a reader would."""
-        self.shown.run(RESTORE, self.values)
-        self.shown.page.keyboard.press("Escape")
-        assert self.shown.run(VALUES) == self.values
-
-
 OpenPage = Callable[..., Shown]
-SharePage = Callable[[str], Shown]
 
 
 @pytest.fixture(scope="session")
 def program() -> str:
-    """The browser's program; what needs it is passed over where there is none."""
+    """Executable of the browser; tests that need it are skipped without it."""
     found = find_browser()
     if found is None:
         why = f"no browser: none of {', '.join(NAMES)} is on the path, and GEARTRAIN_BROWSER names none"
@@ -113,7 +74,7 @@ def browser(program: str) -> Iterator[Browser]:
 
 @pytest.fixture
 def open_page(browser: Browser) -> Iterator[OpenPage]:
-    """Opens a file as a user would, after a script of ours; further arguments (viewport, ...) are the window's."""
+    """Function that opens a file after running a script; further arguments are those of the window."""
     contexts = []
 
     def show(path: Path, before: str = "", **window: Any) -> Shown:
@@ -127,52 +88,6 @@ def open_page(browser: Browser) -> Iterator[OpenPage]:
         context.close()
 
 
-@pytest.fixture(scope="module")
-def opened_pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], OpenedPage]]:
-    """Opens each page of a module once, by its HTML, and closes all of them after the module's last test."""
-    context = browser.new_context(**DESK)
-    pages: dict[str, OpenedPage] = {}
-
-    def opened(html: str) -> OpenedPage:
-        if html not in pages:
-            path = tmp_path_factory.mktemp("shared") / "page.html"
-            path.write_text(html, encoding="utf-8")
-            pages[html] = OpenedPage(_opened(context.new_page(), path))
-        return pages[html]
-
-    yield opened
-    context.close()
-
-
-@pytest.fixture
-def share(opened_pages: Callable[[str], OpenedPage]) -> SharePage:
-    """Returns the page of some HTML, which all tests of a module share; each test meets it as it opened."""
-    shown: dict[str, Shown] = {}
-
-    def shared(html: str) -> Shown:
-        if html not in shown:
-            found = opened_pages(html)
-            found.restore()
-            shown[html] = found.shown
-        return shown[html]
-
-    return shared
-
-
-@pytest.fixture
-def show_shared(share: SharePage) -> Opening:
-    """Shows the page of shipped trains, or of a declaration, as `show` does, on a page shared by a module's tests.
-
-    For tests of what a page does after it has opened: numbers, pictures, controls. What a reader sees at first, other
-    windows and scripts that run before the page need one of their own.
-    """
-
-    def opened(*names: str, text: str | None = None, compare: bool = False, teeth: bool = False) -> Shown:
-        return share(html_of(names or (str(text),), compare, teeth))
-
-    return opened
-
-
 def _opened(sheet: Page, path: Path) -> Shown:
     shown = Shown(sheet)
     address = path.resolve().as_uri()
@@ -184,15 +99,25 @@ def _opened(sheet: Page, path: Path) -> Shown:
 
 
 @pytest.fixture
-def show(open_page: OpenPage, tmp_path: Path) -> Opening:
-    """Opens the page of shipped trains, or of a declaration, in all their states."""
+def show_html(open_page: OpenPage, tmp_path: Path) -> OpenPage:
+    """Function that opens a page from its HTML."""
+
+    def opened(html: str, **window: Any) -> Shown:
+        path = tmp_path / "page.html"
+        path.write_text(html, encoding="utf-8")
+        return open_page(path, **(DESK | window))
+
+    return opened
+
+
+@pytest.fixture
+def show(show_html: OpenPage) -> Opening:
+    """Function that opens the page of shipped trains, or of a declaration, in all their states."""
 
     def opened(
         *names: str, text: str | None = None, compare: bool = False, teeth: bool = False, **window: Any
     ) -> Shown:
-        path = tmp_path / "page.html"
-        path.write_text(html_of(names or (str(text),), compare, teeth), encoding="utf-8")
-        return open_page(path, **(DESK | window))
+        return show_html(html_of(names or (str(text),), compare, teeth), **window)
 
     return opened
 
@@ -215,7 +140,7 @@ def _listen(shown: Shown, address: str) -> None:
 
 
 def _is_of_the_driver(text: str) -> bool:
-    """Software rendering grumbles about itself; a page can do nothing about that."""
+    """Return True for warnings of software rendering, which a page does not cause."""
     return "GL Driver Message" in text or "GPU stall" in text
 
 

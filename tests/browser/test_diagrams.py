@@ -1,4 +1,4 @@
-"""Diagrams of the documentation in a browser: each is dragged, and the numbers it shows are the package's."""
+"""Diagrams of the documentation in a browser: each is dragged, and its numbers equal those of the package."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ import geartrain
 ROOT = Path(__file__).parent.parent.parent
 TURN = 2 * pi
 KINDS = diagrams.KINDS
-DRAGGED = [kind for kind in KINDS if kind != "circuits"]  # the others are pointed at
+DRAGGED = [kind for kind in KINDS if kind != "circuits"]  # the other diagrams respond to pointing
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 GROUND, ARM = "relative to the frame", "relative to the carrier"
 
 
 @dataclass
 class Drawn:
-    """A diagram on a sheet of its own, and what went wrong on it: errors, and requests of any kind."""
+    """Diagram on its own page, with the errors and requests of the page."""
 
     page: Page
     wrong: list[str]
@@ -39,7 +39,7 @@ class Drawn:
         return self.page.get_by_role("slider", name=label, exact=True)
 
     def number(self, of: str, as_: str) -> str:
-        """A number of the table, by the name of its row and the head of its column."""
+        """Return a number of the table, by the name of its row and the head of its column."""
         found = self.page.locator(f'td[data-of="{of}"][data-as="{as_}"]').inner_text()
         return found.replace("\N{MINUS SIGN}", "-")
 
@@ -51,7 +51,7 @@ class Drawn:
         return self.page.locator(".gd-remark").inner_text().replace("\N{MINUS SIGN}", "-")
 
     def place(self, x: float, y: float, within: str = ".gd-plane") -> tuple[float, float]:
-        """Where a point of the picture's plane stands on the sheet."""
+        """Return the position on the page [px] of a point of the picture's plane."""
         script = """([within, x, y]) => {
           const at = new DOMPoint(x, y).matrixTransform(document.querySelector(within).getScreenCTM());
           return [at.x, at.y];
@@ -60,7 +60,7 @@ class Drawn:
         return float(left), float(top)
 
     def drag(self, path: list[tuple[float, float]]) -> None:
-        """Along points of the sheet."""
+        """Drag along points of the page."""
         mouse = self.page.mouse
         mouse.move(*path[0])
         mouse.down()
@@ -69,7 +69,7 @@ class Drawn:
         mouse.up()
 
     def drag_round(self, radius: float, turns: float, start: float = 0.0, centre: tuple[float, float] = (0, 0)) -> None:
-        """Round a point of the plane, from an angle (turns), in steps of less than a twelfth."""
+        """Drag around a point of the plane, from an angle [turns], in steps of less than 1/12 turn."""
         steps = 1 + int(abs(turns) * 24)
         angles = [TURN * (start + turns * n / steps) for n in range(steps + 1)]
         self.drag([self.place(centre[0] + radius * cos(a), centre[1] + radius * sin(a)) for a in angles])
@@ -83,7 +83,7 @@ Opening = Callable[..., Drawn]
 
 @pytest.fixture
 def draw(browser: Browser, tmp_path: Path) -> Iterator[Opening]:
-    """A diagram as the site has it, from disk and without a network."""
+    """Function that opens a diagram as on the site, from disk and without a network."""
     contexts = []
 
     def opened(kind: str, **window: Any) -> Drawn:
@@ -121,7 +121,7 @@ def test_every_kind_stands_in_a_page_above_its_still_and_every_page_that_explain
     assert all("<!-- diagram: " in pages[name] for name in explaining)
 
 
-# corners of words in a picture, and of the picture
+# bounding boxes of the picture and of the text in it
 WORDS = """() => {
   const box = (each) => (({left, right, top, bottom}) => [left, right, top, bottom])(each.getBoundingClientRect());
   const all = [...document.querySelectorAll('.gd-text')];
@@ -143,7 +143,7 @@ def test_a_diagram_is_its_still_until_scripts_run_and_in_print_and_its_words_do_
         (left, right, top, bottom), words = page.evaluate(WORDS)
         for (text, *a), (other, *b) in combinations(words, 2):
             across, down = min(a[1], b[1]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[2], b[2])
-            assert across < 1 or down < 4, f"{text} meets {other}"  # the boxes of lines have room above letters
+            assert across < 1 or down < 4, f"{text} meets {other}"  # boxes include space above letters
         assert all(left <= a and b <= right and top <= c and d <= bottom for _, a, b, c, d in words)
     page.emulate_media(media="print")
     assert (page.locator(".gd-live").is_visible(), still.is_visible()) == (False, True)
@@ -169,7 +169,7 @@ def test_handles_have_names_and_turn_by_keys_and_are_seen_with_their_numbers(dra
         assert before
         handle.focus()
         handle.press("ArrowRight")
-        if handle.get_attribute("aria-valuetext") == before:  # it may stand at its end
+        if handle.get_attribute("aria-valuetext") == before:  # it may be at its maximum
             handle.press("ArrowLeft")
         moved += handle.get_attribute("aria-valuetext") != before
     assert (moved > 0) == (kind in DRAGGED)

@@ -1,4 +1,4 @@
-"""Teeth of the viewer as solids: in the poses in which they are drawn they do not run into each other."""
+"""Teeth of the viewer as solids: they do not overlap in the poses in which they are drawn."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_a_pendulum_swings_once_a_tooth_and_a_weight_falls_as_its_barrel_turns(b
     scene = shipped.built("longcase-clock")
     with opened(browser, scene) as drawn:
         poses = drawn.matrices([Fraction(0), Fraction(1, 7200), Fraction(3, 7200), Fraction(1, 4), Fraction(12)])
-    bodies = poses[:, -len(scene.hangers) :]  # after all others
+    bodies = poses[:, -len(scene.hangers) :]  # after all other wheels
     where = {hanger.kind: at for at, hanger in enumerate(scene.hangers)}
     end = {}
     for kind in ("pendulum", "line", "weight"):
@@ -78,11 +78,11 @@ def test_a_pendulum_swings_once_a_tooth_and_a_weight_falls_as_its_barrel_turns(b
         end[kind] = (bodies[:, where[kind]] @ start)[:, :3] - start[:3]
     down = np.array(scene.hangers[where["weight"]].down)
     aside = np.linalg.norm(end["pendulum"], axis=1)
-    # the lead turns once an hour: half a second is a quarter of a swing of two seconds, 994 mm times 2 degrees
+    # the driving link turns once per hour; after 0.5 s of a period of 2 s the deflection is 994 mm times 2 degrees
     assert aside[1] == pytest.approx(34.8, abs=0.1)
     assert end["pendulum"][2] == pytest.approx(end["pendulum"][1] * [-1, 1, 1], abs=1e-3), "to the other side"
     assert aside[[0, 3]] == pytest.approx([0, 0], abs=1e-3), "after 450 swings"
     assert end["weight"] @ down == pytest.approx(end["line"] @ down, abs=1e-6)
-    # sixteen turns of line in eight days of 24 hours
+    # 16 turns of line in 8 days of 24 hours
     fall = 16 * 2 * np.pi * 12.7 / 192
     assert end["weight"] @ down == pytest.approx(fall * np.array([0, 1 / 7200, 3 / 7200, 0.25, 12]), abs=1e-3)

@@ -1,4 +1,4 @@
-"""A GLB in a browser, read by three.js's own loader: every part at its place, at rest and in motion."""
+"""GLB file in a browser, read by the loader of three.js: position of every part, at rest and in motion."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ globalThis.geartrain = { ready: true };
 
 @pytest.fixture(scope="module")
 def loader(program: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A page with three.js and its loader of glTF, of the version that the viewer is built with."""
+    """Page with three.js and its glTF loader, in the version with which the viewer is built."""
     npm, node = shutil.which("npm"), shutil.which("node")
     if npm is None or node is None:
         pytest.skip("node and npm are not there: no GLB is loaded by three.js")
@@ -89,7 +89,7 @@ def loader(program: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def boxes(work: SolidModel, share: float) -> dict[str, tuple[Floats, Floats]]:
-    """Bounding box (m) of every part after a share of the animation, by the poses of bodies one on the other."""
+    """Return the bounding box of every part [m] after a fraction of the animation, from composed poses."""
     turning, bodies = Keyframes.of(work), work.scene.bodies
     count = 1000
 
@@ -102,7 +102,7 @@ def boxes(work: SolidModel, share: float) -> dict[str, tuple[Floats, Floats]]:
         return placed(body.parent, turned(points - about, np.array(body.direction), float(angle)) + about)
 
     def turned(points: Floats, axis: Floats, angle: float) -> Floats:
-        """Rodrigues' formula."""
+        """Return points rotated about an axis (Rodrigues' formula)."""
         along = np.outer(points @ axis, axis)
         return along + cos(angle) * (points - along) + sin(angle) * np.cross(axis, points)
 

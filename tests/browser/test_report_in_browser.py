@@ -1,4 +1,4 @@
-"""The page of a report as people use it: sorted, copied from, printed, read on a phone, in light and in dark."""
+"""Page of a report in use: sorted, copied, printed, read on a phone, in the light and the dark theme."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Opened = Callable[..., tuple[Page, list[str]]]
 
 @pytest.fixture
 def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
-    """Opens a page from disk; beside it a list of all that goes wrong: errors, dialogs, requests to anything else."""
+    """Function that returns an opened page with a list of errors, dialogs and requests to other addresses."""
     contexts = []
 
     def show(text: str, **window: object) -> tuple[Page, list[str]]:
@@ -46,7 +46,7 @@ def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
 
 
 def table(page: Page, heading: str) -> list[list[str]]:
-    """The rows of the first table under a heading."""
+    """Return the rows of the first table below a heading."""
     script = """heading => {
       const section = [...document.querySelectorAll("section")].find(
         (each) => each.querySelector("h2").textContent === heading);
@@ -56,7 +56,7 @@ def table(page: Page, heading: str) -> list[list[str]]:
 
 
 def sort_by(page: Page, heading: str, column: str) -> list[str]:
-    """Click a column's head, and read the column."""
+    """Click the head of a column, and return its cells."""
     section = page.locator("section", has=page.locator("h2", has_text=heading)).first
     section.locator("thead button", has_text=column).first.click()
     head, *rows = table(page, heading)

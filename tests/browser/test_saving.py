@@ -1,4 +1,4 @@
-"""Pictures and films of a page: what its buttons save, what scripts of the documentation take, and the motion seen."""
+"""Pictures and films of a page: those saved by its buttons and by scripts of the documentation, and their motion."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ STILL = """(turns) => {
 
 
 def taken(*turns: Fraction, background: str = "#f4f1ea", size: tuple[int, int] = (240, 160)) -> list[bytes]:
-    """Stills of a train; in a thread of their own, for the browser of other tests waits in this one."""
+    """Return stills of a train, made in a thread without the event loop of the browser of other tests."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(lambda: list(stills(shipped.scene(SIMPLE), size, turns, background))).result()
 
@@ -36,8 +36,8 @@ def taken(*turns: Fraction, background: str = "#f4f1ea", size: tuple[int, int] =
 # ------------------------------------------------------------------------------------------------------- from the page
 
 
-def test_a_picture_is_saved_from_the_page_as_it_stands(show_shared: Opening, tmp_path: Path) -> None:
-    shown = show_shared(SIMPLE)
+def test_a_picture_is_saved_from_the_page_as_it_stands(show: Opening, tmp_path: Path) -> None:
+    shown = show(SIMPLE)
     with shown.page.expect_download() as download:
         shown.page.get_by_role("button", name="Save picture").click()
     assert download.value.suggested_filename == f"{SIMPLE}.png"
@@ -49,7 +49,7 @@ def test_a_picture_is_saved_from_the_page_as_it_stands(show_shared: Opening, tmp
 
 
 def recorded(shown: Shown, to: Path) -> tuple[str, bytes]:
-    """The name and content of a film of two moments."""
+    """Return the name and content of a film of two moments."""
     button = shown.page.get_by_role("button", name="Record film")
     button.click()
     assert button.get_attribute("aria-pressed") == "true"
@@ -63,9 +63,9 @@ def recorded(shown: Shown, to: Path) -> tuple[str, bytes]:
     return download.value.suggested_filename, to.read_bytes()
 
 
-def test_a_film_is_recorded_from_the_page_while_the_train_turns(show_shared: Opening, tmp_path: Path) -> None:
+def test_a_film_is_recorded_from_the_page_while_the_train_turns(show: Opening, tmp_path: Path) -> None:
     av = pytest.importorskip("av", reason="PyAV is not installed: no film is decoded")
-    shown = show_shared(SIMPLE)
+    shown = show(SIMPLE)
     name, data = recorded(shown, tmp_path / "film.webm")
     assert name == f"{SIMPLE}.webm"
     with av.open(io.BytesIO(data)) as file:
@@ -90,8 +90,8 @@ def test_a_film_ends_when_another_state_is_shown(show: Opening, tmp_path: Path) 
     assert shown.errors == []
 
 
-def test_a_browser_that_records_nothing_has_no_button_for_it(show: Opening, show_shared: Opening) -> None:
-    there = show_shared(SIMPLE).page.get_by_role("button", name="Record film")
+def test_a_browser_that_records_nothing_has_no_button_for_it(show: Opening) -> None:
+    there = show(SIMPLE).page.get_by_role("button", name="Record film")
     assert there.is_visible()
     absent = show(SIMPLE, before="delete globalThis.MediaRecorder").page
     assert absent.get_by_role("button", name="Save picture").is_visible()
@@ -102,15 +102,15 @@ def test_a_browser_that_records_nothing_has_no_button_for_it(show: Opening, show
 
 
 def knob(shown: np.ndarray) -> complex:
-    """Middle of what is blue, with y upwards."""
+    """Return the centre of the blue area, with y upwards."""
     red, green, blue = np.moveaxis(shown, 2, 0)
     rows, columns = np.nonzero((blue > 100) & (blue > red + 60) & (blue > green + 30))
     assert len(rows) > 20, "the handle is seen"
     return complex(columns.mean(), -rows.mean())
 
 
-def test_the_handle_seen_in_the_pictures_turns_as_the_input_does(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
+def test_the_handle_seen_in_the_pictures_turns_as_the_input_does(show: Opening) -> None:
+    shown = show(SIMPLE)
     shown.run("geartrain.stages[0].look('front')")
     count = 8
     stands = [shown.run(STILL, f"{n}/{count}") for n in range(count)]

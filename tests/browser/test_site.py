@@ -1,4 +1,4 @@
-"""The site is built as it is published, with three trains in its gallery, and opened from disk in a browser."""
+"""Site as published, with a few trains in its gallery, opened from disk in a browser."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ ACCURACY = sorted(name for name in DOCS if "accuracy" in name)
 
 
 class Links(HTMLParser):
-    """What a page leads to, what it fetches, and its names."""
+    """Links of a page, the files that it loads, and its anchors."""
 
     def __init__(self, path: Path) -> None:
         super().__init__()
@@ -52,7 +52,7 @@ class Links(HTMLParser):
 
 
 def pages(site: Path) -> Iterator[Path]:
-    """Pages of the documentation, without those of trains and the one for wrong addresses."""
+    """Return the pages of the documentation, without those of trains and without the error page."""
     found = sorted([*site.glob("*.html"), *site.glob("api/*.html")])
     return (path for path in found if path.name != "404.html")
 
@@ -163,7 +163,7 @@ def test_pictures_of_the_gallery_turn_under_the_pointer_and_open_the_train(
 
 
 def test_formulas_fit_their_column_and_pages_their_window(site: Path, sheet: tuple[Page, list[str]]) -> None:
-    """A formula of several statements goes on in a further line; on a phone it may be moved, the page may not."""
+    """A formula of several statements is broken into lines; on a phone it may be scrolled, but not the page."""
     page, _ = sheet
     told = "[...document.querySelectorAll('.formula')].filter((each) => each.scrollWidth > each.clientWidth + 1)"
     seen = 0
@@ -244,7 +244,7 @@ def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None
 
 @pytest.fixture
 def sheet(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
-    """A sheet of the browser, and all that goes wrong on it: errors, and requests to anything but files."""
+    """Page of the browser, with a list of errors and of requests to addresses other than files."""
     context = browser.new_context(viewport={"width": 1100, "height": 800})
     sheet = context.new_page()
     yield sheet, listen(sheet, "file:", "data:")

@@ -1,4 +1,4 @@
-"""The page to try it on: served as the site is, with the network cut, typed into and read."""
+"""Page for trying the package: served like the site, without a network."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
 
 @pytest.fixture(scope="module")
 def opened(context: BrowserContext, address: str) -> Iterator[tuple[Page, list[str]]]:
-    """The page with Python started, and from then on without any network; and what goes wrong on it."""
+    """Page on which Python has started, without a network from then on, and a list of its errors."""
     page = context.new_page()
     wrong = listen(page, address, "about:", "blob:")
     page.on("request", lambda requested: wrong.append(requested.method) if requested.method != "GET" else None)
@@ -64,7 +64,7 @@ def text_of(page: Page) -> str:
 
 
 def replace(page: Page, old: str, new: str) -> None:
-    """Type over a part of a line, as a user who has selected it."""
+    """Select a part of a line and type over it."""
     line = page.locator("#try .cm-line", has_text=old).first
     line.click()
     page.keyboard.press("Home")

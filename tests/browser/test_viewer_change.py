@@ -1,4 +1,4 @@
-"""Counts changed on the page in a browser, against the package's answer for the train with those counts."""
+"""Counts changed on a page in a browser, compared with the package's answer for the train with these counts."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from geartrain.scene import make_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, SharePage, Shown
+    from conftest import OpenPage, Shown
 
     from geartrain import Answer
 
-# two arbors side by side, with two pairs between them: the one closes what the other opens
+# two pairs between two arbors, which form a loop
 LOOP = """
 name: loop
 frame: frame
@@ -34,7 +34,7 @@ inputs: {a: 1}
 outputs: {b: {}, c: {}}
 """
 
-# the sun and the planet's second wheel drive a sun of their own: 40 (sun) and 20 + 30 p
+# the speed of the arm has a pole at t1 = s1, where both suns have the same ratio to the planet
 POLE = """
 name: pole
 frame: frame
@@ -51,18 +51,18 @@ ROWS = """Object.fromEntries([...document.querySelectorAll('.outputs tbody tr')]
 
 
 @pytest.fixture
-def opened(share: SharePage) -> Any:
-    """Shows the page of a train on which counts may be changed, in all its states."""
+def opened(show_html: OpenPage) -> Any:
+    """Function that opens the page of a train in all its states, on which counts can be changed."""
 
     def show(train: GearTrain) -> Shown:
         scenes = [make_scene(train, state, formulas=True) for state in train.states or (None,)]
-        return share(page(scenes, teeth=False))
+        return show_html(page(scenes, teeth=False))
 
     return show
 
 
 def give(shown: Shown, wheel: str, count: int) -> None:
-    """Another count for a wheel, typed into the field of its panel."""
+    """Type another count of a wheel into the field of its panel."""
     tab(shown, "Wheels")
     shown.page.locator(f"button[data-wheel='{wheel}']").click()
     field = shown.page.get_by_label(f"teeth of {wheel}", exact=True)
@@ -80,7 +80,7 @@ def expected(answer: Answer) -> dict[str, str | None]:
 
 
 def agree(shown: Shown, scene: int, answer: Answer) -> None:
-    """All outputs of the table, and all links of the scene, are what the package says."""
+    """Assert that all outputs in the table and all links of the scene have the speeds of an answer of the package."""
     tab(shown, "Outputs")
     rows = {name: told(text) for name, text in shown.run(ROWS).items()}
     assert rows == {name: speed or "not determined" for name, speed in expected(answer).items()}
@@ -91,7 +91,7 @@ def agree(shown: Shown, scene: int, answer: Answer) -> None:
 
 
 def drawn(seed: int, train: GearTrain, times: int) -> Iterator[Mapping[str, int]]:
-    """Counts near those declared, on one wheel and then on more."""
+    """Yield counts near the declared ones, for one wheel, then for more."""
     draw = random.Random(seed)
     counts = {name: wheel.count for name, (_, wheel) in train.declaration.wheels.items() if wheel.count}
     for number in range(1, times + 1):
@@ -143,7 +143,7 @@ def test_a_step_is_one_tooth_and_pointers_follow(opened: Any) -> None:
     tab(shown, "Change")
     changes = shown.page.locator(".change").inner_text()
     assert "s: 24 \u2192 26 teeth" in changes
-    # centres stand (24 + 18)/2 and (60 - 18)/2 modules apart; these ask for (26 + 17)/2 and (60 - 17)/2
+    # axis distances are (24 + 18)/2 and (60 - 18)/2 modules; these counts require (26 + 17)/2 and (60 - 17)/2
     assert "s~p: needs axes 1/2 of a module further apart" in changes
     assert "p~ring: needs axes 1/2 of a module further apart" in changes
     give(shown, "s", 24)
@@ -185,7 +185,7 @@ def test_meshes_tell_by_how_much_they_miss_their_axes(opened: Any) -> None:
 def test_meshes_of_other_axes_are_judged_by_what_they_have(opened: Any) -> None:
     for name, wheel, more, said in (
         ("worm", "w60", 2, "needs axes 1 module further apart"),
-        ("worm", "w2", 1, None),  # a start more leaves a worm as thick as it is
+        ("worm", "w2", 1, None),  # an additional start does not change the diameter of a worm
         ("bevel-differential", "pinion", 1, "its axes intersect, so its wheels must be redesigned and repositioned"),
         ("crossed-helical", "w20", 1, " mm further apart (as drawn)"),
     ):
@@ -221,7 +221,7 @@ def test_a_loop_that_no_longer_closes_locks_the_train(opened: Any) -> None:
     tab(shown, "Outputs")
     assert set(shown.run(ROWS).values()) == {"not determined"}
     assert shown.page.get_by_role("button", name="play", exact=True).is_disabled()
-    give(shown, "b1", 42)  # it closes again
+    give(shown, "b1", 42)  # the loop closes again
     assert shown.page.get_by_role("button", name="play", exact=True).is_enabled()
     agree(shown, 0, train.with_teeth(a1=21, b1=42).solve())
 
@@ -290,14 +290,14 @@ def test_the_picture_has_the_new_teeth_which_meet_gaps(opened: Any) -> None:
     for one, other in (("s", "p"), ("p", "ring")):
         wheel, mate = after[one], after[other]
         inside = other == "ring"
-        # in pitches, how far a tooth of each is past the pitch point; all stand on the x axis
+        # distance of a tooth of each wheel past the pitch point [pitches]; all centres are on the x axis
         own = tooth_at(wheel, 0.0)
         theirs = tooth_at(mate, 0.0 if inside else math.pi)
-        off = (own - theirs if inside else own + theirs) - 0.5  # half a pitch apart: a tooth in a gap
+        off = (own - theirs if inside else own + theirs) - 0.5  # half a pitch apart: a tooth is in a space
         assert off - round(off) == pytest.approx(0, abs=1e-6), (one, other)
 
 
 def tooth_at(wheel: Mapping[str, Any], angle: float) -> float:
-    """By how many pitches the first tooth of a wheel is past an angle about z (rad)."""
+    """Return the distance of the first tooth of a wheel past an angle about z [rad], in pitches."""
     x, y, _ = wheel["reference"]
     return (math.atan2(y, x) + wheel["turn"] - angle) * float(wheel["teeth"]) / (2 * math.pi)

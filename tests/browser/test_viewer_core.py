@@ -1,4 +1,4 @@
-"""The viewer in a browser: exact motion, one self-contained file, pictures that are there."""
+"""Viewer in a browser: exact motion, a self-contained file, and pictures."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 import shipped
-from conftest import OpenedPage
 from matplotlib.image import imsave
-from viewing import SIMPLE, Opening, picture, tab, wait
+from viewing import SIMPLE, Opening, picture, wait
 
 from geartrain import load
 from geartrain.scene import build_scene
@@ -37,12 +36,12 @@ revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [fr
 
 
 def apart(one: float, other: float) -> float:
-    """Distance of two directions (rad)."""
+    """Return the angle between two directions [rad]."""
     return abs((one - other + pi) % TURN - pi)
 
 
 def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
-    """Outputs and their mean directions after some turns of the first input, by Fractions alone."""
+    """Yield outputs with their mean directions after some turns of the first input, computed with Fractions."""
     train = shipped.train(name)
     case = train.declaration
     state = train.states[0] if train.states else None
@@ -65,45 +64,18 @@ def test_a_page_opens_from_disk_without_errors_or_requests(show: Opening, name: 
     assert shown.run("geartrain.stages[0] !== null"), "no WebGL"
 
 
-# what a reader sees: the picture, from where it is taken, the panels, and how far the crank is turned
-SEEN = """() => {
-  const [stage] = geartrain.stages;
-  stage.render();
-  return [stage.canvas.toDataURL('image/png'), document.querySelector('.panel').innerText, String(geartrain.turns)];
-}"""
-
-
-def test_a_page_that_tests_share_is_brought_back_to_how_it_opened(show: Opening) -> None:
-    opened = OpenedPage(show(SIMPLE, teeth=True))
-    shown = opened.shown
-    before = shown.run(SEEN)
-    shown.page.get_by_label("Colours").select_option("speed")
-    shown.page.get_by_label("Apart").fill("1")
-    shown.page.get_by_label("Teeth").uncheck()
-    shown.page.get_by_role("button", name="Front", exact=True).click()
-    tab(shown, "Wheels")
-    shown.page.locator("[data-wheel='p']").click()
-    shown.page.get_by_role("button", name="play backwards").click()
-    shown.page.get_by_role("button", name="play", exact=True).click()
-    wait(shown, "String(geartrain.turns).startsWith('-')")
-    changed = shown.run(SEEN)
-    assert all(one != other for one, other in zip(before, changed, strict=True))
-    opened.restore()
-    assert shown.run(SEEN) == before
-
-
 @pytest.mark.parametrize("name", ["price-1974", "prague-orloj", "gosper-2005", "humpage"])
-def test_pointers_of_ideal_trains_stand_where_fractions_say(show_shared: Opening, name: str) -> None:
+def test_pointers_of_ideal_trains_stand_where_fractions_say(show: Opening, name: str) -> None:
     texts = ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003")
     outputs = list(shipped.train(name).declaration.outputs)
-    turns = (*texts, 0.1, -2.7, 1e9 + 0.1, 123456.789)  # a float is taken as exactly what it is
-    for each, angles in zip(turns, show_shared(name).angles(turns, outputs), strict=True):
+    turns = (*texts, 0.1, -2.7, 1e9 + 0.1, 123456.789)  # a float is converted exactly
+    for each, angles in zip(turns, show(name).angles(turns, outputs), strict=True):
         expected = dict(directions(name, Fraction(each)))
         for output, angle in zip(outputs, angles, strict=True):
             assert apart(angle, expected[output]) < 1e-12, (output, each)
 
 
-# how far the end of a part stands out of what it ends in (mm): where a ray along its axis meets these, below the plates
+# distance by which a part protrudes from the face in which it ends [mm], from intersections of a ray along its axis
 OUT = """([wheel, post]) => {
   const [stage] = geartrain.stages, {world} = stage, part = world.wheels[wheel];
   stage.cut();
@@ -127,17 +99,17 @@ OUT = """([wheel, post]) => {
     ("name", "wheel", "end"), [("cycloidal-reducer", "ring", (31.3, 0.2, 0)), ("lantern-mill", "nut20", None)]
 )
 def test_ends_of_pins_stand_out_of_the_faces_in_which_they_end(
-    show_shared: Opening, name: str, wheel: str, end: tuple[float, float, float] | None
+    show: Opening, name: str, wheel: str, end: tuple[float, float, float] | None
 ) -> None:
-    """Two faces in one plane flicker."""
-    shown = show_shared(name)
+    """Coplanar faces flicker."""
+    shown = show(name)
     at = [each.id for each in shipped.built(name).wheels].index(wheel)
     assert 0.02 < shown.run(OUT, [at, end]) < 0.1
 
 
-def test_a_dial_about_two_axes_has_a_face_for_each(show_shared: Opening) -> None:
-    """They are told apart by what is read on them; on each, the one hand is in the first colour."""
-    shown = show_shared("price-1974")
+def test_a_dial_about_two_axes_has_a_face_for_each(show: Opening) -> None:
+    """They are distinguished by their outputs; the single hand of each has the first colour."""
+    shown = show("price-1974")
     faces = shown.run("[...document.querySelectorAll('.card')].map((each) => each.querySelector('strong').textContent)")
     assert faces == ["zodiac", "lower (synodic month)", "lower (lunar year)", "upper"]
     hands = shown.run(
@@ -150,11 +122,11 @@ def test_a_dial_about_two_axes_has_a_face_for_each(show_shared: Opening) -> None
 @pytest.mark.parametrize(
     "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
 )
-def test_pins_and_real_teeth_move_as_the_motion_says(show_shared: Opening, name: str) -> None:
+def test_pins_and_real_teeth_move_as_the_motion_says(show: Opening, name: str) -> None:
     motion = shipped.train(name).motion()
     turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
     errors = motion.at(turns).error
-    shown = show_shared(name)
+    shown = show(name)
     angles = shown.angles(turns.tolist(), motion.outputs)
     for at, turn in enumerate(turns):
         mean = dict(directions(name, Fraction(turn)))
@@ -164,11 +136,11 @@ def test_pins_and_real_teeth_move_as_the_motion_says(show_shared: Opening, name:
     assert np.abs(errors).max() > 1e-3, "nothing rippled: this asks nothing"
 
 
-def test_backwards_the_other_flanks_drive(show_shared: Opening) -> None:
-    """Negative turns, against a run backwards; forwards the teeth stand otherwise, by their play."""
+def test_backwards_the_other_flanks_drive(show: Opening) -> None:
+    """Negative turns are compared with a run backwards; in forward motion the positions differ by the backlash."""
     name = "pennestri-2002-teeth"
     motion = shipped.train(name).motion()
-    shown = show_shared(name)
+    shown = show(name)
     differ = 0.0
     for passage in motion._stretches(-37.6875, 5, first=1):
         forwards = motion.at(passage.turns).error
@@ -183,7 +155,7 @@ def test_backwards_the_other_flanks_drive(show_shared: Opening) -> None:
 
 
 def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
-    """What the first stage shows, drawn at a size of ours: (height, width, 3), 0 to 1."""
+    """Return the picture of the first stage in a given size, shape (height, width, 3), from 0 to 1."""
     script = """([width, height]) => {
       const [stage] = geartrain.stages;
       const place = {position: 'fixed', left: 0, top: 0, width: `${width}px`, height: `${height}px`};
@@ -197,7 +169,7 @@ def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "bevel-differential"])
 def test_the_picture_is_the_one_that_was_looked_at_and_approved(show: Opening, name: str) -> None:
-    """Within a tolerance; GEARTRAIN_NEW_PICTURES=1 stores what is drawn, to be looked at and approved."""
+    """Within a tolerance; with GEARTRAIN_NEW_PICTURES=1 the new picture is stored for approval."""
     drawn = canvas_of(show(name, teeth=True))
     stored = PICTURES / f"{name}.png"
     if os.environ.get("GEARTRAIN_NEW_PICTURES"):
@@ -211,9 +183,9 @@ def test_the_picture_is_the_one_that_was_looked_at_and_approved(show: Opening, n
     assert np.quantile(off, 0.99) < 0.15
 
 
-def test_dragging_the_crank_turns_the_train(show_shared: Opening) -> None:
+def test_dragging_the_crank_turns_the_train(show: Opening) -> None:
     """A quarter turn about the arbor, counter-clockwise as seen, is a quarter turn of the sun."""
-    shown = show_shared(SIMPLE, teeth=True)
+    shown = show(SIMPLE, teeth=True)
     script = """() => {
       const [stage] = geartrain.stages, {crank, root} = stage.world;
       stage.look('front'); stage.render(); root.updateMatrixWorld(true);
@@ -237,8 +209,8 @@ def test_dragging_the_crank_turns_the_train(show_shared: Opening) -> None:
 
 
 @pytest.mark.parametrize("apart", [0, 1])
-def test_a_tap_on_a_wheel_tells_which_one(show_shared: Opening, apart: int) -> None:
-    shown = show_shared(SIMPLE, teeth=True)
+def test_a_tap_on_a_wheel_tells_which_one(show: Opening, apart: int) -> None:
+    shown = show(SIMPLE, teeth=True)
     shown.page.get_by_label("Apart").fill(str(apart))
     script = """() => {
       const [stage] = geartrain.stages;
@@ -279,8 +251,8 @@ def test_trains_that_cannot_turn_are_shown_standing(show: Opening, rest: str, ki
     assert any(red) == (kind == "locked") or kind == "contradictory"
 
 
-def test_nothing_is_drawn_while_nothing_changes(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE, teeth=True)
+def test_nothing_is_drawn_while_nothing_changes(show: Opening) -> None:
+    shown = show(SIMPLE, teeth=True)
     shown.run(DRAWN)
     frames = "geartrain.stages[0].renderer.info.render.frame"
     before = shown.run(frames)
@@ -290,8 +262,8 @@ def test_nothing_is_drawn_while_nothing_changes(show_shared: Opening) -> None:
     wait(shown, f"{frames} > {before}")
 
 
-def test_a_frame_of_the_largest_train_takes_five_calls_of_the_gpu(show_shared: Opening) -> None:
-    shown = show_shared("freeth-2021", teeth=True)
+def test_a_frame_of_the_largest_train_takes_five_calls_of_the_gpu(show: Opening) -> None:
+    shown = show("freeth-2021", teeth=True)
     calls, triangles = shown.run("""() => {
       const [stage] = geartrain.stages;
       stage.setTurns(1 / 37);

@@ -10,8 +10,8 @@ import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab, turns, wait
 
 
-def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
+def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
+    shown = show(SIMPLE)
     place = shown.page.get_by_label("Go to turn")
     for text, value in (("235/19", Fraction(235, 19)), ("1e6", Fraction(10**6)), ("-2.5", Fraction(-5, 2))):
         place.fill(text)
@@ -36,8 +36,8 @@ def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
     assert turns(shown) == 2 * step
 
 
-def test_play_turns_and_pause_holds_and_tells_the_pointers(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     shown.page.get_by_role("button", name="play", exact=True).click()
     wait(shown, "!String(geartrain.turns).startsWith('0')")
     shown.page.get_by_role("button", name="pause", exact=True).click()
@@ -68,14 +68,14 @@ def test_reduced_motion_moves_by_jumps_of_a_second(show: Opening) -> None:
     assert moves[0] >= 950
 
 
-def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show_shared: Opening) -> None:
+def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show: Opening) -> None:
     for name in (SIMPLE, "worm", "longcase-clock"):
-        shown = show_shared(name)
+        shown = show(name)
         box = shown.page.get_by_role("slider", name="crank").bounding_box()
         x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.36 * box["width"]
         shown.page.mouse.move(x, y - reach)
         shown.page.mouse.down()
-        for step in range(1, 18):  # a turn and a bit
+        for step in range(1, 18):  # slightly more than a turn
             angle = 0.4 * step
             shown.page.mouse.move(x + reach * math.sin(angle), y - reach * math.cos(angle))
         shown.page.mouse.up()
@@ -95,16 +95,16 @@ def test_what_is_shown_after_a_drag_is_what_the_package_says_of_these_turns(show
 
 
 def gearing(name: str) -> float:
-    """Turns of the hand for one of the lead: those of the crank that is declared, where a hand could turn it so."""
+    """Return turns of the hand per turn of the driving link: those of the declared crank if a hand can turn it."""
     scene = shipped.scene(name)
     speed = 1.0 if scene.crank is None else abs(float(Fraction(scene.bodies[scene.crank].speed or 1)))
     return speed if 0.05 <= speed <= 20 else 1.0
 
 
 @pytest.mark.parametrize("name", ["carman-thorndike-evans-2012", "al-biruni-box-of-the-moon"])
-def test_a_crank_does_not_stand_before_a_dial_about_its_axis(show_shared: Opening, name: str) -> None:
-    """It hid the hands, or went through them."""
-    before = show_shared(name).run("""() => {
+def test_a_crank_does_not_stand_before_a_dial_about_its_axis(show: Opening, name: str) -> None:
+    """It would hide the hands, or pass through them."""
+    before = show(name).run("""() => {
       const [{world}] = geartrain.stages, [scene] = geartrain.scenes, {point} = scene.bodies[scene.crank];
       const coaxial = scene.dials.filter(({centre}) => Math.hypot(centre[0] - point[0], centre[1] - point[1]) < 1e-6);
       return coaxial.map(({centre, normal}) => Math.sign((world.crank.end.z - centre[2]) * normal[2]));

@@ -1,4 +1,4 @@
-"""A train cut open: where rings hide stages a quarter of them is not drawn, and all else stays as it is."""
+"""Train cut open: a quarter of rings that hide stages is not drawn, and all other parts are unchanged."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SIDED = """([side, towards]) => {
   stage.render();
   return stage.canvas.toDataURL('image/png');
 }"""
-# the wheel that is met first along the axis of most rings, at a radius and an angle from the right, both as given
+# first wheel on a line parallel to the axis of most rings, at a given radius and angle from the right
 MET = """([radius, degrees]) => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {world, camera} = stage;
   const Vector = camera.position.constructor, angle = degrees * Math.PI / 180;
@@ -63,7 +63,7 @@ def test_what_is_cut_out_lies_in_the_quarter_and_one_taps_through_it(show: Openi
     )
     high, wide = changed.shape
     column, row = (1 + axis[0]) / 2 * wide, (1 - axis[1]) / 2 * high
-    margin = 0.04 * high  # planes along the line of sight are seen from a point
+    margin = 0.04 * high  # planes parallel to the axis are visible in perspective
     rows, columns = np.nonzero(changed)
     outside = (columns < column - margin) | (rows > row + margin)
     assert 0.02 < changed.mean() < 0.25
@@ -71,7 +71,7 @@ def test_what_is_cut_out_lies_in_the_quarter_and_one_taps_through_it(show: Openi
 
 
 def test_backs_of_closed_bodies_need_not_be_drawn(show: Opening) -> None:
-    """Cones of both hands, whose outlines go round either way, face outwards: from no side does one look into them."""
+    """Cones of both hands, whose outlines have both senses, face outwards: their inside is visible from no side."""
     shown = show("bevel-differential")
     shown.page.get_by_label("Teeth").check()
     wait(shown, "geartrain.stages[0].world.cut")

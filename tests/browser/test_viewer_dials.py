@@ -1,4 +1,4 @@
-"""Dials of the viewer in a browser: what hands are told to show, pins that follow spirals, directions that agree."""
+"""Dials of the viewer in a browser: readings of hands, pins on spirals, and directions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from viewing import Opening
 
 ANTIKYTHERA = "freeth-2008"
 
-# where the pin of the hand over a spiral is, in the dial's own right and up, over its radius
+# position of the pin of a hand on a spiral, right and up, relative to the radius of the dial
 PIN = """(name) => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {poses} = stage.world;
   stage.world.turn();
@@ -26,8 +26,8 @@ PIN = """(name) => {
 }"""
 
 
-def test_pins_follow_their_spirals_and_are_set_back_at_the_end(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_pins_follow_their_spirals_and_are_set_back_at_the_end(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     for output, turns, period in (("metonic", 5, Fraction(19)), ("saros", 4, Fraction(4237, 235))):
         for share in (Fraction(0), Fraction(3, 10), Fraction(999, 1000), Fraction(1), Fraction(13, 8)):
             shown.run("(t) => geartrain.setTurns(t)", str(share * period))
@@ -40,8 +40,8 @@ def test_pins_follow_their_spirals_and_are_set_back_at_the_end(show_shared: Open
 
 
 @pytest.mark.parametrize("name", [ANTIKYTHERA, "longcase-clock", "prague-orloj", "al-biruni-box-of-the-moon"])
-def test_hands_are_told_to_show_what_python_says(show_shared: Opening, name: str) -> None:
-    shown = show_shared(name)
+def test_hands_are_told_to_show_what_python_says(show: Opening, name: str) -> None:
+    shown = show(name)
     train = shipped.train(name)
     solved, declared = train.solve(), train.declaration
     scene = shipped.scene(name)
@@ -53,7 +53,7 @@ def test_hands_are_told_to_show_what_python_says(show_shared: Opening, name: str
     )
     checked = 0
     for pointer in scene.pointers:
-        if pointer.dial is None or pointer.output == "moon":  # its pins ripple
+        if pointer.dial is None or pointer.output == "moon":  # its pins cause errors
             continue
         scale = scene.dials[pointer.dial].scale
         of, base = declared.outputs[pointer.output].links(pointer.output, declared.frame)
@@ -66,8 +66,8 @@ def test_hands_are_told_to_show_what_python_says(show_shared: Opening, name: str
     assert checked >= 3
 
 
-def test_what_is_engraved_stands_on_the_page_stroke_by_stroke(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_what_is_engraved_stands_on_the_page_stroke_by_stroke(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     drawn = shown.run(
         "[...document.querySelectorAll('.dial')].map((d) => [d.getAttribute('aria-label'), "
         "[...d.querySelectorAll('.letters')].map((p) => (p.getAttribute('d').match(/M/g) ?? []).length)"
@@ -93,9 +93,9 @@ def test_the_ground_is_below_all_that_turns_and_grows_as_layers_part(show: Openi
     assert shown.run(script, 1)[2] > 1.5 * deep
 
 
-def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show_shared: Opening) -> None:
-    """In the picture it is there once, and on both dials beside it in the one colour that it has."""
-    shown = show_shared("prague-orloj")
+def test_one_hand_of_an_arbor_is_read_on_both_dials_under_it(show: Opening) -> None:
+    """The picture has one hand, and both dials show it in its colour."""
+    shown = show("prague-orloj")
     hands = "geartrain.stages[0].world.parts.filter(({dial, plate, colour}) => dial !== undefined && !plate)"
     outputs = [shown.run(f"geartrain.scenes[0].bodies[{body}].id") for body in shown.run(f"{hands}.map((e) => e.body)")]
     assert outputs == ["sun", "zodiac", "moon"]

@@ -1,4 +1,4 @@
-"""The viewer without a mouse: keys, focus, names for those who listen."""
+"""Viewer without a mouse: keys, focus, and names for screen readers."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_the_keyboard_alone_suffices(show: Opening) -> None:
     shown.page.keyboard.type("235/19")
     press("Enter")
     assert turns(shown) == Fraction(235, 19)
-    press("/")  # belongs to the text that is typed
+    press("/")  # the key is part of the typed text
     assert shown.run("document.activeElement.value") == "235/19/"
     press("Escape")
     press("/")

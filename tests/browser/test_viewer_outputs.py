@@ -1,4 +1,4 @@
-"""Outputs of the viewer in a browser: their paths, their dials, their exact values."""
+"""Outputs of the viewer in a browser: paths, dials and exact values."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from viewing import ANTIKYTHERA, Opening, go, tab, wait
 
 from geartrain import load
 
-# wheels by name, how much of them is seen and in which colour
+# visible area and colour of each wheel, by name
 DRAWN = """geartrain.scenes[0].wheels.map(({ id }, k) => {
   const { palette, wheels } = geartrain.stages[0].world;
   const { opacity, colour } = palette.looks[wheels[k].own];
@@ -20,7 +20,7 @@ DRAWN = """geartrain.scenes[0].wheels.map(({ id }, k) => {
 
 
 def needed(name: str, output: str, folder: Path) -> set[str]:
-    """Gears and couplings without which an output is not determined: each left out in turn, and all solved anew."""
+    """Return the gears and couplings without which an output is not determined, by solving the train without each."""
     declared = shipped.train(name).declaration
     found = set()
     for kind, ids in (
@@ -53,10 +53,8 @@ def test_brakes_and_clutches_are_named_and_a_click_shows_what_they_hold(show: Op
 
 
 @pytest.mark.parametrize("output", ["moon", "exeligmos"])
-def test_the_path_is_exactly_what_the_output_cannot_do_without(
-    show_shared: Opening, tmp_path: Path, output: str
-) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tmp_path: Path, output: str) -> None:
+    shown = show(ANTIKYTHERA)
     tab(shown, "Outputs")
     plain = {colour for _, _, colour in shown.run(DRAWN)}
     shown.page.locator(f"tr[data-output='{output}'] th button").click()
@@ -81,8 +79,8 @@ def test_the_path_is_exactly_what_the_output_cannot_do_without(
     assert shown.page.locator(".path").is_hidden()
 
 
-def test_dials_read_clockwise_what_fractions_say(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(100_003, 7)
@@ -92,11 +90,11 @@ def test_dials_read_clockwise_what_fractions_say(show_shared: Opening) -> None:
         "[Number(h.dataset.turns), Number(/rotate\\(([^)]+)/.exec(h.getAttribute('transform'))[1])]]))"
     )
     positive = 1 if train.declaration.view.positive == "clockwise" else -1
-    # the frame's front is seen as the view says; on the back all turns the other way about
+    # the front is seen as the view declares; on the back all senses are reversed
     for output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
         dial = train.declaration.dials[str(train.declaration.outputs[output].dial)]
         sense = positive if dial.face == "front" else -positive
-        way = -1 if output == "games" else 1  # its years alone are counted the other way
+        way = -1 if output == "games" else 1  # only its years are counted in the opposite direction
         read = sense * way * Fraction(solved[output]) * at % dial.turns
         made, rotated = hands[output]
         assert made == pytest.approx(float(read), abs=1e-9), output

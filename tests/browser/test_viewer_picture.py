@@ -1,4 +1,4 @@
-"""The picture of the viewer in a browser: what it holds, how it is looked at, and what it asks of the browser."""
+"""Picture of the viewer in a browser: its contents, its camera, and its use of the browser."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, turns, wait
 
-# the rims of all wheels and dials as the camera has them: the most each stands off the middle, across and upwards
+# maximum distances of the rims of all wheels and dials from the middle of the picture, horizontally and vertically
 SPREAD = """(scene) => {
   const stage = geartrain.stages[scene];
   stage.render();
@@ -38,7 +38,7 @@ SPREAD = """(scene) => {
   return most;
 }"""
 
-# where needles point, from the zero mark and clockwise for one who faces the dial, in turns
+# angles of hands from the zero mark, clockwise for a reader of the dial [turns]
 NEEDLES = """() => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {nodes} = stage.world;
   stage.world.turn();
@@ -55,8 +55,8 @@ NEEDLES = """() => {
 @pytest.mark.parametrize(
     "names", [("planetary",), ("humpage",), ("worm",), ("longcase-clock",), ("price-1974", "worm")]
 )
-def test_the_whole_train_and_its_crank_fill_the_picture(show_shared: Opening, names: tuple[str, ...]) -> None:
-    shown = show_shared(*names, compare=len(names) > 1)
+def test_the_whole_train_and_its_crank_fill_the_picture(show: Opening, names: tuple[str, ...]) -> None:
+    shown = show(*names, compare=len(names) > 1)
     for scene in range(len(names)):
         for look in ("Front", "Side", "Free"):
             shown.page.get_by_role("button", name=look, exact=True).click()
@@ -68,8 +68,8 @@ def test_the_whole_train_and_its_crank_fill_the_picture(show_shared: Opening, na
 
 
 @pytest.mark.parametrize("name", [ANTIKYTHERA, "bevel-differential", "worm"])
-def test_taken_apart_nothing_leaves_the_picture(show_shared: Opening, name: str) -> None:
-    shown = show_shared(name)
+def test_taken_apart_nothing_leaves_the_picture(show: Opening, name: str) -> None:
+    shown = show(name)
     apart = shown.page.get_by_label("Apart")
     for look in ("Front", "Back", "Side", "Free"):
         shown.page.get_by_role("button", name=look, exact=True).click()
@@ -80,7 +80,7 @@ def test_taken_apart_nothing_leaves_the_picture(show_shared: Opening, name: str)
             assert max(across, upwards) > 0.7, (look, share)
     shown.page.mouse.move(200, 300)
     for _ in range(12):
-        shown.page.mouse.wheel(0, -400)  # nearer: what a reader looks at stays where it is and as near
+        shown.page.mouse.wheel(0, -400)  # nearer: the target keeps its position and its distance
     wait(shown, f"({SPREAD})(0)[1] > 1.3")
     near = shown.run(SPREAD, 0)
     for share in ("1", "0"):
@@ -88,8 +88,8 @@ def test_taken_apart_nothing_leaves_the_picture(show_shared: Opening, name: str)
     assert shown.run(SPREAD, 0) == pytest.approx(near, rel=1e-3)
 
 
-def test_needles_in_the_picture_point_where_fractions_say(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_needles_in_the_picture_point_where_fractions_say(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(1234, 7)
@@ -103,8 +103,8 @@ def test_needles_in_the_picture_point_where_fractions_say(show_shared: Opening) 
         assert min(off, 1 - off) < 1e-6, output
 
 
-def test_what_stands_before_the_middle_is_hidden_and_comes_back(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_what_stands_before_the_middle_is_hidden_and_comes_back(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     seen = "geartrain.stages[0].world.wheels.map(({own}) => geartrain.stages[0].world.palette.looks[own].shown)"
     assert all(shown.run(seen))
     shown.page.get_by_label("Hide front").check()
@@ -117,7 +117,7 @@ def test_what_stands_before_the_middle_is_hidden_and_comes_back(show_shared: Ope
 
 
 def test_teeth_are_drawn_when_they_are_wanted(show: Opening) -> None:
-    """Plain rims stand in for them; both are never drawn at once."""
+    """Plain rims replace the teeth; both are never drawn at once."""
     shown = show(SIMPLE, teeth=True)
     drawn = """[...geartrain.stages[0].world.wheels].map(({toothed, smooth}) => [toothed, smooth]
         .map((slot) => geartrain.stages[0].world.palette.looks[slot].shown))"""
@@ -142,7 +142,7 @@ def test_no_button_says_from_where_one_looks_once_the_picture_was_turned_by_hand
 
 
 def test_only_what_is_shown_holds_a_drawing_context(show: Opening) -> None:
-    """Browsers give away some sixteen; a page may have more states than that."""
+    """Browsers permit about 16 contexts; a page may have more states."""
     count = """
       globalThis.contexts = new Set();
       const asked = HTMLCanvasElement.prototype.getContext;

@@ -1,11 +1,11 @@
-"""A simulated run in a browser: angles at any moment, the head of time, blows, what contacts do."""
+"""Simulated run in a browser: angles at any time, playback controls, impacts, and states of contacts."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 import shipped
-from conftest import SharePage, Shown
+from conftest import OpenPage, Shown
 from viewing import Opening, tab, wait
 
 from geartrain import load
@@ -18,19 +18,19 @@ Played = tuple[TimeRun, Scene]
 
 @pytest.fixture(scope="module")
 def played() -> Played:
-    """Half a turn of the heavy train to the Moon, where teeth part and strike."""
+    """Half a turn of the heavy train to the Moon, with separations and impacts of teeth."""
     train = shipped.train("moon-triangular-inertia")
     run = train.dynamics(rate="1 turn/s", turns=0.25, skip=0.25, steps=3000, restitution=0.3, samples=10**6, fast=False)
     return run, build_scene(train, run=run)
 
 
 @pytest.fixture
-def shown(played: Played, share: SharePage) -> Shown:
-    return share(page([played[1]], teeth=False))
+def shown(played: Played, show_html: OpenPage) -> Shown:
+    return show_html(page([played[1]], teeth=False))
 
 
 def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
-    """Some samples of the run: their numbers, and where the crank of the page stands there (turns)."""
+    """Return indices of some samples of the run, and the positions of the crank there [turns]."""
     run, scene = played
     first = int(np.argmax(run.time > run.skip - run.step / 2))
     chosen = np.linspace(first, len(run.time) - 1, count).round().astype(int)
@@ -49,7 +49,7 @@ def test_bodies_and_pointers_stand_where_the_simulation_has_them(played: Played,
         })""",
         [turns, names],
     )
-    # both from their first moment on: the page adds the pose in which drive flanks touch
+    # both relative to their start: the page adds the pose in which all drive flanks are in contact
     start = shown.run("(names) => names.map((name, index) => geartrain.machines[0].initial[index])", names)
     expected = np.array([run.angles[name][samples] for name in names]).T
     off = np.array(found) - np.array(start) - expected
@@ -65,7 +65,7 @@ def test_bodies_and_pointers_stand_where_the_simulation_has_them(played: Played,
 
 
 def glow(shown: Shown) -> float:
-    """How bright the brightest blow is now."""
+    """Return the current brightness of the brightest impact."""
     script = """() => {
       const { run } = geartrain.machines[0];
       return Math.max(...run.contacts.map((_, n) => run.flash(n, geartrain.machines[0].time())));
@@ -165,10 +165,10 @@ gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.98}]
 """
 
 
-def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(share: SharePage) -> None:
+def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(show_html: OpenPage) -> None:
     train = load(PLANETARY)
     run = train.dynamics(rate="1 turn/s", turns=1, skip=0, steps=1000, fast=False)
-    shown = share(page([build_scene(train, run=run)], teeth=False))
+    shown = show_html(page([build_scene(train, run=run)], teeth=False))
     rows = shown.run(
         """() => {
           geartrain.setTurns(0.77);

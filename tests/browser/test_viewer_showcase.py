@@ -1,4 +1,4 @@
-"""The picture with three buttons: in frames of other pages, and on a museum's screen."""
+"""Picture with three buttons, in frames of other pages and on a museum's screen."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CAMERA = "geartrain.stages.find(Boolean).camera.position.toArray()"
 
 @pytest.fixture
 def showcase(open_page: OpenPage, tmp_path: Path) -> Showing:
-    """Opens a train's page with its three buttons."""
+    """Function that opens the page of a train with three buttons."""
 
     def opened(way: Way, name: str = SIMPLE, mark: str = "", before: str = "", **window: Any) -> Shown:
         path = tmp_path / "page.html"
@@ -158,7 +158,7 @@ def test_a_kiosk_tells_the_date_and_outputs_as_it_turns(showcase: Showing) -> No
     read = shown.page.locator("header .read > div")
     assert read.count() == 6
     shown.run("geartrain.setTurns('7/3')")
-    wait(shown, "document.querySelector('.read dd').textContent.startsWith('120.00')")  # the Sun, a turn in one of b
+    wait(shown, "document.querySelector('.read dd').textContent.startsWith('120.00')")  # the Sun turns as b
     assert read.first.inner_text().split() == ["sun", "120.00°,", "Leo,", "degree", "1"]
     fits = "document.querySelector('.read').scrollWidth <= innerWidth"
     assert shown.run(fits)

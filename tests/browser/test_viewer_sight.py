@@ -1,16 +1,19 @@
-"""What stands before wheels is of glass, and trains open where wheels are seen: counted in pictures."""
+"""Parts that hide wheels are transparent, and initial views show all wheels, measured in pictures."""
 
 from __future__ import annotations
 
 from itertools import pairwise
 from math import hypot
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
 from viewing import Opening, picture, tab
 
+if TYPE_CHECKING:
+    from conftest import Shown
+
 USUAL, INTO = [0.36, 0.3, 0.88], [0.62, 0.46, 0.64]
-# a picture from a side (null: from where the train opens) in which some wheels are blue and nothing else is
+# a picture from a direction (null: initial view) in which only some wheels are blue
 PICTURE = """([towards, wheels, pillars, covers]) => {
   const [stage] = geartrain.stages, [scene] = geartrain.scenes, {world} = stage;
   if (towards) stage.fit(stage.camera.position.clone().set(...towards).normalize());
@@ -37,56 +40,49 @@ TOWARDS = """() => {
 
 
 def blue(
-    show_shared: Opening,
-    name: str,
-    towards: list[float] | None,
-    wheels: list[int] | None,
-    pillars: bool = True,
-    covers: bool = False,
+    shown: Shown, towards: list[float] | None, wheels: list[int] | None, pillars: bool = True, covers: bool = False
 ) -> int:
-    """Points of a picture in which wheels are seen."""
-    data: Any = show_shared(name).run(PICTURE, [towards, wheels, pillars, covers])
-    red, _, strong = picture(data).transpose(2, 0, 1)
+    """Return the number of points of a picture in which wheels are visible."""
+    red, _, strong = picture(shown.run(PICTURE, [towards, wheels, pillars, covers])).transpose(2, 0, 1)
     return int((strong > red + 40).sum())
 
 
 @pytest.mark.parametrize("name", ["worm", "bevel-differential", "south-pointing-chariot"])
 @pytest.mark.parametrize("towards", [USUAL, [-0.36, 0.3, 0.88], [0.1, -0.2, -0.97]])
-def test_pillars_before_wheels_hide_next_to_nothing_of_them(
-    show_shared: Opening, name: str, towards: list[float]
-) -> None:
-    whole = blue(show_shared, name, towards, None, pillars=False)
+def test_pillars_before_wheels_hide_next_to_nothing_of_them(show: Opening, name: str, towards: list[float]) -> None:
+    shown = show(name)
+    whole = blue(shown, towards, None, pillars=False)
     assert whole > 2000
-    assert blue(show_shared, name, towards, None) > 0.93 * whole
+    assert blue(shown, towards, None) > 0.93 * whole
 
 
 @pytest.mark.parametrize("name", ["bevel-differential", "pennestri-2002", "huygens-planetarium-1682"])
-def test_no_plate_hides_a_wheel(show_shared: Opening, name: str) -> None:
-    """Of a differential the pinion, and of a planetarium a wheel, stood behind a plate that was none of glass."""
-    for wheel in range(show_shared(name).run("geartrain.scenes[0].wheels.length")):
-        alone = blue(show_shared, name, None, [wheel])
-        assert blue(show_shared, name, None, [wheel], covers=True) >= 0.7 * alone, wheel
+def test_no_plate_hides_a_wheel(show: Opening, name: str) -> None:
+    """The pinion of a differential, and a wheel of a planetarium, were behind an opaque plate."""
+    shown = show(name)
+    for wheel in range(shown.run("geartrain.scenes[0].wheels.length")):
+        alone = blue(shown, None, [wheel])
+        assert blue(shown, None, [wheel], covers=True) >= 0.7 * alone, wheel
 
 
-def test_pillars_that_hide_nothing_are_no_glass(show_shared: Opening) -> None:
-    blue(show_shared, "planetary-24-18-60", [0, 0, 1], None)
-    assert show_shared("planetary-24-18-60").run(PILLARS) == [0, 4]
-    blue(show_shared, "worm", USUAL, None)
-    glass, all_ = show_shared("worm").run(PILLARS)
-    assert 0 < glass < all_
+def test_pillars_that_hide_nothing_are_no_glass(show: Opening) -> None:
+    for name, towards, hiding in (("planetary-24-18-60", [0.0, 0.0, 1.0], False), ("worm", USUAL, True)):
+        blue(shown := show(name), towards, None)
+        glass, pillars = shown.run(PILLARS)
+        assert 0 < glass < pillars if hiding else glass == 0 < pillars
 
 
 @pytest.mark.parametrize(("name", "times"), [("worm", 2), ("humpage", 1.4)])
 def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(
-    show_shared: Opening, name: str, times: float
+    show: Opening, name: str, times: float
 ) -> None:
-    """The wheel of a worm was seen from its edge, and a large planet stood before the small wheels."""
-    shown = show_shared(name)
+    """A worm wheel was seen edge-on, and a large planet hid the small wheels."""
+    shown = show(name)
 
     def shares(towards: list[float] | None) -> list[float]:
-        """Points of each wheel, as far off and as large as the others."""
+        """Return the number of visible points of each wheel, at equal distance and size."""
         radii: list[float] = shown.run("geartrain.scenes[0].wheels.map(({radius}) => radius)")
-        seen = [blue(show_shared, name, towards, [wheel], pillars=False) for wheel in range(len(radii))]
+        seen = [blue(shown, towards, [wheel], pillars=False) for wheel in range(len(radii))]
         away: float = shown.run("geartrain.stages[0].controls.getDistance()")
         return [points * (away / radius) ** 2 for points, radius in zip(seen, radii, strict=True)]
 
@@ -94,17 +90,16 @@ def test_a_train_opens_where_the_worst_seen_of_its_wheels_is_seen_better(
 
 
 @pytest.mark.parametrize("name", ["two-k-h-10000", "ferguson-paradox"])
-def test_an_orbit_is_looked_at_from_where_it_leaves_more_of_the_picture_to_wheels(
-    show_shared: Opening, name: str
-) -> None:
-    assert blue(show_shared, name, None, None) > 1.1 * blue(show_shared, name, USUAL, None)
+def test_an_orbit_is_looked_at_from_where_it_leaves_more_of_the_picture_to_wheels(show: Opening, name: str) -> None:
+    shown = show(name)
+    assert blue(shown, None, None) > 1.1 * blue(shown, USUAL, None)
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "norton-compound", "wolfrom-175"])
-def test_others_open_slantwise_from_the_front(show_shared: Opening, name: str) -> None:
-    shown = show_shared(name)
+def test_others_open_slantwise_from_the_front(show: Opening, name: str) -> None:
+    shown = show(name)
     shown.run("() => geartrain.stages[0].look('free')")
-    side = INTO if name == "wolfrom-175" else USUAL  # one that is cut open is looked into
+    side = INTO if name == "wolfrom-175" else USUAL  # the camera looks into a train that is cut open
     x, y, z = (each / hypot(*side) for each in side)
     front = shown.run("geartrain.scenes[0].front")
     assert shown.run(TOWARDS) == pytest.approx([front * x, y, front * z], abs=1e-6)
@@ -112,13 +107,13 @@ def test_others_open_slantwise_from_the_front(show_shared: Opening, name: str) -
 
 @pytest.mark.parametrize(("name", "times"), [("strain-wave", 1.35), ("zf-9hp48", 1.1)])
 def test_a_train_is_looked_into_from_behind_where_its_wheels_are_seen_better(
-    show_shared: Opening, name: str, times: float
+    show: Opening, name: str, times: float
 ) -> None:
-    """One looked into the cup of a strain wave, at whose far end its teeth are; roots, so that the worst seen weigh."""
-    wheels = range(show_shared(name).run("geartrain.scenes[0].wheels.length"))
+    """The camera looked into the cup of a strain wave gear, whose teeth are at its far end."""
+    shown = show(name)
+    wheels = range(shown.run("geartrain.scenes[0].wheels.length"))
     behind, before = (
-        sum(blue(show_shared, name, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels)
-        for towards in (None, INTO)
+        sum(blue(shown, towards, [wheel], pillars=False) ** 0.5 for wheel in wheels) for towards in (None, INTO)
     )
     assert behind > times * before
 
@@ -134,7 +129,7 @@ def test_a_phone_shows_the_picture_above_its_open_panels_and_a_row_of_numbers_on
     assert -2 <= top <= 2
     assert panel > 200
     assert bottom < panel + 2
-    # where the text of each cell of a row stands: [top, bottom], and left and right
+    # extent of the text of each cell of a row: [top, bottom], and left and right
     cells = shown.run("""[...document.querySelectorAll('.sky tbody tr')].map((row) => [...row.cells].map((cell) => {
       const range = document.createRange();
       range.selectNodeContents(document.createTreeWalker(cell, NodeFilter.SHOW_TEXT).nextNode());

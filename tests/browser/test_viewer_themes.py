@@ -1,4 +1,4 @@
-"""The viewer in light and dark, and on a phone."""
+"""Viewer in the light and the dark theme, and on a phone."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SMALL = """() => [...document.querySelectorAll('button, select, input:not([type=
   .filter(([, box]) => box.height < 43.9 || box.width < 43.9)
   .map(([text, box]) => [text, box.width, box.height])"""
 
-# visible texts, edges of controls and hands of dials: [what, its colour, that behind it, the contrast it needs]
+# visible texts, edges of controls and hands of dials: [name, colour, background, required contrast]
 TEXTS = """() => {
   const style = (node) => getComputedStyle(node);
   const ground = (node) => {
@@ -40,7 +40,7 @@ TEXTS = """() => {
 PHONE: dict[str, Any] = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 
 
-# buttons that stay pressed, in the moment in which they are: [what, its colour, that behind it]
+# pressed buttons: [name, colour, background]
 PRESSED = """() => [...document.querySelectorAll('[data-look], .wheels button')].map((button) => {
   button.click();
   const { color, backgroundColor } = getComputedStyle(button);
@@ -76,7 +76,7 @@ def test_what_is_wrong_stands_out_in_both_themes(show: Opening) -> None:
 
 def test_the_contrast_of_black_on_white_is_twenty_one() -> None:
     assert contrast("rgb(0, 0, 0)", "rgb(255, 255, 255)") == pytest.approx(21)
-    assert contrast("rgb(119, 119, 119)", "rgb(255, 255, 255)") == pytest.approx(4.48, abs=0.01)  # the known failure
+    assert contrast("rgb(119, 119, 119)", "rgb(255, 255, 255)") == pytest.approx(4.48, abs=0.01)  # a known fault
 
 
 def test_the_reader_may_choose_a_theme(show: Opening) -> None:
@@ -109,7 +109,7 @@ def test_a_phone_shows_one_column_without_scrolling_sideways(show: Opening, comp
 
 
 def test_the_head_of_a_phone_leaves_the_screen_to_the_picture(show: Opening) -> None:
-    """States and clutches stand in one row; what is seldom chosen is folded away, and keys are for who has some."""
+    """States and clutches are in one row; rarely used controls are folded, and keys are listed only with a keyboard."""
     shown = show("ravigneaux-set", **PHONE)
     top = "document.querySelector('.view canvas').getBoundingClientRect().top"
     assert shown.run(top) < PHONE["viewport"]["height"] / 4
@@ -131,7 +131,7 @@ def test_the_head_of_a_phone_leaves_the_screen_to_the_picture(show: Opening) -> 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_pressed_button_can_be_read_at_once(show: Opening, scheme: str) -> None:
-    shown = show(SIMPLE, color_scheme=scheme)  # with all motion a page may have
+    shown = show(SIMPLE, color_scheme=scheme)  # with all motion enabled
     shown.page.locator("[data-look='front']").hover()
     tab(shown, "Wheels")
     pressed = shown.run(PRESSED)
@@ -171,6 +171,6 @@ def test_on_paper_stand_picture_dials_and_outputs_and_nothing_to_press(show: Ope
         assert shown.page.locator(seen).first.is_visible(), seen
     for pressed in (".tools", ".go", ".grip", "[role=tablist]", ".wheels"):
         assert not shown.page.locator(pressed).first.is_visible(), pressed
-    # a fourth of a turn of the sun, and 2/7 of that
+    # a quarter turn of the sun, and 2/7 of it
     assert shown.page.locator("[data-angle=carrier]").inner_text() == f"{360 - 90 * 2 / 7:.2f}\u00b0"
     assert shown.run("document.documentElement.scrollWidth") <= 718

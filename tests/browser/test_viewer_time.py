@@ -1,4 +1,4 @@
-"""Dates of the crank and targets beside pointers in a browser, against the package's dates and fractions."""
+"""Dates of the crank and targets of pointers in a browser, compared with the package's dates and fractions."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ outputs: {week: {targets: [{period: 7 d, sense: retrograde}, {speed: -1/8}]}}
 
 
 def told(day: Fraction, calendar: str | None = None) -> str:
-    """A Julian day as a reader is told it, from the package's date."""
+    """Return the text of a Julian day, from the package's date."""
     found = date_of(day, calendar)  # type: ignore[arg-type]
     minutes = math.floor(found.part * 1440)
     year = f"{1 - found.year} BC" if found.year < 1 else f"{found.year} AD" if found.year < 1000 else str(found.year)
     return f"{found.day} {MONTHS[found.month - 1]} {year}, {minutes // 60:02d}:{minutes % 60:02d}"
 
 
-def test_the_crank_tells_the_date_of_its_turns(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_crank_tells_the_date_of_its_turns(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     told_by = shown.page.locator(".date")
     assert told_by.inner_text() == told(START)
     draw = random.Random(0)
@@ -51,8 +51,8 @@ def test_the_crank_tells_the_date_of_its_turns(show_shared: Opening) -> None:
     assert shown.errors == []
 
 
-def test_a_date_that_is_typed_is_reached_exactly(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_a_date_that_is_typed_is_reached_exactly(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     day = shown.page.get_by_label("Go to date")
     for text, same in (
         ("-204-05-12", "-204-05-12"),
@@ -76,8 +76,8 @@ def test_a_date_that_is_typed_is_reached_exactly(show_shared: Opening) -> None:
         assert "This is not a date" in shown.page.get_by_role("alert").inner_text()
 
 
-def test_the_page_turns_to_a_date_and_back_and_stops_there(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_page_turns_to_a_date_and_back_and_stops_there(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     for text in ("1901-01-01", "-204-05-12"):
         began = turns(shown)
         shown.page.get_by_label("Go to date").fill(text)
@@ -88,8 +88,8 @@ def test_the_page_turns_to_a_date_and_back_and_stops_there(show_shared: Opening)
         assert shown.page.get_by_role("button", name="play", exact=True).is_visible()
 
 
-def test_targets_stand_beside_pointers_and_the_error_is_exact(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_targets_stand_beside_pointers_and_the_error_is_exact(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     at = Fraction(100_003, 7)
     go(shown, at)
     tab(shown, "Sky")
@@ -113,9 +113,9 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show_shared: Openi
         assert Fraction(exact) == (own - goal) * at, (output, target)
         declared = train.declaration.outputs[output]
         face = train.declaration.dials[declared.dial].face if declared.dial else "front"
-        sense = clockwise if (face == "front") != (output == "games") else -clockwise  # Games are counted the other way
+        sense = clockwise if (face == "front") != (output == "games") else -clockwise  # Games: counted backwards
         for text, speed in ((pointer, own), (sky, goal)):
-            # texts are rounded to hundredths of a degree; real pins ripple, so those pointers are checked elsewhere
+            # texts are rounded to 0.01 degree; pointers with errors of pins are checked elsewhere
             if output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
                 off = float(text.removesuffix("\u00b0")) - float(sense * speed * at % 1) * 360
                 assert abs((off + 180) % 360 - 180) <= 0.0051, (output, target)
@@ -132,8 +132,8 @@ def test_targets_stand_beside_pointers_and_the_error_is_exact(show_shared: Openi
     assert marks["metonic"] == pytest.approx(float(5 * YEAR / month * at % 5), abs=1e-9)
 
 
-def test_errors_of_very_long_times_stay_in_their_column(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_errors_of_very_long_times_stay_in_their_column(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     tab(shown, "Sky")
     for at in ("1e18", "1/1000000"):
         go(shown, at)
@@ -142,14 +142,14 @@ def test_errors_of_very_long_times_stay_in_their_column(show_shared: Opening) ->
         assert shown.run("document.querySelector('.sky').scrollWidth <= document.querySelector('.sky').clientWidth + 1")
 
 
-def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening, show_shared: Opening) -> None:
+def test_a_target_has_its_sense_and_a_calendar_is_kept(show: Opening) -> None:
     shown = show(text=CALENDAR)
     assert shown.page.locator(".date").inner_text() == "15 October 1582, 12:00"
     go(shown, "-1")
-    assert shown.page.locator(".date").inner_text() == "14 October 1582, 12:00"  # as the Gregorian calendar has it
+    assert shown.page.locator(".date").inner_text() == "14 October 1582, 12:00"  # in the Gregorian calendar
     tab(shown, "Sky")
     exact = shown.run("[...document.querySelectorAll('.sky .copy')].map((each) => each.dataset.exact)")
-    assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns a day, one day back
-    shown = show_shared(SIMPLE)
+    assert exact == ["0", "1/56"]  # (-1/7 + 1/8) turns per day, one day earlier
+    shown = show(SIMPLE)
     assert shown.page.get_by_role("tab", name="Sky").count() == 0
     assert shown.page.get_by_label("Go to date").count() == 0

@@ -1,4 +1,4 @@
-"""What the viewer says of trains: their states, two at once, verdicts, careful text."""
+"""Texts of the viewer about trains: states, comparison of two trains, verdicts, and safe HTML."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ outputs: {"b": {note: "<script>alert(5)</script>"}}
 """
 
 
-def test_links_lead_only_to_the_web(show_shared: Opening) -> None:
-    shown = show_shared(text=LOCKED)
+def test_links_lead_only_to_the_web(show: Opening) -> None:
+    shown = show(text=LOCKED)
     tab(shown, "About")
     links = shown.run("[...document.querySelectorAll('.page a')].map((each) => each.href)")
     assert links == ["https://example.org/a"]
@@ -55,7 +55,7 @@ def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> No
       return [wheel.dataset.wheel, [x, -y, Math.atan2(y - v, u - x)]]; }))"""
     before = shown.run(places)
     go(shown, "1/7")
-    wait(shown, f"Math.abs(({places}).s[2] - {before['s'][2]}) > 0.1")  # it is drawn with the next frame
+    wait(shown, f"Math.abs(({places}).s[2] - {before['s'][2]}) > 0.1")  # drawn in the next frame
     after = shown.run(places)
     solved = shipped.train(SIMPLE).solve()
     speeds = {"s": solved.speeds["sun"], "p": solved.speeds["planet"], "ring": 0}
@@ -63,7 +63,7 @@ def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> No
         turned = (after[wheel][2] - before[wheel][2]) / (2 * math.pi) - float(Fraction(speed) / 7)
         assert turned - round(turned) == pytest.approx(0, abs=1e-4), wheel
     reach = math.hypot(before["p"][0] - before["s"][0], before["p"][1] - before["s"][1])
-    borne = math.atan2(before["p"][1], before["p"][0]) + 2 * math.pi * 2 / 7 / 7  # with the carrier, 2/7 of the sun
+    borne = math.atan2(before["p"][1], before["p"][0]) + 2 * math.pi * 2 / 7 / 7  # 2/7 of the sun
     assert after["p"][:2] == pytest.approx([reach * math.cos(borne), reach * math.sin(borne)], abs=1e-2)
     shown.page.locator(".plan [data-wheel='p'] .disc").click()
     assert "Wheel p" in shown.page.locator(".detail").inner_text()
@@ -98,10 +98,8 @@ def test_without_webgl_the_plan_is_saved_as_a_drawing_that_needs_no_style_sheet(
 
 def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_path: Path) -> None:
     path = tmp_path / "sphere.yaml"
-    assert call("sphere", "cuboctahedron", "--teeth", "4=20,3=13", "-o", path).exit_code in (
-        0,
-        1,
-    )  # its teeth need not meet
+    done = call("sphere", "cuboctahedron", "--teeth", "4=20,3=13", "-o", path)
+    assert done.exit_code in (0, 1)  # 1 if the teeth do not mesh, which the page does not require
     train = load(str(path))
     assert not train.declaration.outputs
     shown = show(text=path.read_text(encoding="utf-8"))
@@ -150,8 +148,8 @@ def test_two_trains_turn_in_step_and_their_difference_is_exact(show: Opening) ->
     assert gaps
 
 
-def test_a_locked_train_names_its_loop_in_red_and_shows_it(show_shared: Opening) -> None:
-    shown = show_shared(text=LOCKED)
+def test_a_locked_train_names_its_loop_in_red_and_shows_it(show: Opening) -> None:
+    shown = show(text=LOCKED)
     verdict = shown.page.locator(".verdict")
     assert verdict.get_attribute("data-verdict") == "locked"
     red, green, blue = rgb(verdict.evaluate("(v) => getComputedStyle(v).color"))

@@ -1,4 +1,4 @@
-"""Wheels of the viewer in a browser: what is told of them, and what their colours mean."""
+"""Wheels of the viewer in a browser: their data, and the meaning of their colours."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab
 
-# what each wheel is drawn with: what its body's slot of the palette holds
+# appearance of each wheel: entry of its body's slot in the palette
 PAINTED = """geartrain.scenes[0].wheels.map(({ status }, k) => {
   const { palette, wheels } = geartrain.stages[0].world;
   const { r, g, b } = palette.looks[wheels[k].own].colour.clone().convertLinearToSRGB();
@@ -17,8 +17,8 @@ PAINTED = """geartrain.scenes[0].wheels.map(({ status }, k) => {
 })"""
 
 
-def test_the_wheel_panel_tells_all_that_is_declared(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_wheel_panel_tells_all_that_is_declared(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     tab(shown, "Wheels")
     shown.page.get_by_label("find a wheel").fill("e5")
     assert shown.page.locator(".wheels li:visible").count() == 1
@@ -29,15 +29,15 @@ def test_the_wheel_panel_tells_all_that_is_declared(show_shared: Opening) -> Non
     assert shown.run("geartrain.scenes[0].wheels[geartrain.stages[0].world.looks.selected].id") == "e5"
 
 
-def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
+def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show: Opening) -> None:
+    shown = show(SIMPLE)
     shown.run("geartrain.stages[0].onPick(1)")
     wheel = shipped.built(SIMPLE).wheels[1]
     assert f"Wheel {wheel.id}" in shown.page.locator(".detail").inner_text()
 
 
-def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show_shared: Opening) -> None:
-    shown = show_shared(ANTIKYTHERA)
+def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
     shown.page.get_by_label("Colours").select_option("status")
     declared = [
         wheel.status for link in shipped.train(ANTIKYTHERA).declaration.links.values() for wheel in link.wheels.values()
@@ -62,7 +62,7 @@ def test_tools_stand_in_one_row_on_a_laptop(show: Opening) -> None:
     assert max(box["y"] for box in tools if box) - min(box["y"] for box in tools if box) < 20
 
 
-# the colours of plates, of carriers' arms and of what else is of brass and is no wheel, by the body that it is of
+# colours of plates, of arms of carriers and of other brass parts that are not wheels, by body
 OF_BRASS = """[geartrain.stages[0].world].flatMap(({ parts, palette }) => parts.filter(
   ({ plate, dial }) => plate && dial === undefined,
 ).map(({ slot, body }) => {
@@ -71,8 +71,8 @@ OF_BRASS = """[geartrain.stages[0].world].flatMap(({ parts, palette }) => parts.
 }))"""
 
 
-def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(show_shared: Opening) -> None:
-    shown = show_shared(SIMPLE)
+def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(show: Opening) -> None:
+    shown = show(SIMPLE)
     brass = shown.run(OF_BRASS)
     shown.page.get_by_label("Colours").select_option("speed")
     speeds = dict(shown.run(OF_BRASS))
@@ -83,20 +83,20 @@ def test_what_is_no_wheel_has_the_colour_of_its_link_where_colours_tell_speeds(s
     assert shown.run(OF_BRASS) == brass
 
 
-def test_losses_are_told_where_they_are_known(show_shared: Opening) -> None:
-    shown = show_shared("norton-compound")
+def test_losses_are_told_where_they_are_known(show: Opening) -> None:
+    shown = show("norton-compound")
     shown.page.get_by_label("Colours").select_option("loss")
     assert "of the input power" in shown.page.locator(".legend").inner_text()
     tab(shown, "Wheels")
     wheel = next(wheel for wheel in shipped.built("norton-compound").wheels if wheel.loss)
     shown.page.locator(f"[data-wheel='{wheel.id}']").click()
     assert f"{100 * float(wheel.loss or 0):.3g} % of the input power" in shown.page.locator(".detail").inner_text()
-    shown = show_shared(SIMPLE)
+    shown = show(SIMPLE)
     shown.page.get_by_label("Colours").select_option("loss")
     assert "declares no loads" in shown.page.locator(".legend").inner_text()
 
 
-# area of the face of a disc with holes (mm2), by its triangles; null of a wheel that has none
+# area of the face of a disc with holes [mm^2], from its triangles; null for a wheel without holes
 FACE = """((id) => {
   const { world } = geartrain.stages[0];
   const shape = world.wheels[geartrain.scenes[0].wheels.findIndex((wheel) => wheel.id === id)].holed();
@@ -124,7 +124,7 @@ def test_a_disc_has_holes_for_its_pins_in_place_of_arms(show: Opening) -> None:
     assert shown.run(f"{FACE}('lobes')") is not None
 
 
-# of a train with one wave, after some turns: corners of the wheel's teeth, and of the wall of its cup, about its axis
+# for a train with one strain wave, after some turns: vertices of the wheel's teeth and of its cup's wall about its axis
 BENT = """((turns) => {
   const { world } = geartrain.stages[0];
   if (turns !== null) geartrain.setTurns(turns);
@@ -141,7 +141,7 @@ BENT = """((turns) => {
 
 
 def test_a_thin_wheel_is_bent_where_its_wave_stands_and_its_cup_is_round_at_the_bottom(show: Opening) -> None:
-    """After an eighth of a turn the lobes are at 45 degrees, and the wheel itself has gone back by 0.45 degrees."""
+    """After 1/8 turn the lobes are at 45 degrees, and the wheel has turned backwards by 0.45 degrees."""
     shown = show("strain-wave")
     standing = np.array(shown.run(f"{BENT}(null)")[0]).reshape(-1, 3)
     assert np.abs(standing[:, 0]).max() == pytest.approx(101.7, abs=0.01), "before it has been turned"

@@ -1,4 +1,4 @@
-"""`geartrain watch`: the page follows the file, keeps camera and crank, and is served on this machine alone."""
+"""`geartrain watch`: the page follows the file, keeps camera and crank, and is served only on this machine."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def served(file: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
             running.communicate(timeout=PATIENCE)
             assert running.returncode == 0
         finally:
-            running.kill()  # it would serve for ever
+            running.kill()  # without end, it would serve forever
 
 
 def follow(page: Page, version: int) -> None:
@@ -87,7 +87,7 @@ def test_the_page_follows_the_file_and_keeps_crank_and_camera(
     assert view.evaluate("[geartrain.turns, geartrain.scenes[0].wheels[0].teeth]") == ["7/3", 66]
     at = view.evaluate("geartrain.stages[0].camera.position.toArray()")
     assert at == pytest.approx([10, 20, 300], rel=1e-6)
-    # what is wrong stands above what was shown last, and goes when it is mended
+    # the error is shown above the last valid train, and disappears after the correction
     file.write_text(file.read_text(encoding="utf-8") + "gesrs: []\n", encoding="utf-8")
     told = page.locator("#told")
     told.wait_for(state="visible")

@@ -1,4 +1,4 @@
-"""What tests of the viewer share: pages of trains, written once, and what a reader does first."""
+"""Shared functions of the tests of the viewer: cached pages of trains, and common actions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.scene import Scene
 
 SIMPLE, ANTIKYTHERA = "planetary-24-18-60", "freeth-2008"
-GALLERY = ("worm", "longcase-clock", "zf-8hp70", "south-pointing-chariot")  # what of the gallery is made for tests
+GALLERY = ("worm", "longcase-clock", "zf-8hp70", "south-pointing-chariot")  # trains in the gallery of tests
 DESK: dict[str, Any] = {"viewport": {"width": 1000, "height": 620}}
 BLIND = "HTMLCanvasElement.prototype.getContext = () => null"  # no WebGL
 
@@ -48,13 +48,13 @@ Opening = Callable[..., "Shown"]
 
 @cache
 def html_of(trains: tuple[str, ...], compare: bool = False, teeth: bool = False) -> str:
-    """The page of shipped trains, or of declarations, in all their states."""
+    """Return the HTML page of shipped trains, or of declarations, in all their states."""
     scenes = [scene for train in trains for scene in _scenes(train)]
     return page(scenes, compare=compare, teeth=teeth)
 
 
 def _scenes(train: str) -> list[Scene]:
-    """Of a declaration as text, or of a shipped train, whose scenes other tests may have made."""
+    """Return the scenes of a declaration as text, or of a shipped train (cached)."""
     if "\n" in train:
         declared = load(train)
         return [build_scene(declared, state) for state in declared.states or (None,)]
@@ -72,7 +72,7 @@ def go(shown: Shown, turn: object) -> None:
 
 
 def wait(shown: Shown, expression: str) -> None:
-    """Until an expression in the page is true."""
+    """Wait until an expression in the page is true."""
     end = time.monotonic() + 60
     while not shown.run(expression):
         assert time.monotonic() < end, expression
@@ -80,7 +80,7 @@ def wait(shown: Shown, expression: str) -> None:
 
 
 def turns(shown: Shown) -> Fraction:
-    """Where the crank stands, exactly."""
+    """Return the exact turns of the crank."""
     return Fraction(str(shown.run("String(geartrain.turns)")))
 
 
@@ -90,26 +90,26 @@ def rgb(text: str) -> tuple[float, float, float]:
 
 
 def luminance(colour: str) -> float:
-    """Relative luminance, WCAG 2.2."""
+    """Return the relative luminance of WCAG 2.2."""
     parts = [part / 255 for part in rgb(colour)]
     linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 def contrast(one: str, other: str) -> float:
-    """Contrast ratio, WCAG 2.2."""
+    """Return the contrast ratio of WCAG 2.2."""
     dark, light = sorted((luminance(one), luminance(other)))
     return (light + 0.05) / (dark + 0.05)
 
 
 def picture(data: str | bytes) -> np.ndarray:
-    """A picture as a file or a data URL: (height, width, 3), 0 to 255."""
+    """Return a picture from a file or a data URL, shape (height, width, 3), from 0 to 255."""
     file = data if isinstance(data, bytes) else b64decode(data.partition(",")[2])
     return np.asarray(Image.open(io.BytesIO(file)).convert("RGB"), dtype=int)
 
 
 def listen(page: Page, *own: str) -> list[str]:
-    """All that goes wrong on a page from now on: errors, dialogs, and requests to addresses that do not begin so."""
+    """Return a list to which errors, dialogs, and requests to addresses without one of the given prefixes are added."""
     wrong = list[str]()
     page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
     page.on("pageerror", lambda error: wrong.append(str(error)))

@@ -159,9 +159,15 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
 # ------------------------------------------------------------------------------------------------------------- refusals
 
 
-def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
-    with pytest.raises(GearTrainError, match="cannot be cut"):
-        run_trials(find_trial_plan(load(train_file(PAIR)), read_error_overrides(["pitch_deviation=45 %"])), 64)
+def test_shares_of_pairs_need_trials_that_turn(train_file: Write, here: Path) -> None:
+    refused = ask(train_file(PAIR), "--trials", 1, "--plot", here / "x.svg", "--picture", "pairs")
+    assert "variance shares need two trials that turn" in str(refused.exception)
+
+
+def test_trains_that_cannot_be_cut_are_refused_without_a_journal(train_file: Write, here: Path) -> None:
+    refused = ask(train_file(PAIR), "--cutting", "pitch_deviation=45 %")
+    assert "cannot be cut" in str(refused.exception)
+    assert list(here.glob("*.jsonl")) == []
     bare = train_file(PAIR.replace("tooth_form", "note: ideal teeth #"), "bare.yaml")
     with pytest.raises(QuestionError, match="no tooth form"):
         find_trial_plan(load(bare), read_error_overrides(["pitch_deviation=2 %"]))

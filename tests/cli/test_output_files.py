@@ -58,7 +58,10 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("budget", "--plot"): (BUDGET, (".svg",)),
     ("sphere", "-o"): (("sphere", "cube"), (".md", ".json")),
     ("sphere", "--plot"): (("sphere", "cube", "--teeth", "4=12"), (".svg",)),
-    ("teeth ratio", "-o"): (("teeth", "ratio", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),
+    ("teeth ratio", "-o"): (
+        ("teeth", "ratio", "7/3", "--stages", "1", "--best", "1"),
+        (".md", ".json", ".csv", ".yaml"),
+    ),
     ("teeth approximants", "-o"): (("teeth", "approximants", "7/3"), (".md", ".json", ".csv")),
     ("teeth train", "-o"): (("teeth", "train", "{hands}", "--best", "1", "--workers", "1"), (".md", ".json", ".yaml")),
     ("teeth set", "-o"): (("teeth", "set", "7/2", "--kind", "planetary"), (".md", ".json", ".yaml")),

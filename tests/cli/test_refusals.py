@@ -49,7 +49,7 @@ teeth ratio 3 --sort size | not an order
 teeth ratio 3 --tolerance -1 | tolerance
 teeth train hands.yaml --free nut,screw | screw
 teeth train hands.yaml --where nut | W=32
-teeth ratio 3 -o x.yaml | as a declaration
+teeth approximants 3 -o x.yaml | as a declaration
 teeth orrery moon=29.5 29.5 | moon=29.53
 teeth orrery venus=venus_synodic_per_year_289_in_462 | is a speed, not a period
 teeth train hands.yaml --range 12:20 | --range

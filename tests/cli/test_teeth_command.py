@@ -119,8 +119,17 @@ def test_a_solution_is_written_as_a_train_that_does_what_is_requested(hands: Pat
     assert sum(wheel.count or 0 for _, wheel in made.declaration.wheels.values()) == 80
 
 
+@pytest.mark.parametrize(("ratio", "options", "sense"), [("235/19", (), 1), ("5", ("--stages", 1, "--internal", 1), 1)])
+def test_stages_are_written_as_a_train_whose_numerator_drives(
+    tmp_path: Path, ratio: str, options: tuple[object, ...], sense: int
+) -> None:
+    assert call("teeth", "ratio", ratio, *options, "-o", tmp_path / "found.yaml").exit_code == 0
+    train = load(tmp_path / "found.yaml")
+    assert [train.solve()[name] for name in train.declaration.outputs] == [sense * Fraction(ratio)]
+
+
 def test_nothing_found_tells_what_to_relax_and_exits_with_one(hands: Path) -> None:
-    done = call("teeth", "train", hands, "--min-teeth", 40, "--workers", 1)
+    done = call("teeth", "train", hands, "--max-radius", "9", "--hunting", "--workers", 1)
     assert done.exit_code == 1
     assert "Suggestions" in done.stdout
     assert "candidates" in done.stdout

@@ -12,18 +12,12 @@ from pathlib import Path
 import pytest
 from answer_schemas import holds
 from commands import call
+from dynamics.test_uncounted_losses import PIN as COUPLED
 
 import geartrain
 
 Write = Callable[..., Path]
-PIN = """
-links: {frame: {}, a: {}, b: {}}
-revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm, friction: 0.3}]
-inputs: {a: 1}
-outputs: {b: {}}
-loads: {b: -10 N m}
-"""
+PIN = COUPLED.replace("id: P, ", "")
 LOCKS = PIN.replace("friction: 0.3", "friction: 0.8").replace("{a: 1}", "{b: 1}").replace("b: -10", "a: -10")
 MEAN = 10 * (1 + 0.3 / pi * log(18 / 2))
 SAMPLES = ("--samples", "300")

@@ -13,28 +13,13 @@ from pathlib import Path
 import pytest
 from clusters import PATIENCE, alive, small_cluster, until
 from commands import call
+from dynamics.test_uncounted_losses import PIN
+from test_montecarlo_command import PAIR as ONE_ERROR
 
 Write = Callable[..., Path]
 
-PAIR = """
-    name: pair
-    links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: 15}}}
-    revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-    gears: [{pair: [p, w]}]
-    inputs: {a: 1}
-    outputs: {b: {}}
-    tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.02}
-    cutting: {pitch_deviation: {normal: 2 %}, tip: {normal: 3 %}}
-"""
-PIN = """
-    links: {frame: {}, a: {}, b: {}}
-    revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-    couplings:
-      - {kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm,
-         friction: {sliding: 0.3, deviation: 0.05}}
-    inputs: {a: 1}
-    loads: {b: -10 N m}
-"""
+PAIR = ONE_ERROR.replace("normal: 2 %}}", "normal: 2 %}, tip: {normal: 3 %}}")
+SLIDER = PIN.replace("friction: 0.3", "friction: {sliding: 0.3, deviation: 0.05}")
 MONTE_CARLO = ("--trials", "400", "--vary", "clearance_factor=1.01:1.03:2", "--sobol", "--json")
 
 
@@ -52,7 +37,7 @@ def ended(*words: object) -> tuple[str, str]:
     ("text", "words"),
     [
         (PAIR, ("montecarlo", *MONTE_CARLO)),
-        (PIN, ("torques", "--turns", "1", "--samples", "50", "--trials", "40", "--json")),
+        (SLIDER, ("torques", "--turns", "1", "--samples", "50", "--trials", "40", "--json")),
     ],
     ids=["montecarlo", "torques"],
 )

@@ -25,8 +25,7 @@ from studies.cut_pair_trials import (
 from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, ErrorRecord, UncertaintyRecords, slope
 from studies.uncertainty_study import uncertainty
 
-from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts, nominal_backlash
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 

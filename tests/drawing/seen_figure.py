@@ -1,4 +1,4 @@
-"""What a reader sees of a figure beyond its words: entries of a legend that look alike, legends over curves."""
+"""Legibility of figures besides their text: entries of a legend that look alike, and legends that cover curves."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from matplotlib.transforms import Bbox
 
 from geartrain.drawing.theme_colours import themed
 
-_LINE, _AREA = 70.0, 15.0  # of 255: greys nearer to each other than this are one, of lines and of areas
-_WIDTH = 1.6  # ratio of two widths of lines that are told apart
-_SIZE = 1.3  # of two sizes of marks
+_LINE, _AREA = 70.0, 15.0  # grey levels of 255: minimum difference of lines and of areas that are distinguishable
+_WIDTH = 1.6  # ratio of two distinguishable line widths
+_SIZE = 1.3  # ratio of two distinguishable marker sizes
 
 
 KINDS = ("plan", "stick", "graph", "lever", "dials")
@@ -30,7 +30,7 @@ KINDS = ("plan", "stick", "graph", "lever", "dials")
 
 
 def alike(figure: Figure, theme: Any = "print") -> list[tuple[str, str]]:
-    """Pairs of entries of one legend that a reader could not tell apart in a theme."""
+    """Return the pairs of entries of one legend that are not distinguishable in a theme."""
     with themed(figure, theme):
         return [
             (one.get_text(), other.get_text())
@@ -43,7 +43,7 @@ def alike(figure: Figure, theme: Any = "print") -> list[tuple[str, str]]:
 
 
 def legends(figure: Figure) -> Iterator[Legend]:
-    """All legends, of the figure and of its axes."""
+    """Yield all legends of a figure and of its axes."""
     yield from figure.legends
     for axes in figure.axes:
         if (own := axes.get_legend()) is not None:
@@ -72,20 +72,20 @@ def _same_lines(one: Line2D, other: Line2D) -> bool:
 
 
 def _apart(one: Any, other: Any) -> float:
-    """Of 255, in the channel in which two colours differ most."""
+    """Return the maximum difference of two colours in one channel, of 255."""
     return 255 * float(np.abs(np.subtract(to_rgba(one)[:3], to_rgba(other)[:3])).max())
 
 
 def _seen(patch: Patch) -> tuple[float, ...]:
-    """The colour of an area as it lies on white."""
+    """Return the colour of a transparent area on white."""
     *rgb, alpha = to_rgba(patch.get_facecolor())
     return tuple(1 - alpha + alpha * channel for channel in rgb)
 
 
 def hidden(figure: Figure) -> list[str]:
-    """Legends within axes that lie over a line, a mark, a filled area or a bar with an id, by their first words.
+    """Return the first texts of legends in axes that cover a line, a marker, a filled area or a bar with an id.
 
-    Not asked are what is no data: rules and bands across a whole panel, maps and contours.
+    Lines and bands across a whole panel, maps and contours may be covered.
     """
     figure.draw_without_rendering()
     found = []
@@ -101,7 +101,7 @@ def hidden(figure: Figure) -> list[str]:
 
 
 def _over_lines(axes: Axes, box: Bbox) -> bool:
-    """Whether a box [pixels] lies over a mark or a stretch between two."""
+    """Return True if a box [pixels] covers a marker or a segment of a line."""
     for line in axes.lines:
         seen = _seen_part(box, line)
         if line.get_transform() != axes.transData or seen is None:
@@ -113,7 +113,7 @@ def _over_lines(axes: Axes, box: Bbox) -> bool:
 
 
 def _over_collections(axes: Axes, box: Bbox) -> bool:
-    """Whether a box [pixels] lies over a mark of a cloud, a line of a bundle or a filled area."""
+    """Return True if a box [pixels] covers a marker, a line or a filled area of a collection."""
     for each in axes.collections:
         seen = _seen_part(box, each)
         if seen is None:
@@ -130,19 +130,19 @@ def _over_collections(axes: Axes, box: Bbox) -> bool:
 
 
 def _seen_part(box: Bbox, artist: Artist) -> Bbox | None:
-    """The part of a box in which an artist can be seen: within its axes, if it is cut there."""
+    """Return the visible part of a box of an artist, which may be clipped by its axes."""
     cut = artist.get_clip_box() if artist.get_clip_on() else None
     return box if cut is None else Bbox.intersection(box, cut)
 
 
 def _holds(box: Bbox, axes: Axes, places: Any) -> bool:
-    """Whether one of some places of data is within a box [pixels]."""
+    """Return True if one of some points in data coordinates is within a box [pixels]."""
     points = axes.transData.transform(np.asarray(places, dtype=float).reshape(-1, 2))
     return bool(((points > box.min) & (points < box.max)).all(1).any())
 
 
 def crowded(figure: Figure) -> list[tuple[str, str]]:
-    """Neighbouring numbers below an axis that are read as one: nearer than half a letter."""
+    """Return neighbouring tick labels that are closer than half a letter."""
     figure.draw_without_rendering()
     found = []
     for axes in figure.axes:
@@ -155,7 +155,7 @@ def crowded(figure: Figure) -> list[tuple[str, str]]:
 
 
 def untitled(figure: Figure) -> bool:
-    """True if nothing above the figure says what it is of."""
+    """Return True if a figure has no title."""
     titles = [figure.get_suptitle(), *(axes.get_title(where) for axes in figure.axes for where in ("left", "center"))]
     titles += [text.get_text() for text in _words(figure) if text.get_gid() == "title"]
     return not any(titles)
@@ -168,17 +168,14 @@ def _words(figure: Figure) -> Iterator[Text]:
 
 
 def without_quantity(figure: Figure) -> list[str]:
-    """Axes of numbers without a word on what they count, below or beside; of shared ones the last is asked."""
+    """Return the axes with numbers but without a label; for shared axes, only the last is examined."""
     found = []
     for at, axes in enumerate(figure.axes):
         if not axes.axison:
             continue
         labels = (
             (axes.xaxis, any(text.get_text() for text in axes.get_xticklabels())),
-            (
-                axes.yaxis,
-                any(_number(text.get_text()) for text in axes.get_yticklabels()),
-            ),
+            (axes.yaxis, any(_number(text.get_text()) for text in axes.get_yticklabels())),
         )
         left = axes.get_position().x0
         below = [each.get_xlabel() for each in figure.axes if abs(each.get_position().x0 - left) < 0.02]

@@ -1,4 +1,4 @@
-"""Words beside a plan: one line to all wheels of an axis, and no line over another."""
+"""Callouts beside a plan: one line to all wheels of an axis, and no crossing lines."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Point = tuple[Fraction, Fraction]
 
 
 def cross(one: tuple[Point, Point], other: tuple[Point, Point]) -> bool:
-    """True where two stretches cross, exactly."""
+    """Return True if two segments intersect, exactly."""
 
     def turn(a: Point, b: Point, c: Point) -> Fraction:
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -1,4 +1,4 @@
-"""What plots show can be told apart in every theme: values on a map, bands, marks at one place, words beside lines."""
+"""Elements of plots are distinguishable in every theme: map values, bands, coincident markers, and labels of lines."""
 
 from __future__ import annotations
 
@@ -40,11 +40,7 @@ from geartrain.workshop import (
     tooth_sizes_figure,
     train_sizes_figure,
 )
-from geartrain.workshop.monte_carlo.monte_carlo_plots import (
-    course_figure,
-    histogram_figure,
-    jam_map_figure,
-)
+from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure, histogram_figure, jam_map_figure
 
 GRID = np.linspace(0.0, 1.0, 5)
 
@@ -87,7 +83,7 @@ def test_the_arrow_of_an_annotation_is_of_the_ink_of_its_theme(theme: Any) -> No
 
 
 def test_words_at_a_line_stay_within_their_panel() -> None:
-    """Of unequal angles, backwards, flank lies on flank near the rim."""
+    """With unequal angles and reversed motion the flanks coincide near the edge of the panel."""
     sizes = TriangularSizes(60, 30, *equal_depth(60, 30, radians(30), radians(35)), radians(30), radians(35), 0.05)
     for pair in (transmission(60, 30, 0.05), TriangularTransmission(sizes, 0.0, -1)):
         figure = triangular_figure(pair)
@@ -104,7 +100,7 @@ def test_numbers_of_the_instant_centre_keep_their_distance_where_a_wheel_stands(
     (beside,) = [each for each in figure.axes[1].child_axes if "instant centre" in each.get_ylabel()]
     at = beside.transData.transform([(0, tick) for tick in beside.get_yticks()])[:, 1]
     assert len(at) >= 3
-    assert min(np.diff(at)) > 14 * figure.dpi / 72  # a line of words
+    assert min(np.diff(at)) > 14 * figure.dpi / 72  # height of a line of text
 
 
 def test_ways_of_running_are_told_apart_in_print() -> None:
@@ -125,7 +121,7 @@ def test_a_sweep_names_its_parameters_by_itself() -> None:
 
 
 def test_marks_of_one_place_stand_one_within_the_other() -> None:
-    """The best of every pair by itself is the best for the train here."""
+    """Here the optimum of each pair is also the optimum of the train."""
     figure = train_sizes_figure(find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)}))
     marks = [line for line in figure.axes[0].lines if line.get_gid() in ("declared", "apart", "together")]
     sizes = [line.get_markersize() for line in marks]
@@ -135,7 +131,7 @@ def test_marks_of_one_place_stand_one_within_the_other() -> None:
 
 
 def test_marks_of_best_sizes_are_in_view_and_their_key_is_below_all_designs() -> None:
-    """Pitch-true teeth are better than all that a free window finds, and far from them."""
+    """Pitch-true teeth are better than all designs with a free window, and far from them."""
     start = ToothSizes((60, 30), 1.1, 0.5, (radians(30), radians(30)), 0.2)
     figure = tooth_sizes_figure(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
     figure.draw_without_rendering()
@@ -239,7 +235,7 @@ def test_a_radial_flank_is_a_straight_line_not_its_rounding() -> None:
 
 
 def test_a_spike_leaves_its_panel_where_the_rest_would_be_flat() -> None:
-    """Where a pinion of eight teeth is undercut, its flank turns round and heat per area has no bound."""
+    """At the undercut of a pinion of 8 teeth the flank reverses, and the heat per area is unbounded."""
     figure = shapes_figure({"involute": Involute.declared({}).path(8, 36)})
     (heat,) = [line for line in figure.axes[4].lines if line.get_gid() == "involute"]
     values = np.asarray(heat.get_ydata(), dtype=float)

@@ -1,4 +1,4 @@
-"""Every picture in its themes: nothing of the light one is left, and the figure stays as it was."""
+"""Pictures in all themes: no colour of the light theme remains, and the figure itself is unchanged."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_values_with_a_scale_of_colours_are_grey_in_print_and_as_before_after_it
 
 
 def bars(width: int) -> Figure:
-    """A bar of each series, 40 pixels high, with a step of 50 pixels."""
+    """Return a figure with a bar of each series, 40 pixels high, with a pitch of 50 pixels."""
     figure = Figure(figsize=(5, 1), dpi=100)
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, 500), ylim=(0, 100))
     axes.set_axis_off()
@@ -66,7 +66,7 @@ def bars(width: int) -> Figure:
 
 
 def look(crop: np.ndarray) -> np.ndarray:
-    """Grey of a piece of a picture, and how much it changes to the side, upwards and along both diagonals."""
+    """Return the mean grey of a part of a picture, and its changes to the side, upwards and along both diagonals."""
     ways = (
         crop[:, 1:] - crop[:, :-1],
         crop[1:] - crop[:-1],
@@ -78,7 +78,7 @@ def look(crop: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("width", [10, 24])
 def test_areas_of_any_two_series_are_told_apart_in_print_however_short(width: int) -> None:
-    """Of 255: two areas look alike where neither grey nor texture differ by a tenth."""
+    """Two areas are distinguishable if their grey or their texture differs by a tenth of 255."""
     data = render(bars(width), ".png", theme="print")
     grey = np.asarray(Image.open(BytesIO(data)).convert("L"), dtype=float)
     looks = [look(grey[34:66, 50 * at + 22 : 50 * at + 18 + width]) for at in range(10)]
@@ -129,7 +129,7 @@ def test_the_command_draws_on_the_paper_of_its_theme(theme: str, paper: tuple[in
 
 @pytest.mark.parametrize("theme", THEMES)
 def test_a_layer_nearer_to_the_reader_is_lighter_in_every_theme(theme: str) -> None:
-    """The arbors of the clock bear wheels in seven layers, one over the other."""
+    """The wheels of the clock are in seven layers."""
     root = ET.fromstring(render(picture(load("longcase-clock"), "plan"), ".svg", theme=theme))  # type: ignore[arg-type]
     faces = []
     for group in root.iter("{http://www.w3.org/2000/svg}g"):

@@ -1,4 +1,4 @@
-"""Figures of triangular teeth: what is drawn is where it should be, and drawing needs its extra only when asked."""
+"""Figures of triangular teeth: positions of drawn elements, and drawing without its optional dependency."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def transmission(z1: int, z2: int, excess: float, direction: int = 1) -> Triangu
 
 
 def drawn(figure: Figure, gid: str) -> list[Points]:
-    """Points of the lines and polygons of one name."""
+    """Return the points of the lines and polygons with a name."""
     found = [line.get_xydata() for axes in figure.axes for line in axes.lines if line.get_gid() == gid]
     found += [patch.get_xy() for axes in figure.axes for patch in axes.patches if patch.get_gid() == gid]
     return [np.asarray(points) for points in found]
 
 
 def from_line(point: Points, one: Points, other: Points) -> float:
-    """Distance of a point from a segment."""
+    """Return the distance of a point from a segment."""
     along = other - one
     share = min(1.0, max(0.0, float((point - one) @ along / (along @ along))))
     return float(hypot(*(point - one - share * along)))
@@ -65,7 +65,7 @@ def test_the_contact_drawn_is_an_apex_on_the_other_flank(pair: tuple[int, int, f
         y = float(pair_transmission.contact.path.tooth_pair.angle(interval.phase, x))
         apex1 = np.array([s.R1 * cos(x), direction * s.R1 * sin(x)])
         apex2 = np.array([s.D - s.R2 * cos(y), direction * s.R2 * sin(y)])
-        # roots of the two flanks that face each other: below the driver's tooth, above the driven one
+        # roots of the two facing flanks: below the driver's tooth, above the driven tooth
         root1, root2 = s.R1 * sin(s.beta1) / sin(s.beta1 + pi / s.z1), s.R2 * sin(s.beta2) / sin(s.beta2 + pi / s.z2)
         valley1 = root1 * np.array([cos(x - pi / s.z1), direction * sin(x - pi / s.z1)])
         y += pi / s.z2
@@ -197,7 +197,7 @@ def test_the_curves_are_the_transmission() -> None:
     assert angle[1:-1, 1] == pytest.approx(-np.degrees(pair_transmission.angle(S)), abs=1e-11)
     assert speed[1:-1, 1] == pytest.approx(pair_transmission.speed(S), abs=1e-12)
     assert efficiency[1:-1, 1] == pytest.approx(pair_transmission.efficiency(S), abs=1e-12)
-    # power out over power in: arms are over radii in the mean ratio
+    # output power divided by input power; moment arms are divided by the pitch radii
     assert efficiency[:, 1] == pytest.approx(speed[:, 1] * second[:, 1] / first[:, 1] * 2, abs=1e-12)
     (beside,) = figure.axes[1].child_axes
     figure.draw_without_rendering()

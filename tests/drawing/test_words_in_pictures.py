@@ -29,12 +29,22 @@ from geartrain.drawing import picture, render
 
 MINIMUM = 8.0  # points
 WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
-FEW = ["planetary", "bevel-differential", "humpage", "longcase-clock", "ravigneaux-set", "rv-reducer", "worm"]
+FEW = [
+    "planetary",
+    "bevel-differential",
+    "humpage",
+    "longcase-clock",
+    "ravigneaux-set",
+    "rv-reducer",
+    "strain-wave",
+    "worm",
+    "zf-8hp70",
+]
 ALL = sorted(path.stem for path in train_files())
 
 
 def faults_of(figure: Figure) -> dict[str, object]:
-    """What of a figure's words cannot be read, by what is wrong with it; empty where all is well."""
+    """Return the illegible texts of a figure by kind of fault; empty without faults."""
     found = read_picture(render(figure, ".svg"))
     assert found.texts, "a picture without words was not read"
     faults = {
@@ -81,7 +91,7 @@ def test_words_can_be_read_in_all_shipped_trains(name: str, kind: str) -> None:
 
 
 def struck(words: Text, marks: Iterable[Bbox]) -> list[Bbox]:
-    """The marks that some words lie on."""
+    """Return the artists that a text covers."""
     box = words.get_window_extent()
     return [mark for mark in marks if box.x0 < mark.x1 and mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1]
 
@@ -95,7 +105,7 @@ def test_words_keep_off_the_marks_of_teeth() -> None:
 
 @pytest.mark.parametrize("name", ["four-gear-loop", "longcase-clock", "rv-reducer", "zf-8hp70"])
 def test_names_of_links_axes_and_couplings_keep_off_uprights(name: str) -> None:
-    """An upright of a wheel goes past other axes to its own, and so past their names."""
+    """The vertical line of a wheel passes other axes and their names."""
     (axes,) = picture(load(name), "stick", None, Fraction(0)).axes
     uprights = [
         line.get_window_extent()
@@ -126,7 +136,7 @@ def test_lines_of_a_stick_diagram_tell_by_their_width_what_they_are_and_so_does_
     ("name", "most"), [("three-planets", 0), ("zf-8hp70", 0), ("price-1974", 0), ("freeth-2021", 17)]
 )
 def test_labels_of_a_graph_keep_off_other_edges(name: str, most: int) -> None:
-    """In a graph of 60 links some thin edges run side by side; no label lies over the heavy edge of a gear pair."""
+    """In a graph of 60 links some thin edges are close together; no label covers the thick edge of a gear pair."""
     figure = picture(load(name), "graph", None, Fraction(0))
     figure.draw_without_rendering()
     (axes,) = figure.axes
@@ -154,7 +164,7 @@ def test_labels_of_a_graph_keep_off_other_edges(name: str, most: int) -> None:
 
 @pytest.mark.parametrize(("name", "round_"), [("lantern-mill", "pit72"), ("huygens-planetarium-1682", "y300")])
 def test_a_wheel_across_is_round_from_the_right_where_the_plan_has_its_edge(name: str, round_: str) -> None:
-    """Left out, it was an empty space as wide as the wheel."""
+    """It was omitted, which left an empty space as wide as the wheel."""
     (axes,) = picture(load(name), "plan", None, Fraction(0)).axes
     sides = {
         (part.get_gid() or "").removeprefix("side "): part
@@ -171,7 +181,7 @@ def test_a_wheel_across_is_round_from_the_right_where_the_plan_has_its_edge(name
 
 @pytest.mark.parametrize("name", ["huygens-planetarium-1682", "three-planets", "zf-8hp70"])
 def test_words_along_a_wheel_leave_its_line_whole(name: str) -> None:
-    """With half a point between them, which is what a halo takes of the line."""
+    """The gap is at least half a point, the width of the halo of the text."""
     (axes,) = picture(load(name), "stick", None, Fraction(0)).axes
     dots = axes.figure.dpi / 72
     uprights = [
@@ -213,7 +223,7 @@ def test_panels_of_a_speed_diagram_fill_the_page() -> None:
 
 
 def test_rows_of_a_speed_diagram_hold_as_many_panels_as_each_other() -> None:
-    """Four sets in a state: three and one left holes as wide as two panels."""
+    """Four sets in a state: rows of three and one left gaps as wide as two panels."""
     figure = picture(load("zf-8hp70"), "lever")
     first = [axes for axes in figure.axes[1:] if axes.get_label().endswith(" 1")]
     rows = Counter(round(axes.get_position().y0, 3) for axes in first)
@@ -221,14 +231,14 @@ def test_rows_of_a_speed_diagram_hold_as_many_panels_as_each_other() -> None:
 
 
 def test_two_faces_of_one_dial_are_told_apart() -> None:
-    """Its lower dial stands about two axes."""
+    """Its lower dial has hands about two axes."""
     (axes,) = picture(load("price-1974"), "dials").axes
     titles = {words.get_text() for words in axes.texts if (words.get_gid() or "").startswith("dial ")}
     assert titles == {"zodiac", "lower (synodic month)", "lower (lunar year)", "upper"}
 
 
 def test_the_key_of_hands_shows_their_dashes() -> None:
-    """A piece shorter than one dash and its gap looks like a hand without dashes."""
+    """A line shorter than one dash and gap looks like a hand without dashes."""
     (axes,) = picture(load("freeth-2021"), "dials", None, Fraction(0)).axes
     keys = [line for line in axes.lines if line.get_gid() == "key"]
     dashed = [line for line in keys if line.get_linestyle() == "--"]
@@ -279,4 +289,4 @@ def test_a_word_is_as_wide_as_its_font_says() -> None:
     (text,) = read_picture(render(drawn((1, 1, "HHHH", 10, 0)), ".svg")).texts
     width = text.corners[:, 0].max() - text.corners[:, 0].min()
     assert text.size == pytest.approx(10)
-    assert width == pytest.approx(4 * 7.52, abs=2.2)  # DejaVu Sans: an H is 0.752 em wide, with its sides
+    assert width == pytest.approx(4 * 7.52, abs=2.2)  # DejaVu Sans: the advance width of H is 0.752 em

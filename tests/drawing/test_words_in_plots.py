@@ -1,4 +1,4 @@
-"""In plots of results all words can be read too, and however many pointers a train has, a page holds them."""
+"""All text in plots of results is legible, and plots of any number of pointers fit on a page."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ SLOW = [
 
 @pytest.fixture(autouse=True)
 def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pictures of one question are asked side by side, and two runs do not write one journal."""
+    """Pictures of one question are made in parallel, and two runs cannot write one journal."""
     monkeypatch.chdir(tmp_path)
 
 

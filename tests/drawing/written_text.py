@@ -1,4 +1,4 @@
-"""Words as they stand in a written SVG: glyphs are outlines there, so that their boxes are what a reader sees."""
+"""Texts of an SVG file, whose glyphs are outlines, so that their boxes are those of the visible text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from itertools import combinations, pairwise
 import numpy as np
 
 SVG, LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
-FONT = 100.0  # units of matplotlib's glyph outlines to an em
+FONT = 100.0  # units per em in matplotlib's glyph outlines
 _NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 _TURN = re.compile(r"(translate|rotate|scale)\(([^)]*)\)")
 Matrix = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
@@ -20,7 +20,7 @@ Matrix = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
 @dataclass(frozen=True)
 class WrittenText:
-    """A line of words in a picture: corners (4, 2) [pt] of its box from the lower left one round, and size [pt]."""
+    """Line of text: corners of its box (4, 2) [pt], counter-clockwise from the lower left, and font size [pt]."""
 
     words: str
     corners: Matrix
@@ -28,21 +28,21 @@ class WrittenText:
 
     @property
     def edges(self) -> Matrix:
-        """Unit vectors (2, 2) along the line and across it."""
+        """Unit vectors (2, 2) along the line and perpendicular to it."""
         sides = self.corners[[1, 3]] - self.corners[0]
         return sides / np.maximum(np.hypot(*sides.T), 1e-12)[:, None]
 
 
 @dataclass(frozen=True)
 class WrittenPicture:
-    """Words of a picture and its size [pt]."""
+    """Texts of a picture, and its size [pt]."""
 
     width: float
     height: float
     texts: list[WrittenText] = field(default_factory=list)
 
     def overlaps(self, minimum: float = 0.4) -> list[tuple[str, str]]:
-        """Pairs of words whose boxes share a strip of more than `minimum` points."""
+        """Return the pairs of texts whose boxes overlap by more than `minimum` points."""
         found = []
         low = np.array([text.corners.min(0) for text in self.texts]).reshape(-1, 2)
         high = np.array([text.corners.max(0) for text in self.texts]).reshape(-1, 2)
@@ -53,17 +53,17 @@ class WrittenPicture:
         return found
 
     def clipped(self, margin: float = 0.0) -> list[str]:
-        """Words that reach over the edge of the page."""
+        """Return the texts that extend beyond the edge of the page."""
         page = np.array([self.width, self.height])
         return [t.words for t in self.texts if (t.corners < margin).any() or (t.corners > page - margin).any()]
 
     def small(self, minimum: float) -> list[tuple[str, float]]:
-        """Words under a size [pt]."""
+        """Return the texts below a font size [pt]."""
         return [(text.words, text.size) for text in self.texts if text.size < minimum - 1e-6]
 
 
 def depth(one: WrittenText, other: WrittenText) -> float:
-    """How far (pt) two boxes reach into each other; 0 or less where an axis parts them (separating axis theorem)."""
+    """Return the overlap of two boxes [pt]; 0 or negative if an axis separates them (separating axis theorem)."""
     minimum = np.inf
     for axis in (*one.edges, *other.edges):
         mine, its = one.corners @ axis, other.corners @ axis
@@ -72,7 +72,7 @@ def depth(one: WrittenText, other: WrittenText) -> float:
 
 
 def read_picture(data: bytes) -> WrittenPicture:
-    """All words of a picture that matplotlib wrote with its glyphs as outlines."""
+    """Return all texts of a picture that matplotlib wrote with glyphs as outlines."""
     root = ET.fromstring(data, ET.XMLParser(target=ET.TreeBuilder(insert_comments=True)))
     glyphs = {
         name: box(path.get("d", ""), path.get("transform", ""))
@@ -85,7 +85,7 @@ def read_picture(data: bytes) -> WrittenPicture:
 
 @cache
 def box(outline: str, scaled: str) -> Matrix | None:
-    """Lower left and upper right corner (2, 3) of a glyph of straight and curved pieces; None of a blank."""
+    """Return the lower left and upper right corner (2, 3) of a glyph; None for a blank."""
     points = np.array(_NUMBER.findall(outline), dtype=float).reshape(-1, 2)
     if not len(points):
         return None
@@ -93,7 +93,7 @@ def box(outline: str, scaled: str) -> Matrix | None:
 
 
 def _texts(root: ET.Element, glyphs: dict[str, Matrix | None]) -> Iterator[WrittenText]:
-    """Each line: a comment that holds its words, and behind it the group of its glyphs."""
+    """Yield each line of text: a comment with the text, and the following group of its glyphs."""
     for group in root.iter(f"{SVG}g"):
         for comment, drawn in pairwise(group):
             if comment.tag is ET.Comment and drawn.tag == f"{SVG}g":
@@ -118,7 +118,7 @@ def _line(words: str, group: ET.Element, glyphs: dict[str, Matrix | None]) -> Wr
 
 
 def transform(text: str) -> Matrix:
-    """The matrix of a chain of translate, rotate and scale."""
+    """Return the matrix of a sequence of translate, rotate and scale."""
     whole = np.eye(3)
     for kind, numbers in _TURN.findall(text):
         values = [float(each) for each in re.split(r"[\s,]+", numbers.strip())]

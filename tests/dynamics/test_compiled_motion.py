@@ -12,7 +12,6 @@ from commands import call, ended, without
 from geartrain import GearTrainError, load
 from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition
 from geartrain.errors import MissingExtraError
-from geartrain.teeth.transmission_table import join_transmission_tables, make_transmission_table, transmission_along
 
 TOOTHED = ("moon-triangular", "sorge-pairs", "longcase-clock-bs978", "freeth-2021", "freeth-2021-teeth",
            "freeth-2021-cut", "freeth-2006", "voulgaris-2022")  # fmt: skip
@@ -47,21 +46,6 @@ def test_transmissions_that_are_read_from_tables_are_read_from_the_same() -> Non
     assert np.abs(fast.error - load("moon-triangular").motion(outputs=["moon"])._forward.at(turns).error).max() > 1e-12
 
 
-def test_a_transmission_in_tables_is_the_transmission_itself_and_bit_for_bit_the_same_compiled() -> None:
-    for source in load("freeth-2021-teeth").motion(outputs=["mars"])._forward.used:
-        table = make_transmission_table(source.transmission)
-        assert table is not None
-        tables = join_transmission_tables([table])
-        S = np.linspace(-2, 3, 997) * source.transmission.period
-        found = np.zeros((2, 2, len(S)))
-        for at, kernel in enumerate((transmission_along, transmission_along.compiled)):
-            kernel(tables, 0, S, found[at, 0], found[at, 1], np.zeros(len(S)), np.zeros(len(S), dtype=np.int32))
-        assert np.array_equal(found[0], found[1])
-        assert np.array_equal(found[0, 0], table.error(S))
-        assert np.abs(found[0, 0] - source.transmission.error(S)).max() < 1e-14
-        assert np.abs(found[0, 1] - source.transmission.speed(S)).max() < 1e-13
-
-
 def test_the_kernel_in_plain_python_is_the_compiled_one() -> None:
     for name in ("freeth-2021-teeth", "moon-triangular"):
         train = load(name)
@@ -85,15 +69,6 @@ def test_pairs_that_cannot_be_followed_are_refused_with_their_names() -> None:
     )
     with pytest.raises(GearTrainError, match="coupled pairs"):
         composition.at(np.linspace(0, 1, 2000))
-
-
-def test_a_run_is_the_same_whether_kernels_are_requested_for_or_not() -> None:
-    train = load("moon-triangular")
-    slow, fast = (
-        train.motion(outputs=["moon"], fast=fast).transmission_errors(-3.0, 5001)["moon"] for fast in (False, True)
-    )
-    assert slow.peak_to_peak == pytest.approx(fast.peak_to_peak, abs=1e-13)
-    assert slow.rms == pytest.approx(fast.rms, abs=1e-13)
 
 
 def test_the_command_says_the_same_with_kernels_and_without() -> None:

@@ -23,7 +23,6 @@ from sampling import few_or_many
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import Torques, find_power_flow
-from geartrain.teeth import TransmissionFunction
 
 Data = dict[str, Any]
 
@@ -202,14 +201,9 @@ loads: {{b: 3}}
         train = load(text)
         (mesh,) = train.meshes
         for transmission in (mesh.transmission, mesh.reversed):
-            require_sound(transmission)
+            assert max(transmission.efficiency_mean(), transmission.efficiency_at_constant_load()) <= 1, transmission
         for found in requested(train):
             require_no_energy(train, found)
-
-
-def require_sound(transmission: TransmissionFunction) -> None:
-    for mean in (transmission.efficiency_mean(), transmission.efficiency_at_constant_load()):
-        assert not mean > 1, transmission
 
 
 @pytest.mark.parametrize("second", ["[p, w]", "[w, p]"])

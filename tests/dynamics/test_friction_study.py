@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from test_uncounted_losses import PIN
 
 from geartrain import GearTrain, load
 from geartrain.train import Train
@@ -58,15 +59,8 @@ def test_more_friction_takes_more_torque() -> None:
 
 
 def test_trials_are_those_of_a_train_each_and_some_lock() -> None:
-    train = load("""
-links: {frame: {}, a: {}, b: {}}
-revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm,
-             friction: {sliding: 0.3, deviation: 0.4}}]
-inputs: {b: 1}
-outputs: {b: {}}
-loads: {a: -1 N m}
-""")
+    text = PIN.replace("friction: 0.3", "friction: {sliding: 0.3, deviation: 0.4}")
+    train = load(text.replace("inputs: {a", "inputs: {b").replace("loads: {b: -10", "loads: {a: -1"))
     found = try_frictions(find_friction_plan(train, 1, 60), 8, seed=1)
     trains = [GearTrain(draw_friction(train.declaration, 1, trial)) for trial in range(8)]
     cycles = [train.torques(turns=1, samples=60) for train in trains]

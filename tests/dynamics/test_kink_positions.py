@@ -6,29 +6,14 @@ from math import pi
 
 import numpy as np
 import pytest
+from test_motion import REVERSED_PIN
 
 from geartrain import GearTrainError, load
 from geartrain.dynamics import KinkPositions, Motion
 from geartrain.teeth import TransmissionFunction
 
-ROCKING = """
-links:
-  frame: {}
-  a: {wheels: {p: 24}}
-  k: {wheels: {w: 36}}
-  out: {wheels: {x: 300}}
-  last: {wheels: {y: 40}}
-revolutes:
-  - {pair: [frame, a], axis: A}
-  - {pair: [frame, k], axis: B}
-  - {pair: [frame, out], axis: C}
-  - {pair: [frame, last], axis: D}
-gears: [{pair: [p, w]}, {pair: [x, y], driver: x}]
-couplings: [{id: pin, kind: pin_follower, pin: k, slot: out, pin_radius: 4 mm, offset: 5 mm}]
-tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-inputs: {a: 1}
-outputs: {k: {}, out: {}, last: {}}
-"""
+ROCKING = REVERSED_PIN.replace("KIND", "pin_follower").replace("RADIUS", "4")
+ROCKING = ROCKING.replace("x: 30}", "x: 300}").replace("[x, y]}", "[x, y], driver: x}")
 
 
 def of(kinks: KinkPositions, pair: str) -> np.ndarray:

@@ -14,6 +14,7 @@ import pytest
 from hypothesis import event, given, reject, settings
 from hypothesis import strategies as st
 from places import DATA
+from reference_solver import echelon
 
 from geartrain import load
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
@@ -25,29 +26,13 @@ CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))["efficienc
 
 def eliminated(matrix: list[list[Fraction]]) -> tuple[list[Fraction] | None, bool]:
     """The solution of a dense system, right side in the last column, and whether it is the only one."""
-    matrix = [list(row) for row in matrix]
     width = len(matrix[0]) - 1
-    at, pivots = 0, []
-    for column in range(width):
-        best = next((row for row in range(at, len(matrix)) if matrix[row][column]), None)
-        if best is None:
-            continue
-        matrix[at], matrix[best] = matrix[best], matrix[at]
-        lead = matrix[at][column]
-        matrix[at] = [value / lead if value else value for value in matrix[at]]
-        for row, other in enumerate(matrix):
-            if row != at and other[column]:
-                factor = other[column]
-                matrix[row] = [
-                    value - factor * own if own else value for value, own in zip(other, matrix[at], strict=True)
-                ]
-        pivots.append(column)
-        at += 1
-    if any(row[-1] for row in matrix[at:]):
+    pivots = echelon(matrix, width)
+    if any(row[-1] for row in matrix[len(pivots) :]):
         return None, False
     solution = [ZERO] * width
-    for row, column in enumerate(pivots):
-        solution[column] = matrix[row][-1]
+    for row, column in zip(matrix, pivots, strict=False):
+        solution[column] = row[-1]
     return solution, len(pivots) == width
 
 

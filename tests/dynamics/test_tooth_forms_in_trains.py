@@ -333,17 +333,8 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
 
 
 def test_the_motion_of_a_train_where_nothing_ripples_can_be_requested_for_everything() -> None:
-    result = call(
-        "motion",
-        "planetary-24-18-60-involute",
-        "--samples",
-        "50",
-        "--spectrum",
-        "--estimates",
-        "--phases",
-        "1",
-        "--json",
-    )
+    words = ("--samples", "50", "--spectrum", "--estimates", "--phases", "1", "--json")
+    result = call("motion", "planetary-24-18-60-involute", *words)
     assert result.exit_code == 0
     data = json.loads(result.output)
     assert data["rigid"] == ["s~p", "p~ring"]
@@ -490,10 +481,6 @@ def test_a_declared_efficiency_stands_before_that_of_the_teeth() -> None:
     text = PAIR.format(rest=f"tooth_form: {INVOLUTE}\nfriction: 0.1\ninputs: {{a: 1}}")
     train = load(text.replace("pair: [p, w]", "pair: [p, w], efficiency: 0.9"))
     assert train.driven("b", "a").efficiency == Fraction(9, 10)
-
-
-def test_without_friction_nothing_is_lost() -> None:
-    assert pair(INVOLUTE).driven("b", "a").efficiency == 1
 
 
 # pages, data and shipped trains ---------------------------------------------------------------------------------------

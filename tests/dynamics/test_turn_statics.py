@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import cos, hypot, log, pi, sin
+from math import cos, pi, sin
 from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
 from outline_touch import Outlines
-from plane_statics import FRAME, Balance, Hinge, Mechanism, flanks, toothed
-from scipy.optimize import minimize_scalar
+from plane_statics import FRAME, Balance, Hinge, Mechanism, toothed
 
 from geartrain import GearTrain, load
 
@@ -19,26 +18,6 @@ from geartrain import GearTrain, load
 def only(found: list[Balance]) -> Balance:
     assert len(found) == 1
     return found[0]
-
-
-def pushed(S: float, r: float, e: float, f: float) -> float:
-    """Torque at a pin at r about the origin that turns a slot about (e, 0) against 10; S from the line of centres."""
-    point = r * cos(S), r * sin(S)
-    away = hypot(point[0] - e, point[1])
-    normal = -point[1] / away, (point[0] - e) / away
-    hinges = [Hinge(FRAME, "pin", (0.0, 0.0)), Hinge(FRAME, "slot", (e, 0.0))]
-    pair = Mechanism(hinges, [flanks("pin", "slot", point, normal, f)])
-    return only(pair.balances({"pin": 1.0}, {"slot": -10.0}, "pin")).torque
-
-
-def test_bodies_in_balance_have_the_printed_torque_of_a_pin_that_drives_a_slot() -> None:
-    nodes, weights = np.polynomial.legendre.leggauss(120)
-    half_turns = [sum(weights * [pushed(pi / 2 * (x + way), 10, 8, 0.3) for x in nodes]) for way in (-1, 1)]
-    assert sum(half_turns) / 4 == pytest.approx(10 * (1 + 0.3 / pi * log(18 / 2)), rel=1e-12)
-    peak = minimize_scalar(
-        lambda S: -pushed(S, 10, 8, 0.3), bounds=(-0.1, 0), method="bounded", options={"xatol": 1e-10}
-    )
-    assert (peak.x, -peak.fun) == (pytest.approx(-0.032612, abs=5e-7), pytest.approx(50.9784589, abs=5e-8))
 
 
 # ----------------------------------------------------------------------------------------------------- triangular teeth

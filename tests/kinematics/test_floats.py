@@ -76,7 +76,7 @@ def test_one_refinement_step_leaves_every_speed_within_a_rounding_of_the_exact_o
 def test_condition_numbers_are_those_printed(name: str, condition: float) -> None:
     train, link, _ = STIFF[name]
     digits = 5e-5 if condition in (8.0399e4, 2.4119e5) else 0.025
-    assert train.kinematics.floats(condition_of=[link]).condition[link] == pytest.approx(condition, rel=digits)
+    assert train.kinematics.floats().condition[link] == pytest.approx(condition, rel=digits)
 
 
 TWO_INPUTS = """
@@ -230,7 +230,7 @@ def test_estimate_and_bound_are_valid_up_to_a_condition_of_1e24_or_the_floats_ar
         train = GearTrain.declare(amplifiers(counts, draw.choice(["x0", f"x{len(counts)}"])))
         truth = train.solve().speeds
         try:
-            floats = train.kinematics.floats(condition_of=[*truth])
+            floats = train.kinematics.floats()
         except RangeError:
             refused += 1
             continue

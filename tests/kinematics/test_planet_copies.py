@@ -69,21 +69,6 @@ def test_a_train_without_copies_is_its_own() -> None:
     assert train.mechanics.planets_as_one is train.mechanics
 
 
-@pytest.mark.parametrize(("s", "p"), [(24, 18), (20, 15), (30, 24), (21, 39), (17, 19)])
-def test_planets_can_stand_evenly_where_sun_and_ring_have_a_multiple_of_their_number(s: int, p: int) -> None:
-    for n in range(2, 6):
-        if (s + p) * sin(tau / 2 / n) < p + 2.5:  # no room
-            continue
-        rules = {each.rule for each in planetary(s, p, n).build_findings}
-        assert ("A1" in rules) == ((2 * s + 2 * p) % n != 0), (s, p, n)
-
-
-def test_planets_without_room_are_an_error() -> None:
-    (found,) = [each for each in planetary(24, 18, 7).build_findings if each.rule == "A3"]
-    assert found.level == "error"
-    assert "7 planets 'p' overlap" in found.problem.what
-
-
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_each_planet_bears_its_part_of_the_load(n: int) -> None:
     found = planetary(n=n).torques()

@@ -42,7 +42,7 @@ from places import TESTS
 from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
 from geartrain.numerics import Journal, open_executor, run
 from geartrain.numerics.work import cores
-from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool
+from geartrain.numerics.work.worker_pool import WorkerPool
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -254,7 +254,7 @@ class Mortal(WorkerPool):
     def __init__(self, width: int, deadly: dict[int, int], seed: int) -> None:
         self._width, self.deadly, self.draw = width, deadly, random.Random(seed)
         self.waiting: list[tuple[Future[Any], Any, Any]] = []
-        self.deaths: Counter[int] = Counter()
+        self.died: Counter[int] = Counter()
         self.most = 0
         self.lock, self.thread = Lock(), ThreadPoolExecutor(1)
 
@@ -267,7 +267,7 @@ class Mortal(WorkerPool):
         with self.lock:
             self.waiting.append((future, fn, args))
             self.most = max(self.most, len(self.waiting))
-            if any(self.deaths[task] >= 2 for _, _, (_, task) in self.waiting):
+            if any(self.died[task] >= 2 for _, _, (_, task) in self.waiting):
                 assert len(self.waiting) == 1, "a suspect runs alone"
         self.thread.submit(self.step)
         return future
@@ -282,9 +282,9 @@ class Mortal(WorkerPool):
             if self.deadly.get(args[1], 0):
                 self.deadly[args[1]] -= 1
                 gone, self.waiting = [ended, *self.waiting], []
-                self.deaths.update(task for _, _, (_, task) in gone)
+                self.died.update(task for _, _, (_, task) in gone)
         for each, _, _ in gone:
-            each.set_exception(WorkerDiedError("killed"))
+            each.set_exception(BrokenExecutor("killed"))
         if not gone:
             future.set_result(fn(*args))
 

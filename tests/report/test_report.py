@@ -363,13 +363,6 @@ def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
     assert list(tmp_path.iterdir()) == [old]
 
 
-def test_a_verdict_is_written_for_it_is_a_result(tmp_path: Path) -> None:
-    path, out = tmp_path / "t.yaml", tmp_path / "r.md"
-    path.write_text("extends: worm\ninputs: {screw: 1, wheel: 1}\n", encoding="utf-8")
-    assert call("report", path, "-o", out).exit_code == 1
-    assert "contradictory" in out.read_text(encoding="utf-8")
-
-
 # ------------------------------------------------------------------------------------------- comparisons, gears, dials
 
 

@@ -14,21 +14,14 @@ from xml.etree import ElementTree
 
 import pytest
 from commands import call
+from dynamics.test_uncounted_losses import PIN
 from package.test_public_names import SHOWING
 
 import geartrain
 from geartrain import GearTrain
 
 load = cache(geartrain.load)
-SLIDER = """
-links: {frame: {}, a: {}, b: {}}
-revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-friction: {sliding: 0.3, deviation: 0.05}
-couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm}]
-inputs: {a: 1}
-outputs: {b: {}}
-loads: {b: -10 N m}
-"""
+SLIDER = PIN.replace("friction: 0.3", "friction: {sliding: 0.3, deviation: 0.05}")
 SMALL_RING = """
 links: {frame: {wheels: {ring: {teeth: 16, internal: true}}}, arm: {}, planet: {wheels: {p: 20}}}
 revolutes: {main: [frame, arm], planet: [arm, planet]}

@@ -1,4 +1,4 @@
-"""Trains as they are built: every link is one body, borne by the link that bears its axis; hands sit on arbors."""
+"""Trains as built: each link is one body, supported by the link that carries its axis; hands are on arbors."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from networkx.utils import UnionFind
 import geartrain
 from geartrain.scene import ManufacturingSizes, Scene, ScenePart, SolidModel, SolidPart, build_scene
 
-RUNS = 0.35  # mm: what runs in something, or is pressed into it, is no further off
-TOGETHER = {"rv-reducer": {"eccentric"}}  # what cranks side by side bear together, which is no part
+RUNS = 0.35  # mm: maximum gap of running and press fits
+TOGETHER = {"rv-reducer": {"eccentric"}}  # links that parallel cranks carry, which have no part
 
 
 @dataclass(frozen=True)
 class Body:
-    """A solid in the library manifold3d, and its box."""
+    """Solid of the library manifold3d, and its bounding box."""
 
     solid: Any
     low: Any
@@ -39,14 +39,14 @@ class Body:
         return cls(solid, placed.vertices.min(0), placed.vertices.max(0))
 
     def meets(self, other: Body) -> bool:
-        """True if no more than a running fit is between them."""
+        """Return True if the gap to another body is at most a running fit."""
         if (np.maximum(self.low, other.low) - np.minimum(self.high, other.high) > RUNS).any():
             return False
         return bool(self.solid.min_gap(other.solid, RUNS) < RUNS)
 
 
 def groups(bodies: Sequence[Body]) -> list[set[int]]:
-    """Which of them are connected."""
+    """Return the groups of bodies that are in contact."""
     found = UnionFind(range(len(bodies)))
     for one, other in combinations(range(len(bodies)), 2):
         if found[one] != found[other] and bodies[one].meets(bodies[other]):
@@ -60,12 +60,12 @@ def test_every_link_is_one_solid_body_and_is_borne_by_the_one_that_bears_its_axi
     links = model.scene.bodies
     parts: dict[int, list[Body]] = {}
     for part in model.parts:
-        if part.kind != "weight":  # it hangs on a line
+        if part.kind != "weight":  # a weight hangs on a line
             parts.setdefault(part.body, []).append(Body.of(part))
     assert {body.id for at, body in enumerate(links) if at not in parts} == TOGETHER.get(name, set())
     for at, own in parts.items():
         assert len(groups(own)) == 1, links[at].id
-        # it runs in or on the link that bears its axis, or one that turns about the same axis
+        # it is borne by the link that carries its axis, or by one about the same axis
         near = [each for each, link in enumerate(links) if each == links[at].parent or link.axis == links[at].axis]
         about = [body for each in near if each != at for body in parts.get(each, [])]
         if links[at].parent is not None and about:
@@ -110,7 +110,7 @@ def test_a_train_that_declares_no_axis_on_its_frame_has_no_parts() -> None:
 
 
 def area(outline: Sequence[float]) -> float:
-    """By Gauss's formula."""
+    """Return the area of an outline (Gauss's formula)."""
     x, y = np.array(outline[::2]), np.array(outline[1::2])
     return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
 
@@ -154,18 +154,18 @@ def test_a_clock_has_its_pendulum_and_its_weight_in_true_size() -> None:
     pendulum, line, weight = (hangers[kind] for kind in ("pendulum", "line", "weight"))
     assert scene.bodies[pendulum.body].id == "escape"
     assert pendulum.length == 994
-    # a tooth a swing to and fro, of 2 pi sqrt(l/g) seconds: in a minute the escape wheel goes round once
+    # one tooth per period of 2 pi sqrt(l/g): the escape wheel turns once per minute
     swing = 2 * np.pi * np.sqrt(0.994 / 9.80665)
     assert pendulum.rate * swing == pytest.approx(60, abs=0.02)
     great = scene.bodies[weight.body]
     assert great.id == "great"
-    turned = -2 * np.pi * 16 * great.sense  # 16 turns of line, backwards
+    turned = -2 * np.pi * 16 * great.sense  # 16 turns of line, in reverse
     assert weight.rate * turned == pytest.approx(1277, abs=1), "as its declaration says, 1.28 m"
-    # the line leaves the barrel where its rim goes down
+    # the line leaves the barrel on the side whose rim moves down
     arm = np.subtract(line.point, great.point)
     arm = arm - arm @ np.array(great.direction) * np.array(great.direction)
     assert np.cross(np.array(great.direction) * turned, arm) @ np.array(line.down) == pytest.approx(1277, abs=1)
-    assert np.pi * weight.wide**2 * 4 * weight.wide * 11.34e-6 == pytest.approx(5.9), "driving_link"
+    assert np.pi * weight.wide**2 * 4 * weight.wide * 11.34e-6 == pytest.approx(5.9), "mass of lead in kg"
     zero = next(face.zero for face in scene.dials)
     assert pendulum.down == pytest.approx([-each for each in zero])
     behind = next(face for face in scene.dials)
@@ -186,7 +186,7 @@ def test_a_clock_has_its_pendulum_and_its_weight_in_true_size() -> None:
 
 
 def test_the_cage_of_a_ball_does_not_go_round_through_plates_of_the_frame() -> None:
-    """The Moon's own wheel is behind both plates, and the pinion of its phase before them."""
+    """The Moon's wheel is behind both plates, and the pinion of its phase is in front of them."""
     scene = build_scene(shipped.train("freeth-2021"))
     (post,) = (part for part in scene.parts if part.name == "ph1 cage post")
     assert {round(part.direction[2]) for part in (post, *of_kind(scene, "frame"))} == {1}
@@ -196,7 +196,7 @@ def test_the_cage_of_a_ball_does_not_go_round_through_plates_of_the_frame() -> N
 
 
 def test_a_bracket_stands_on_the_side_of_its_wheels_where_no_other_is_in_its_way() -> None:
-    """The wallower of a mill stands before its pit wheel, on the side of all other axes."""
+    """The wallower of a mill is in front of its pit wheel, on the side of all other axes."""
     scene = build_scene(shipped.train("lantern-mill"))
     wheels = {wheel.id: wheel for wheel in scene.wheels}
     (bracket,) = (part for part in scene.parts if part.name.startswith("water bracket"))
@@ -205,7 +205,7 @@ def test_a_bracket_stands_on_the_side_of_its_wheels_where_no_other_is_in_its_way
 
 
 def test_hands_pass_over_a_dial_that_turns_on_a_pipe_among_them() -> None:
-    """The ecliptic of the Orloj stood before the hands of Sun and Moon, which went behind it."""
+    """The ecliptic of the Orloj was in front of the hands of Sun and Moon."""
     scene = shipped.built("prague-orloj")
     hours, ecliptic = scene.dials
     borne = np.dot(np.subtract(ecliptic.centre, hours.centre), hours.normal)
@@ -216,14 +216,14 @@ def test_hands_pass_over_a_dial_that_turns_on_a_pipe_among_them() -> None:
     }
     assert 1 < borne == pytest.approx(height["zodiac", 0])
     assert height["sun", 0] - borne > 1
-    assert height["sun in zodiac", 1] == pytest.approx(height["sun", 0])  # they are one hand each
+    assert height["sun in zodiac", 1] == pytest.approx(height["sun", 0])  # each is the same hand
     assert height["sidereal month", 1] == pytest.approx(height["moon", 0])
     assert height["moon", 0] > height["sun", 0]
 
 
 @pytest.mark.parametrize("name", ["al-biruni-box-of-the-moon", "byzantine-sundial-calendar"])
 def test_a_dial_that_names_no_side_stands_on_feet_before_the_reader(name: str) -> None:
-    """Its arbors did not come out to it, so that it hung in the air."""
+    """Its arbors did not extend to it, so that the dial had no support."""
     scene = shipped.built(name)
     assert all(face.plate > face.radius > 0 for face in scene.dials)
     assert all(each.seat > 0 and each.level > 0 for each in scene.pointers if each.dial is not None)
@@ -232,7 +232,7 @@ def test_a_dial_that_names_no_side_stands_on_feet_before_the_reader(name: str) -
 
 @pytest.mark.parametrize("name", ["voulgaris-2022", "voulgaris-2024-a"])
 def test_a_dial_on_the_side_lies_on_the_bracket_of_its_arbor_beside_that_of_the_crank(name: str) -> None:
-    """It hung in the air, and the crank went through it as it turned."""
+    """The dial had no support, and the turning crank passed through it."""
     scene = shipped.built(name)
     (at,) = (n for n, face in enumerate(scene.dials) if face.id == "draconic")
     face, (hand,) = scene.dials[at], (each for each in scene.pointers if each.dial == at)
@@ -252,7 +252,7 @@ def test_a_dial_on_the_side_lies_on_the_bracket_of_its_arbor_beside_that_of_the_
 @pytest.mark.parametrize("way", ["[0, 0, 1]", "[1, 0, 0]"])
 @pytest.mark.parametrize("side", ["front", "back"])
 def test_dials_stand_on_plates_whichever_way_all_axes_look(way: str, side: str) -> None:
-    """Of a train whose axes lie across the view they hung in the air."""
+    """Dials of a train with axes perpendicular to the view had no support."""
     scene = build_scene(
         geartrain.load(f"""
 frame: f
@@ -271,7 +271,7 @@ outputs: {{b: {{dial: d}}}}
 
 
 def test_a_dial_on_the_side_is_laid_once_however_many_hands_it_has() -> None:
-    """Each hand made it smaller."""
+    """Each additional hand had reduced the dial."""
     more = "extends: voulgaris-2022\nname: more\noutputs: {one: {of: %s, dial: draconic}}\n"
     (own,) = (
         output.of or name

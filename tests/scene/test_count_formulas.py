@@ -1,4 +1,4 @@
-"""Formulas of a scene against the package's answers at other counts."""
+"""Formulas of a scene, compared with the package's answers for other counts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scales of dials: what a pointer reads, where cells lie, what is engraved."""
+"""Scales of dials: readings of pointers, positions of cells, and engraving."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ZODIAC = scale_of(Dial(names="zodiac"))
 
 
 def scales() -> Iterator[tuple[str, DialScale]]:
-    """Of all shipped trains."""
+    """Yield the scales of all shipped trains, with the train names."""
     for name in shipped.trains():
         for key, dial in shipped.train(name).declaration.dials.items():
             if dial.look == "scale":
@@ -106,7 +106,7 @@ def test_roman_figures_are_those_of_a_table() -> None:
 
 
 def borders(parts: list[Engraving], radius: float) -> list[float]:
-    """Turns clockwise from above of lines inwards from a circle."""
+    """Return the angles of lines inwards from a circle, clockwise from the top [turns]."""
     lines = [line for part in parts if part.kind in ("fine", "bold") for line in part.lines]
     return sorted(atan2(*line[0]) / (2 * pi) % 1 for line in lines if abs(hypot(*line[0]) - radius) < 1e-9)
 
@@ -148,12 +148,12 @@ def test_a_spiral_has_a_border_at_both_ends_of_every_month() -> None:
 
 
 def letters_of(scale: DialScale) -> list[tuple[tuple[float, float], ...]]:
-    """Strokes of all that is written."""
+    """Return the strokes of all letters."""
     return [line for part in engrave(scale) if part.kind == "letters" for line in part.lines]
 
 
 def crossed(scale: DialScale) -> bool:
-    """True where a stroke of a letter runs through a border."""
+    """Return True if a stroke of a letter crosses a border."""
     lines = [line for part in engrave(scale) if part.kind in ("fine", "bold") for line in part.lines]
     angle = np.array([atan2(*a) for a, _ in lines])
     low, high = (np.array([pick(hypot(*a), hypot(*b)) for a, b in lines]) for pick in (min, max))
@@ -162,7 +162,7 @@ def crossed(scale: DialScale) -> bool:
             first, last = sorted((atan2(*one), atan2(*other)))
             near, far = sorted((hypot(*one), hypot(*other)))
             met = (first < angle) & (angle < last) & (low < far - 1e-9) & (near < high - 1e-9)
-            if last - first < 1 and met.any():  # else it lies across the line below the middle
+            if last - first < 1 and met.any():  # otherwise the stroke crosses the branch cut of atan2
                 return True
     return False
 
@@ -212,7 +212,7 @@ def test_text_is_as_long_as_is_said_and_its_middle_stands_where_it_is_requested(
 
 
 def test_text_below_the_middle_stands_upright_and_is_not_mirrored() -> None:
-    """The bar of a T is above its foot, and the foot of an L goes to the right of its stem."""
+    """The bar of a T is above its stem, and the foot of an L is to the right of its stem."""
     bar, foot = curved_text("T", 0.1, 1.0, pi, inwards=True)
     assert bar[0][1] == bar[1][1] > foot[0][1]
     ((top, corner, end),) = curved_text("L", 0.1, 1.0, pi, inwards=True)

@@ -1,4 +1,4 @@
-"""Layouts of all shipped trains: wheels touch, roll on each other, keep apart, and stand where they are declared."""
+"""Layouts of all shipped trains: wheels touch, roll, do not collide, and have their declared positions."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ def way(layout: Layout, wheel: WheelPlace) -> np.ndarray:
 
 
 def touching(layout: Layout, first: WheelPlace, second: WheelPlace) -> tuple[np.ndarray, float, bool]:
-    """The common point of two pitch circles, how far they miss it, and whether their axes are parallel."""
+    """Return the common point of two pitch circles, their distance from it, and True if their axes are parallel."""
     u, v = way(layout, first), way(layout, second)
     a, b = np.array(first.centre), np.array(second.centre)
     if np.linalg.norm(np.cross(u, v)) < 1e-12:
-        b = b + u * ((a - b) @ u)  # a broad wheel has its middle elsewhere
+        b = b + u * ((a - b) @ u)  # the middle of a broadened wheel is at another height
         line = (b - a) / (np.linalg.norm(b - a) or 1.0)
         ends = [(a + s * first.radius * line, b + t * second.radius * line) for s in (1, -1) for t in (1, -1)]
     else:
@@ -52,7 +52,7 @@ def touching(layout: Layout, first: WheelPlace, second: WheelPlace) -> tuple[np.
 
 
 def sense(train: geartrain.GearTrain, label: str) -> np.ndarray:
-    """The direction about which speeds of links on an axis count, as the reference says: the first of its parallels."""
+    """Return the direction that defines the sign of speeds on an axis: that of the first parallel axis."""
     ways = [Z, *(np.array([float(part.value) for part in axis.direction]) for axis in train.declaration.axes.values())]
     own = train.declaration.axes.get(label)
     mine = Z if own is None else np.array([float(part.value) for part in own.direction])
@@ -72,7 +72,7 @@ def test_pitch_circles_of_wheels_in_mesh_touch_and_roll(name: str) -> None:
             continue
         assert circuit.id not in layout.apart
         kinds = [train.declaration.wheels[wheel][1] for wheel in circuit.wheels]
-        # in the carrier's frame, with the second turning once
+        # in the frame of the carrier, with one turn of the second wheel
         spins = [float(circuit.ratio) * sense(train, first.axis), sense(train, second.axis)]
         if "worm" in (kinds[0].kind, kinds[1].kind):
             if kinds[0].kind != "worm":
@@ -98,7 +98,7 @@ def test_pitch_circles_of_wheels_in_mesh_touch_and_roll(name: str) -> None:
 def slides_along_its_mate(
     layout: Layout, first: WheelPlace, second: WheelPlace, helix: float, spins: list[np.ndarray]
 ) -> None:
-    """Helical wheels on skew axes touch where these pass each other, and are equally fast across their teeth."""
+    """Assert that helical wheels on skew axes touch at the common perpendicular, with equal normal speeds."""
     apart = np.array(second.centre) - np.array(first.centre)
     assert np.linalg.norm(apart) == pytest.approx(first.radius + second.radius, rel=1e-9)
     u, v = way(layout, first), way(layout, second)
@@ -111,7 +111,7 @@ def slides_along_its_mate(
 
 
 def rolls_on_a_worm(layout: Layout, worm: WheelPlace, wheel: WheelPlace, starts: int, spins: list[np.ndarray]) -> None:
-    """A thread at one side of a worm runs along the axis: against a right hand's turn."""
+    """Assert that the thread of a worm moves along its axis like the wheel's teeth, backwards if right-handed."""
     u, v = way(layout, worm), way(layout, wheel)
     apart = np.array(worm.centre) - np.array(wheel.centre)
     assert abs(apart @ u) + abs(apart @ v) < 1e-9 * wheel.radius
@@ -122,7 +122,7 @@ def rolls_on_a_worm(layout: Layout, worm: WheelPlace, wheel: WheelPlace, starts:
 
 
 def poses(train: geartrain.GearTrain, layout: Layout, count: int) -> Iterator[dict[str, np.ndarray]]:
-    """Places of axes, in plan, while each carrier turns as it likes about its own axis."""
+    """Yield positions of axes in plan for arbitrary angles of all carriers about their axes."""
     dice = random.Random(1)
     carriers = sorted({axis.carrier for axis in layout.axes.values()} - {train.declaration.frame})
 
@@ -222,7 +222,7 @@ def test_axes_of_pins_stand_as_far_apart_as_declared() -> None:
 
 
 def test_trains_that_cannot_be_laid_out_as_declared_are_these() -> None:
-    """Their pairs ask for different distances of the same axes; all others touch everywhere, and nothing collides."""
+    """Their pairs require different distances of the same axes; in all other trains all pitch circles touch."""
     said = {name: [notice.what for notice in load(name)[1].notices] for name in NAMES}
     assert {name for name in NAMES if load(name)[1].apart} == {"ferguson-paradox", "prague-orloj", "prius-power-split"}
     assert [name for name in NAMES if any("wheels collide" in what for what in said[name])] == []
@@ -243,7 +243,7 @@ def test_each_wheel_of_a_shared_pinion_has_its_own_height() -> None:
 @pytest.mark.parametrize("face", ["front", "back"])
 @pytest.mark.parametrize("large_first", [True, False])
 def test_an_arbor_runs_to_its_dial_past_a_wheel_that_covers_it(face: str, large_first: bool) -> None:
-    """The large wheel C covers the axis of A: on the side of A's dial it would be pierced."""
+    """The large wheel C covers the axis of A, whose arbor would pass through it on the side of A's dial."""
     wheels = {"A": (20, 0, 0), "B": (20, 20, 0), "C": (80, 0, -30), "D": (20, 0, -80)}
     names = "CDAB" if large_first else "ABCD"
     data = {
@@ -261,7 +261,7 @@ def test_an_arbor_runs_to_its_dial_past_a_wheel_that_covers_it(face: str, large_
 
 
 def test_slots_are_found_in_a_row_longer_than_calls_may_be_deep() -> None:
-    """Two wheels of a long row run into each other: the search goes down the whole row, and back where it must."""
+    """Two wheels of a long row collide: the search examines the whole row, without recursion."""
     count = sys.getrecursionlimit() + 100
     row = [(f"w{at}", f"w{at + 1}") for at in range(count)]
     near, far = f"w{count - 10}", f"w{count - 8}"

@@ -1,4 +1,4 @@
-"""Layouts of trains at random: pitch circles touch or a notice says why not, and nothing depends on the order."""
+"""Layouts of random trains: pitch circles touch or a notice gives the reason, independent of other declarations."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TEETH = st.integers(8, 90)
 
 @st.composite
 def standing_trains(draw: st.DrawFn) -> dict[str, Any]:
-    """Arbors in the frame; each meshes with one before, some come back to an axis that others are on already."""
+    """Draw trains of arbors in the frame, each in mesh with an earlier one; some share the axis of an earlier one."""
     links: dict[str, Any] = {"frame": {}, "a0": {"wheels": {}}}
     revolutes = [{"pair": ["frame", "a0"], "axis": "A0"}]
     gears: list[dict[str, Any]] = []
@@ -38,7 +38,7 @@ def standing_trains(draw: st.DrawFn) -> dict[str, Any]:
 
 @st.composite
 def planetary_trains(draw: st.DrawFn) -> dict[str, Any]:
-    """Sun, ring and up to four planets, stepped or plain; the ring may not fit."""
+    """Draw trains of a sun, a ring and up to four planets, stepped or plain, which may not fit into the ring."""
     sun, planet = draw(TEETH), draw(TEETH)
     ring = sun + 2 * planet + draw(st.sampled_from([0, 0, 0, 1, -1]))
     count, stepped = draw(st.integers(1, 4)), draw(st.booleans())
@@ -163,7 +163,7 @@ def test_a_worm_stands_where_its_hand_and_the_equation_agree(hand: str, worm_fir
     worm, wheel = layout.wheels["w"], layout.wheels["g"]
     apart = np.array(worm.centre) - np.array(wheel.centre)
     assert np.linalg.norm(apart) == pytest.approx(worm.radius + wheel.radius)
-    # declared where it was put, the pair has the same sense without a convention
+    # with declared positions equal to the chosen ones, the pair has the same sense
     placed = {
         **data,
         "axes": {

@@ -1,4 +1,4 @@
-"""The palette can be told apart, by readers who see no red or no green too, and stands once."""
+"""Colours of the palette are distinguishable, also with colour vision deficiencies, and are defined once."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ SIGHT = {
                          [-0.078411, 0.930809, 0.147602],
                          [0.004733, 0.691367, 0.303900]]),
 }  # fmt: skip
-MINIMUM = {"all colours": 11.0, "no red": 11.0, "no green": 11.0, "no blue": 7.0}  # CIEDE2000; one is just to be seen
+# distance in CIE L*a*b* (CIE 1976), of which 2.3 is just noticeable
+MINIMUM = {"all colours": 16.0, "no red": 13.0, "no green": 13.0, "no blue": 8.5}
 XYZ = np.array(
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
 )
@@ -46,49 +47,10 @@ def lab(rgb: Vector) -> Vector:
     return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
 
 
-def ciede2000(one: Vector, other: Vector) -> float:
-    """Sharma, Wu and Dalal 2005, The CIEDE2000 color-difference formula, equations 2 to 22."""
-    (l1, a1, b1), (l2, a2, b2) = one, other
-    mean = (np.hypot(a1, b1) + np.hypot(a2, b2)) / 2
-    g = (1 - np.sqrt(mean**7 / (mean**7 + 25.0**7))) / 2
-    c1, c2 = np.hypot((1 + g) * a1, b1), np.hypot((1 + g) * a2, b2)
-    h1, h2 = (np.degrees(np.arctan2(b, (1 + g) * a)) % 360 for a, b in ((a1, b1), (a2, b2)))
-    turn = 0.0 if c1 * c2 == 0 else (h2 - h1 + 180) % 360 - 180
-    hue = 2 * np.sqrt(c1 * c2) * np.sin(np.radians(turn / 2))
-    lightness, c = (l1 + l2) / 2, (c1 + c2) / 2
-    if c1 * c2 == 0:
-        h = h1 + h2
-    else:
-        h = (h1 + h2) / 2 if abs(h1 - h2) <= 180 else (h1 + h2 + (360 if h1 + h2 < 360 else -360)) / 2
-    t = 1 - 0.17 * np.cos(np.radians(h - 30)) + 0.24 * np.cos(np.radians(2 * h))
-    t += 0.32 * np.cos(np.radians(3 * h + 6)) - 0.20 * np.cos(np.radians(4 * h - 63))
-    sl, sc, sh = (
-        1 + 0.015 * (lightness - 50) ** 2 / np.sqrt(20 + (lightness - 50) ** 2),
-        1 + 0.045 * c,
-        1 + 0.015 * c * t,
-    )
-    rt = -2 * np.sqrt(c**7 / (c**7 + 25.0**7)) * np.sin(np.radians(60 * np.exp(-(((h - 275) / 25) ** 2))))
-    dl, dc, dh = (l2 - l1) / sl, (c2 - c1) / sc, hue / sh
-    return float(np.sqrt(dl**2 + dc**2 + dh**2 + rt * dc * dh))
-
-
 def contrast(one: str, other: str) -> float:
-    """WCAG 2.2, contrast ratio."""
+    """Return the contrast ratio of WCAG 2.2."""
     dark, light = sorted(float(XYZ[1] @ linear(each)) for each in (one, other))
     return (light + 0.05) / (dark + 0.05)
-
-
-@pytest.mark.parametrize(
-    ("one", "other", "told"),  # Sharma, Wu and Dalal 2005, table 1, pairs 1, 7, 17, 25
-    [
-        ((50.0, 2.6772, -79.7751), (50.0, 0.0, -82.7485), 2.0425),
-        ((50.0, 0.0, 0.0), (50.0, -1.0, 2.0), 2.3669),
-        ((50.0, 2.5, 0.0), (73.0, 25.0, -18.0), 27.1492),
-        ((60.2574, -34.0099, 36.2677), (60.4626, -34.1751, 39.4387), 1.2644),
-    ],
-)
-def test_the_measure_gives_the_printed_distances(one: tuple[float, ...], other: tuple[float, ...], told: float) -> None:
-    assert ciede2000(np.array(one), np.array(other)) == pytest.approx(told, abs=5e-5)
 
 
 @pytest.mark.parametrize("sight", SIGHT)
@@ -96,7 +58,7 @@ def test_the_measure_gives_the_printed_distances(one: tuple[float, ...], other: 
 def test_any_two_series_and_the_ink_are_told_apart(name: str, sight: str) -> None:
     theme = THEMES[name]  # type: ignore[index]
     seen = {colour: lab(SIGHT[sight] @ linear(colour)) for colour in (*theme.series, theme.ink)}
-    close = {(a, b): ciede2000(seen[a], seen[b]) for a, b in combinations(seen, 2)}
+    close = {(a, b): float(np.linalg.norm(seen[a] - seen[b])) for a, b in combinations(seen, 2)}
     assert min(close.values()) > MINIMUM[sight], min(close, key=lambda pair: close[pair])
 
 
@@ -127,7 +89,7 @@ def test_pages_and_the_built_viewer_hold_no_other_colours_of_series() -> None:
             assert re.search(rf"--hand-{at}: ?{colour}[;}}]", built), (name, colour)
 
 
-# metals, enamel and grounds, which stand for themselves: no reader is to tell them apart by their colour
+# materials and backgrounds, which need not be distinguishable by colour
 MADE_OF = re.compile(
     r"^(?:export const (?:BRASS|PARTS) = .*|\s*--(?:stage|edge|gd-edge|on-accent|wash|bad-wash): .*)$", re.MULTILINE
 )
@@ -139,7 +101,8 @@ def sources() -> list[Path]:
     plots = [
         *docs.glob("scripts/make_*.py"),
         *docs.glob("scripts/studies/*.py"),
-        *(path for path in (ROOT / "geartrain" / "drawing").rglob("*.py") if path.stem != "flat_files"),  # cut by laser
+        # colours of flat files are operations of a laser cutter
+        *(path for path in (ROOT / "geartrain" / "drawing").rglob("*.py") if path.stem != "flat_files"),
     ]
     return [*viewer.rglob("*.js"), *viewer.rglob("*.css"), *plots]
 

@@ -1,4 +1,4 @@
-"""The search for places of plates: the same as an exhaustive one, with a bounded count of computed distances."""
+"""Search for positions of plates: equal to an exhaustive search, with a bounded number of computed distances."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Search = tuple[Any, Any, Sequence[Any], Sequence[float], Callable[..., int], Cal
 
 
 def searched(name: str, patch: pytest.MonkeyPatch) -> tuple[Search, frame_plan.PlateChoice]:
-    """The arguments of the first search for a train, and its result."""
+    """Return the arguments and the result of the first search for a train."""
     calls: list[Any] = []
     search = frame_plan.best_places
     patch.setattr(frame_plan, "best_places", lambda *call: calls.append(call) or search(*call))
@@ -42,7 +42,7 @@ def effort(column: AxisColumn, places: FramePlaces) -> Fraction:
 
 
 def every_place(search: Search) -> Iterator[tuple[tuple[int, Fraction], bool, FramePlaces, tuple[Any, ...]]]:
-    """Every pair of gaps and every way to seat carriers, with the sums of obstacles and efforts over all axes."""
+    """Yield the costs of every pair of gaps with every combination of carrier seats."""
     axes, discs, seats, gaps, blocked, cut = search
     pairs = [(gaps[low], gaps[high]) for high in range(len(gaps) - 1, 0, -1) for low in range(high)]
     for inside in (False, True):

@@ -1,4 +1,4 @@
-"""A scene: bodies, speeds, wheels, dials, pointers and verdict, held against the declaration and exact arithmetic."""
+"""Scene: bodies, speeds, wheels, dials, pointers and verdict, compared with the declaration and exact arithmetic."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def test_a_body_hangs_on_the_link_that_bears_its_axis_however_coaxial_joints_are
                 assert body.id == "frame"
                 continue
             parent = bodies[body.parent]
-            # a parent turns about another axis, or is the frame; all joints between lie on the body's own axis
+            # the parent turns about another axis, or is the frame; all joints between them are on the body's axis
             assert parent.id == "frame" or parent.axis != body.axis
             labels = _labels(graph, body.id, parent.id)
             assert set(labels) == {body.axis}
@@ -121,7 +121,7 @@ def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any])
     base = _speeds(data, rows, None)
     moved = {name: _speeds(data, rows, at) for at, name in enumerate(names)}
     if not all(moved.values()):
-        return  # an error in a pair that is redundant has no answer
+        return  # an error in a redundant pair has no solution
     swings = {
         each.id: {name for name in names if moved[name][pin] - moved[name][carrier] != base[pin] - base[carrier]}
         for each in scene.couplings
@@ -137,7 +137,7 @@ def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any])
 
 
 def _speeds(data: Mapping[str, Any], rows: list[dict[str, Fraction]], wrong: int | None) -> dict[str, Fraction]:
-    """Speeds with an error of 1/7 in one circuit; empty if that has no solution or leaves a link undetermined."""
+    """Return the speeds with an error of 1/7 in one circuit; empty without a unique solution."""
     frame = data.get("frame", "frame")
     links = [link for link in data["links"] if link != frame]
     one, zero = Fraction(1), Fraction(0)
@@ -241,7 +241,7 @@ def test_dials_look_to_their_reader_and_stand_clear_of_the_wheels(positive: str)
             assert (dial.centre[2] - wheel.centre[2]) * dial.normal[2] > wheel.thickness / 2
     a, b, c = scene.pointers
     assert (a.dial, b.dial, c.dial) == (0, 1, None)
-    # the declared sense holds for one who looks from the front
+    # the declared sense is that for a viewer of the front
     assert a.sense == (1 if positive == "clockwise" else -1)
     assert b.sense == -a.sense
     assert a.text == f"{positive} as read"
@@ -251,7 +251,7 @@ def test_dials_look_to_their_reader_and_stand_clear_of_the_wheels(positive: str)
 
 
 def test_a_dial_on_a_narrow_side_is_small() -> None:
-    """The draconic dial looks along the crank's axis, at a side a fifth as deep as it is high."""
+    """The draconic dial faces along the crank's axis, on a side whose depth is a fifth of its height."""
     scene = shipped.scene("voulgaris-2022")
     dial = next(dial for dial in scene.dials if abs(dial.normal[0]) > 0.9)
     deep = [side * wheel.thickness / 2 + wheel.centre[2] for wheel in scene.wheels for side in (-1, 1)]
@@ -270,7 +270,7 @@ def test_dials_of_one_face_do_not_cover_each_other() -> None:
 
 
 def test_sizes_stay_small_enough_for_a_page() -> None:
-    assert len(json.dumps(shipped.scene("freeth-2021").to_dict())) < 320_000  # a quarter are engraved dials
+    assert len(json.dumps(shipped.scene("freeth-2021").to_dict())) < 320_000  # engraved dials are a quarter of it
     assert len(json.dumps(shipped.scene("freeth-2021-teeth").to_dict())) < 900_000
 
 
@@ -290,7 +290,7 @@ def test_a_follower_hangs_on_what_turns_its_pin() -> None:
 
 
 def test_bodies_carried_by_thousands_of_others_are_posed_in_any_order() -> None:
-    """A tower of arms, the last declared first: each turns a degree more than the one below it."""
+    """Chain of arms, the last declared first: each is turned by a degree relative to its parent."""
     scene = shipped.scene("planetary-24-18-60")
     carried = next(body for body in scene.bodies if body.parent is not None)
     count = 3000
@@ -308,7 +308,7 @@ def test_bodies_carried_by_thousands_of_others_are_posed_in_any_order() -> None:
 
 @pytest.mark.parametrize("make", [shipped.scene, shipped.built])
 def test_the_ball_of_the_moons_phase_stands_in_the_moons_pointer(make: Callable[[str], Scene]) -> None:
-    """It is halfway out, where the pointer is at turn 0, with the pointer as its axis."""
+    """It is at half the radius on the pointer in its initial position, with the pointer as its axis."""
     scene = make("freeth-2021")
     dials, moon = {dial.id: dial for dial in scene.dials}, next(p for p in scene.pointers if p.output == "moon")
     phase, zodiac = dials["phase"], dials["zodiac"]
@@ -322,7 +322,7 @@ def test_the_ball_of_the_moons_phase_stands_in_the_moons_pointer(make: Callable[
 
 
 def test_notices_name_the_file_and_no_folder() -> None:
-    """A page of a train is shown to others, who have no folders of the writer's."""
+    """A page is read on other machines, so notices must not contain folders."""
     places = [notice["place"] for notice in shipped.scene("prague-orloj").notices]
     assert "prague-orloj.yaml:16" in places
     assert not any("/" in place or "\\" in place for place in places)

@@ -1,18 +1,14 @@
-"""What a scene's plain data say of the motion, read as a browser would, against the motion itself."""
+"""Motion of a scene's bodies and pointers, compared with the motion of the train."""
 
 from __future__ import annotations
 
-import json
-import struct
 from base64 import b64decode
-from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import chain
 from math import floor, pi
-from operator import mul
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,108 +16,59 @@ import shipped
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.scene import make_scene
+from geartrain.scene import Pointer, Scene, make_scene
+from geartrain.scene.pose import body_errors, scene_pose
 
 TURNS = np.array([0.0, 1 / 3, 17.25, 1234.5678, 98765.4321, 1e6])
 AGREE = 1e-9  # rad
 
 
 class Reader:
-    """Angles of bodies from the plain data of a scene alone, in Fractions and floats."""
+    """Reader of the angles of the bodies of a scene; with `back`, for negative turns."""
 
-    def __init__(self, data: Mapping[str, Any], back: bool = False) -> None:
-        """`back` for negative turns."""
-        self.data = json.loads(json.dumps(data))
-        self.movement = (back and self.data["back"]) or self.data["movement"]
-        self.transmissions = [self._transmission(transmission) for transmission in self.movement["transmissions"]]
-
-    @staticmethod
-    def _transmission(transmission: Mapping[str, Any]) -> tuple[float, list[float], list[tuple[float, ...]]]:
-        breaks, numbers = (
-            struct.unpack(f"<{len(raw) // 8}d", raw)
-            for raw in (b64decode(transmission[key]) for key in ("breaks", "coefficients"))
-        )
-        width = len(numbers) // (len(breaks) - 1)
-        rows = [numbers[at : at + width] for at in range(0, len(numbers), width)]
-        return transmission["period"], list(breaks), rows
-
-    def error_of_transmission(self, number: int, S: float) -> float:
-        period, breaks, rows = self.transmissions[number]
-        u = S - period * floor(S / period)
-        cell = min(max(bisect_right(breaks, u) - 1, 0), len(rows) - 1)
-        x = u - (breaks[cell] + breaks[cell + 1]) / 2
-        found = 0.0
-        for coefficient in reversed(rows[cell]):
-            found = found * x + coefficient
-        return found
+    def __init__(self, scene: Scene, back: bool = False) -> None:
+        self.scene = replace(scene, movement=scene.back) if back and scene.back else scene
 
     def errors(self, turns: Fraction) -> list[float]:
-        delta = [0.0] * len(self.movement["sources"])
-        for step in self.movement["steps"]:
-            rows = zip(step["sources"], step["from_known"], step["own"] or [()] * len(step["sources"]), strict=True)
-            rows = [(at, sum(map(mul, row, [delta[k] for k in step["known"]])), own) for at, row, own in rows]
-            for _ in range(200):
-                last = [delta[at] for at in step["sources"]]
-                for at, base, own in rows:
-                    delta[at] = self.delta(at, turns, base + sum(map(mul, own, last)))
-                if not step["own"] or last == [delta[at] for at in step["sources"]]:
-                    break
-        found = [self.movement["offsets"].get(body["id"], 0.0) for body in self.data["bodies"]]
-        for source, each in zip(self.movement["sources"], delta, strict=True):
-            for body, weight in zip(source["bodies"], source["weights"], strict=True):
-                found[body] += weight * each
-        return found
-
-    def delta(self, number: int, turns: Fraction, shift: float) -> float:
-        source = self.movement["sources"][number]
-        cycles = Fraction(source["cycles"]) * turns
-        rest = float(cycles - floor(cycles))
-        S = source["start"] + self.transmissions[source["transmission"]][0] * rest + shift
-        return float(source["sense"] * self.error_of_transmission(source["transmission"], S))
+        return list(body_errors(self.scene, turns))
 
     def angles(self, turns: float) -> list[float]:
-        """Angle of every body about its direction (rad), whole turns taken off its mean."""
-        at = Fraction(turns)
-        found = []
-        for body, error in zip(self.data["bodies"], self.errors(at), strict=True):
-            mean = Fraction(body["speed"]) * at
-            found.append(body["sense"] * (body["start"] + 2 * pi * float(mean - floor(mean)) + error))
-        return found
+        """Return the angle of every body about its direction [rad]."""
+        return list(scene_pose(self.scene, Fraction(turns)).angles)
 
 
-def pointer_angle(scene: Mapping[str, Any], angles: Sequence[float], pointer: Mapping[str, Any]) -> float:
-    """About the pointer's own declared axis."""
-    sense = scene["bodies"][pointer["body"]]["sense"]
-    return float(sense * (angles[pointer["body"]] - angles[pointer["base"]]))
+def pointer_angle(scene: Scene, angles: Sequence[float], pointer: Pointer) -> float:
+    """Return the angle of a pointer about its declared axis [rad]."""
+    return scene.bodies[pointer.body].sense * (angles[pointer.body] - angles[pointer.base])
 
 
 @cache
-def drawn(train: GearTrain) -> dict[str, Any]:
-    """The data of a scene, made once for both ways."""
-    return make_scene(train).to_dict()
+def drawn(train: GearTrain) -> Scene:
+    """Return a scene, cached for both directions."""
+    return make_scene(train)
 
 
 def off(a: float, b: float) -> float:
-    """Difference of two angles, whole turns left out."""
+    """Return the difference of two angles modulo one turn."""
     return abs((a - b + pi) % (2 * pi) - pi)
 
 
 def compared(train: GearTrain, back: bool = False) -> float:
-    """The greatest difference of any output between the scene's data and the train's motion (rad).
+    """Return the maximum difference of any output between the scene's data and the train's motion [rad].
 
-    A scene counts about declared axes; motion counts turns and angles in the sense in which the lead turns.
+    A scene counts about declared axes; motion counts turns and angles in the sense of the driving link.
 
     back   for runs of negative turns
     """
     scene = drawn(train)
-    way = -1 if Fraction(scene["step"]) < 0 else 1
+    way = -1 if Fraction(scene.step) < 0 else 1
     reader = Reader(scene, back)
     motion, worst = train.motion(), 0.0
     runs = [motion._stretches(stretch, 6, first=1) for stretch in (-0.8125, -1234.5)] if back else [[motion.at(TURNS)]]
     for passage in chain.from_iterable(runs):
         for column, t in enumerate(passage.turns):
             angles = reader.angles(way * float(t))
-            for row, (pointer, tally) in enumerate(zip(scene["pointers"], motion._statistics(), strict=True)):
+            for row, (pointer, tally) in enumerate(zip(scene.pointers, motion._statistics(), strict=True)):
                 mean = tally.ratio * Fraction(float(t))
                 wanted = (
                     motion._start_angles[row] + 2 * pi * float(mean - floor(mean)) + float(passage.error[row, column])
@@ -175,12 +122,12 @@ def test_the_scene_of_a_train_that_is_declared_to_turn_backwards_is_the_mirror_i
 
 
 def test_the_way_back_is_written_only_where_it_differs() -> None:
-    """Pins slide in their slots alike both ways; teeth with play drive with their other flanks."""
+    """Pins in slots move equally in both directions; teeth with backlash drive with their coast flanks."""
     assert shipped.scene("freeth-2021").back is None
     assert make_scene(geartrain.load("price-1974")).back is None
     teeth = make_scene(geartrain.load("moon-triangular"))
     assert teeth.back is not None
-    forwards, backwards = (Reader(teeth.to_dict(), back).angles(0.3) for back in (False, True))
+    forwards, backwards = (Reader(teeth, back).angles(0.3) for back in (False, True))
     assert max(map(off, forwards, backwards)) > 1e-4
 
 
@@ -199,10 +146,10 @@ def test_transmissions_alike_are_written_once() -> None:
 
 
 def test_everything_stands_as_before_after_the_period() -> None:
-    scene = make_scene(geartrain.load("moon-triangular")).to_dict()
-    period = Fraction(scene["movement"]["period"])
-    for body in scene["bodies"]:
-        assert (Fraction(body["speed"]) * period).denominator == 1
+    scene = make_scene(geartrain.load("moon-triangular"))
+    period = Fraction(scene.movement.period or 0)
+    for body in scene.bodies:
+        assert (Fraction(body.speed or 0) * period).denominator == 1
     reader = Reader(scene)
     once, again = reader.errors(Fraction(1, 3)), reader.errors(Fraction(1, 3) + period)
     assert once == again
@@ -228,7 +175,7 @@ inputs: {a: 1}
 
 
 def test_a_pin_stands_where_its_transmission_has_it() -> None:
-    """The slot, drawn from its axis to the pin in the zero pose and turned with its body, always holds the pin."""
+    """The slot, which is drawn towards the pin in the zero pose and turns with its body, always contains the pin."""
     train = geartrain.load(
         """
 links: {frame: {}, pin: {angle: 40 deg}, slot: {angle: 10 deg}}
@@ -238,13 +185,20 @@ couplings: [{id: k, kind: pin_and_slot, pin: pin, slot: slot, pin_radius: 9.6 mm
 inputs: {pin: 1}
 """
     )
-    scene = make_scene(train).to_dict()
-    reader, k = Reader(scene), scene["couplings"][0]
-    axis = complex(*scene["bodies"][k["pin"]]["point"][:2])
-    at, of = complex(*k["pin_at"][:2]), complex(*k["slot_at"][:2])
+    scene = make_scene(train)
+    reader, (k,) = Reader(scene), scene.couplings
+    axis = complex(*scene.bodies[k.pin].point[:2])
+    at, of = complex(*k.pin_at[:2]), complex(*k.slot_at[:2])
     assert abs(at - axis) == pytest.approx(9.6)
     for turns in (0.0, 0.21, 0.5, 7.83):
         angles = reader.angles(turns)
-        pin = axis + (at - axis) * np.exp(1j * angles[k["pin"]])
-        slot = (at - of) * np.exp(1j * (angles[k["slot"]] + k["slot_turn"]))
+        pin = axis + (at - axis) * np.exp(1j * angles[k.pin])
+        slot = (at - of) * np.exp(1j * (angles[k.slot] + k.slot_turn))
         assert abs(np.angle((pin - of) / slot)) < 1e-9
+
+
+def test_tables_are_written_as_little_endian_numbers_row_by_row() -> None:
+    scene = shipped.scene("freeth-2021-teeth")
+    for table, data in zip(scene.movement.transmissions, scene.to_dict()["movement"]["transmissions"], strict=True):
+        assert (np.frombuffer(b64decode(data["breaks"]), "<f8") == table.breaks).all()
+        assert (np.frombuffer(b64decode(data["coefficients"]), "<f8") == table.coefficients.ravel()).all()

@@ -1,17 +1,17 @@
-"""At turn 0 a tooth of every first wheel, and every pin, is drawn where its `phase` says."""
+"""At turn 0 a tooth of every first wheel, and every pin, is at its declared `phase`."""
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import atan2, pi
-from typing import Any
 
 import pytest
 from test_scene_movement import Reader
 
 from geartrain import load
-from geartrain.scene import make_scene
+from geartrain.scene import Scene, ScenePair, make_scene
 
-# two pairs in a row; a third whose first wheel is driven; a pin; a pair behind the pin
+# two pairs in series; a third whose first wheel is driven; a pin; a pair driven by the pin
 CHAIN = """
 links:
   frame: {{}}
@@ -45,29 +45,28 @@ FORMS = {
 }
 
 
-def past_the_line(scene: dict[str, Any], angles: list[float], pair: dict[str, Any]) -> float:
-    """By what part of a pitch a tooth of the first wheel of a pair is past the line of centres, as it turns."""
-    wheel, mate = (scene["wheels"][at] for at in pair["wheels"])
-    body = scene["bodies"][wheel["body"]]
-    x, y = (mate["centre"][at] - wheel["centre"][at] for at in (0, 1))
-    reference = atan2(wheel["reference"][1], wheel["reference"][0])
-    ahead = wheel["direction"][2]
-    tooth = reference + ahead * (wheel["turn"] + angles[wheel["body"]])
-    way = [-1 if text.startswith("-") else 1 for text in (body["speed"], scene["step"])]
-    forward = ahead * body["sense"] * way[0] * way[1]
-    found: float = forward * (tooth - atan2(y, x)) / (2 * pi / wheel["teeth"]) % 1
-    return found
+def past_the_line(scene: Scene, angles: list[float], pair: ScenePair) -> float:
+    """Return how far a tooth of the first wheel is past the line of centres in its sense [pitches]."""
+    wheel, mate = (scene.wheels[at] for at in pair.wheels)
+    body = scene.bodies[wheel.body]
+    x, y = (mate.centre[at] - wheel.centre[at] for at in (0, 1))
+    reference = atan2(wheel.reference[1], wheel.reference[0])
+    ahead = wheel.direction[2]
+    tooth = reference + ahead * (wheel.turn + angles[wheel.body])
+    way = [-1 if text.startswith("-") else 1 for text in (body.speed or "", scene.step)]
+    forward = ahead * body.sense * way[0] * way[1]
+    return forward * (tooth - atan2(y, x)) / (2 * pi / wheel.teeth) % 1
 
 
 @pytest.mark.parametrize("speed", ["1", "-2/3"])
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("phases", [(0, 0, 0, 0), (0.3, 0.8, 0.1, 0.45)])
 def test_a_tooth_of_every_first_wheel_is_drawn_at_its_phase(phases: tuple[float, ...], form: str, speed: str) -> None:
-    scene = make_scene(load(CHAIN.format(*phases, form=FORMS[form], speed=speed))).to_dict()
+    scene = make_scene(load(CHAIN.format(*phases, form=FORMS[form], speed=speed)))
     angles = Reader(scene).angles(0.0)
-    assert len(scene["pairs"]) == 4
-    for pair, phase in zip(scene["pairs"], phases, strict=True):
+    assert len(scene.pairs) == 4
+    for pair, phase in zip(scene.pairs, phases, strict=True):
         off = past_the_line(scene, angles, pair) - phase
-        assert (off + 0.5) % 1 - 0.5 == pytest.approx(0, abs=1e-9), pair["id"]
-    # and the pointers are where ideal teeth would put them
-    assert max(abs(each) for each in Reader(scene).errors(0)) < 1e-9
+        assert (off + 0.5) % 1 - 0.5 == pytest.approx(0, abs=1e-9), pair.id
+    # pointers are at the positions for ideal teeth
+    assert max(abs(each) for each in Reader(scene).errors(Fraction(0))) < 1e-9

@@ -1,4 +1,4 @@
-"""A simulated run in a scene: its angles, contacts and blows as a page carries them, against the run itself."""
+"""Simulated run in a scene: angles, contacts and impacts as stored in a page, compared with the run."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ escapement: {link: escape, teeth: 30, beat: 0.1 s}
 
 @pytest.fixture(scope="module")
 def pin() -> tuple[TimeRun, Scene]:
-    """A pin with play in its slot, turned so fast that it strikes."""
+    """Pin with clearance in its slot, at a speed at which it separates and strikes."""
     train = geartrain.load(HEAVY.replace("offset: 8 mm", "offset: 8 mm, clearance: 0.5 mm"))
     run = train.dynamics(rate="1 turn/s", turns=1.5, skip=0.5, steps=2000, restitution=0.3, samples=10**6, fast=False)
     return run, make_scene(train, run=run)
@@ -40,7 +40,7 @@ def numbers(text: str, kind: str) -> Any:
 
 
 def turned(scene: Scene, body: int, time: Any) -> Any:
-    """The angle of a body by what the page reads, in numpy's words."""
+    """Return the angle of a body from the data of the page."""
     told = scene.to_dict()["run"]
     link = told["links"][body]
     kept = numbers(link["samples"], "<u4") * told["step"]
@@ -95,7 +95,7 @@ def test_teeth_meet_where_pitch_circles_touch() -> None:
         for wheel in (scene.wheels[each] for each in pair.wheels):
             away = np.linalg.norm(np.subtract(contact.at, wheel.centre)[:2])
             assert away == pytest.approx(wheel.radius, rel=1e-6)
-    # without turns left out the run is shown from the pose in which it begins
+    # without omitted turns the run starts in its initial pose
     assert all(link.samples[0] == 0 and link.angles[0] == 0 for link in scene.run.links)
 
 
@@ -124,7 +124,7 @@ def test_the_lead_is_kept_so_finely_that_the_fastest_link_follows_from_it() -> N
     run = train.dynamics(turns=0.03, skip=0.0, steps=50_000, samples=10**6, fast=False)
     scene = make_scene(train, run=run)
     off = np.abs(turned(scene, 1, run.time) - run.angles["barrel"]).max()
-    assert off < 1.01e-4 / 6  # a pinion of 10 on a wheel of 60
+    assert off < 1.01e-4 / 6  # a pinion of 10 meshes with a wheel of 60
 
 
 def test_a_run_of_another_train_is_refused(pin: tuple[TimeRun, Scene]) -> None:

@@ -1,9 +1,9 @@
-"""Teeth as a scene draws them, cut out of the plane and turned: they touch, and do not cut into each other."""
+"""Teeth of a scene as plane figures: they touch and do not overlap."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import cache
+from collections.abc import Mapping
+from fractions import Fraction
 from math import cos, pi, sin
 from typing import Any
 
@@ -15,77 +15,51 @@ from shapely.ops import unary_union
 from test_scene_movement import Reader
 
 from geartrain import GearTrain, load
-from geartrain.scene import make_scene
+from geartrain.scene import Scene, SceneWheel, make_scene
 
 
-def outline(scene: Mapping[str, Any], number: int, turned: float) -> Any:
-    """A wheel about its centre, turned by an angle more than its own; a ring as a disc with a toothed hole."""
-    wheel = scene["wheels"][number]
-    profile = scene["profiles"][wheel["profile"]]
-    x, y, _ = wheel["centre"]
-    ahead = wheel["direction"][2]
-    first = wheel["turn"] + turned
-    base = np.arctan2(wheel["reference"][1], wheel["reference"][0])
+def outline(scene: Scene, number: int, turned: float) -> Any:
+    """Return a wheel about its centre, rotated by an additional angle; a ring is a disc with a toothed hole."""
+    wheel = scene.wheels[number]
+    profile = scene.profiles[wheel.profile]
+    x, y, _ = wheel.centre
+    base = np.arctan2(wheel.reference[1], wheel.reference[0])
+    r, angle = np.array(profile.points).T
     teeth = []
-    for k in range(wheel["teeth"]):
-        turn = first + 2 * pi * k / wheel["teeth"]
-        teeth.append(
-            [
-                (
-                    x + r * wheel["radius"] * cos(base + ahead * (turn + angle)),
-                    y + r * wheel["radius"] * sin(base + ahead * (turn + angle)),
-                )
-                for r, angle in profile["points"]
-            ]
-        )
-    if profile["hole"]:
+    for k in range(wheel.teeth):
+        at = base + wheel.direction[2] * (wheel.turn + turned + 2 * pi * k / wheel.teeth + angle)
+        teeth.append(np.column_stack([x + r * wheel.radius * np.cos(at), y + r * wheel.radius * np.sin(at)]))
+    if profile.hole:
         return unary_union([Polygon(tooth) for tooth in teeth])
-    whole = Polygon([point for tooth in teeth for point in tooth[:-1]])  # a tooth ends where the next begins
-    return Point(x, y).buffer(1.5 * wheel["radius"], 128).difference(whole) if wheel["kind"] == "ring" else whole
+    whole = Polygon(np.concatenate([tooth[:-1] for tooth in teeth]))  # adjacent teeth share an end point
+    return Point(x, y).buffer(1.5 * wheel.radius, 128).difference(whole) if wheel.kind == "ring" else whole
 
 
-def standing(scene: Mapping[str, Any], reader: Reader, pair: Mapping[str, Any], turns: float) -> list[Any]:
-    """Both wheels of a pair after some turns of the lead, seen from their carrier."""
-    angles = reader.angles(turns)
-    carrier = angles[pair["carrier"]]
-    return [outline(scene, at, angles[scene["wheels"][at]["body"]] - carrier) for at in pair["wheels"]]
-
-
-@cache
-def shown(train: GearTrain) -> dict[str, Any]:
-    return make_scene(train).to_dict()
-
-
-def meshing(train: GearTrain, names: Sequence[str] = (), steps: int = 12) -> tuple[float, float]:
-    """Over a pitch of each pair: the greatest depth of one wheel in the other, and the greatest gap, in modules."""
-    scene = shown(train)
-    reader = Reader(scene)
+def meshing(train: GearTrain, steps: int = 12) -> tuple[float, float]:
+    """Return the maximum overlap and the maximum gap of all pairs over one pitch [modules]."""
+    scene = make_scene(train)
+    reader, bodies = Reader(scene), scene.bodies
     deepest = widest = 0.0
-    for pair in scene["pairs"]:
-        if names and pair["id"] not in names:
-            continue
-        wheel = scene["wheels"][pair["wheels"][0]]
-        bodies = scene["bodies"]
-        speed = abs(eval_ratio(bodies[wheel["body"]]["speed"]) - eval_ratio(bodies[pair["carrier"]]["speed"]))
+    for pair in scene.pairs:
+        wheel = scene.wheels[pair.wheels[0]]
+        own, base = (Fraction(bodies[at].speed or 0) for at in (wheel.body, pair.carrier))
         for k in range(steps):
-            first, second = standing(scene, reader, pair, 0.137 + k / steps / wheel["teeth"] / speed)
-            deepest = max(deepest, depth(first.intersection(second)) / wheel["module"])
-            widest = max(widest, first.distance(second) / wheel["module"])
+            angles = reader.angles(0.137 + k / steps / wheel.teeth / abs(float(own - base)))
+            first, second = (
+                outline(scene, at, angles[scene.wheels[at].body] - angles[pair.carrier]) for at in pair.wheels
+            )
+            deepest = max(deepest, depth(first.intersection(second)) / wheel.module)
+            widest = max(widest, first.distance(second) / wheel.module)
     return deepest, widest
 
 
 def depth(common: Any) -> float:
-    """How thick what two wheels have in common is, at most: twice its inner radius by halving."""
+    """Return the maximum thickness of the overlap of two wheels: twice its inradius, by bisection."""
     low, high = 0.0, 10.0
     for _ in range(40):
         middle = (low + high) / 2
         low, high = (low, middle) if common.buffer(-middle).is_empty else (middle, high)
     return 2 * high
-
-
-def eval_ratio(text: str) -> float:
-    above, _, below = text.partition("/")
-    return int(above) / int(below or 1)
 
 
 def pair_of(z1: int, z2: int, form: Mapping[str, Any], **more: Any) -> GearTrain:
@@ -162,19 +136,19 @@ def test_likenesses_mesh_without_cutting_into_each_other() -> None:
     ],
 )
 def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str | None) -> None:
-    """In space, so for bevel wheels too; the point where they touch is found by looking all round both."""
-    scene = shipped.scene(name, state).to_dict()
+    """In space, so also for bevel wheels; the point of contact is found by a search on both circles."""
+    scene = shipped.scene(name, state)
     reader = Reader(scene)
-    for pair in scene["pairs"]:
-        wheels = [scene["wheels"][at] for at in pair["wheels"]]
+    for pair in scene.pairs:
+        wheels = [scene.wheels[at] for at in pair.wheels]
         contact, gap = touching(*wheels)
-        assert gap < 1e-3 * wheels[0]["module"]
+        assert gap < 1e-3 * wheels[0].module
         for turns in (0.0, 0.37, 12.4):
             angles = reader.angles(turns)
             teeth = []
             for wheel, at in zip(wheels, contact, strict=True):
-                pitch = 2 * pi / wheel["teeth"]
-                turned = wheel["turn"] + angles[wheel["body"]] - angles[pair["carrier"]] - at
+                pitch = 2 * pi / wheel.teeth
+                turned = wheel.turn + angles[wheel.body] - angles[pair.carrier] - at
                 teeth.append((turned % pitch) / pitch * forwards(wheel, at))
             along = float(np.dot(teeth[0], teeth[1]))
             where = [float(np.linalg.norm(each)) for each in teeth]
@@ -182,28 +156,26 @@ def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str |
             assert off == pytest.approx(0.5, abs=1e-3)
 
 
-def forwards(wheel: Mapping[str, Any], angle: float) -> Any:
-    """Which way the rim of a wheel goes at an angle, as a unit vector."""
+def forwards(wheel: SceneWheel, angle: float) -> Any:
+    """Return the direction of motion of a rim at an angle, as a unit vector."""
     u, v = frame_of(wheel)
     return -sin(angle) * u + cos(angle) * v
 
 
-def frame_of(wheel: Mapping[str, Any]) -> tuple[Any, Any]:
-    u = np.array(wheel["reference"])
-    return u, np.cross(wheel["direction"], u)
+def frame_of(wheel: SceneWheel) -> tuple[Any, Any]:
+    u = np.array(wheel.reference)
+    return u, np.cross(wheel.direction, u)
 
 
-def touching(first: Mapping[str, Any], second: Mapping[str, Any]) -> tuple[list[float], float]:
-    """Angles at which two pitch circles are nearest, and how near, on grids that grow finer."""
+def touching(first: SceneWheel, second: SceneWheel) -> tuple[list[float], float]:
+    """Return the angles at which two pitch circles are nearest, and the distance, by successively finer grids."""
     middle, reach = np.zeros(2), pi
     for _ in range(14):
         grid = [centre + reach * np.linspace(-1, 1, 73) for centre in middle]
         points = []
         for wheel, at in zip((first, second), grid, strict=True):
             u, v = frame_of(wheel)
-            points.append(
-                np.array(wheel["centre"]) + wheel["radius"] * (np.outer(np.cos(at), u) + np.outer(np.sin(at), v))
-            )
+            points.append(np.array(wheel.centre) + wheel.radius * (np.outer(np.cos(at), u) + np.outer(np.sin(at), v)))
         apart = np.linalg.norm(points[0][:, None] - points[1][None], axis=2)
         best = np.unravel_index(int(apart.argmin()), apart.shape)
         middle, reach = np.array([grid[0][best[0]], grid[1][best[1]]]), reach / 4

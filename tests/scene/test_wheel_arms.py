@@ -1,4 +1,4 @@
-"""Crossings-out, judged by another library: rim, hub, arms and corners as asked, and nothing where there is no room."""
+"""Openings between arms, checked with another library: rim, hub, arms and corners as requested, none without space."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_windows_leave_rim_hub_and_arms(root: float, module: float, bore: float,
         assert radii.min() == pytest.approx(
             max(HUB * bore, RIM * module, (RIM + 1) / 2 * module / np.sin(np.pi / arms) - module / 2)
         )
-        # a tool of half a module's radius reaches every corner, a larger one does not
+        # a tool with a radius of half a module reaches every corner, a larger one does not
         rounded = (shape.buffer(-r, quad_segs=64).buffer(r, quad_segs=64).area for r in (0.499 * module, module))
         reached, missed = rounded
         assert reached == pytest.approx(shape.area, rel=1e-4)

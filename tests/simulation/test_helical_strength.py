@@ -14,37 +14,53 @@ from geartrain.simulation import PairStrength, TrainStrength
 from geartrain.simulation.strength.contact_pressure import minimum_tooth_pairs
 from geartrain.simulation.strength.iso_6336 import HelixData, RackWheel, root_stress
 
-Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
+Z1, Z2, NORMAL, TORQUE, ANGLE = 20, 43, 2.0, 50.0, radians(20)
 
 
-def strength(helix: float, width: float, form: str = "{form: involute}") -> PairStrength:
-    lean = "" if not helix else f", helix_angle: {helix} deg"
-    hands = ("", "") if not helix else (", hand: right", ", hand: left")
-    pair = geartrain.load(f"""
-name: helical
+def pair_of(
+    first: str, second: str, width: float, torque: float, form: str = "involute", axis: str = ""
+) -> geartrain.GearTrain:
+    """A pair of steel wheels, on parallel axes or with the second axis in another direction."""
+    axes = f"axes: {{A: {{direction: [1, 0, 0]}}, B: {{direction: {axis}}}}}" if axis else ""
+    return geartrain.load(f"""
 material: steel
-links:
-  frame: {{}}
-  a: {{wheels: {{p: {{teeth: {Z1}, module: {NORMAL} mm, face_width: {width} mm{lean}{hands[0]}}}}}}}
-  b: {{wheels: {{w: {{teeth: {Z2}, module: {NORMAL} mm, face_width: {width} mm{lean}{hands[1]}}}}}}}
+face_width: {width} mm
+links: {{frame: {{}}, a: {{wheels: {{p: {{{first}}}}}}}, b: {{wheels: {{w: {{{second}}}}}}}}}
+{axes}
 revolutes: {{A: [frame, a], B: [frame, b]}}
 gears: [{{pair: [p, w], tooth_form: {form}}}]
 inputs: {{a: 1}}
-loads: {{a: {TORQUE} N m}}
+loads: {{a: {torque!r} N m}}
 solve_for: b
-""").strength()
-    return pair.pairs["p~w"]
+""")
+
+
+def strength(helix: float, width: float, form: str = "involute") -> PairStrength:
+    lean = [f", helix_angle: {helix} deg, hand: {hand}" if helix else "" for hand in ("right", "left")]
+    first, second = (f"teeth: {z}, module: {NORMAL} mm{own}" for z, own in zip((Z1, Z2), lean, strict=True))
+    return pair_of(first, second, width, TORQUE, form).strength().pairs["p~w"]
+
+
+def section(helix: float) -> tuple[float, float, float, float]:
+    """Pressure angle, pitch radii and contact ratio in the transverse section, by hand."""
+    lean = cos(radians(helix))
+    transverse = atan(tan(ANGLE) / lean)
+    r1, r2 = (z * NORMAL / lean / 2 for z in (Z1, Z2))
+    ends = sum(sqrt((r + NORMAL) ** 2 - (r * cos(transverse)) ** 2) for r in (r1, r2))
+    return transverse, r1, r2, (ends - (r1 + r2) * sin(transverse)) / (pi * NORMAL / lean * cos(transverse))
+
+
+def counted(contact_ratio: float, overlap: float) -> float:
+    """Fewest tooth pairs: a pair touches from 0 to the contact ratio, and slices lag by up to the overlap."""
+    slices = np.linspace(0, overlap, 4001)
+    phases = [phase - slices for phase in np.linspace(0, 1, 401)]
+    return min(float((np.floor(at) - np.ceil(at - contact_ratio) + 1).mean()) for at in phases)
 
 
 @given(st.floats(1.05, 2.6), st.floats(0.01, 3.5))
 def test_the_minimum_number_of_tooth_pairs_is_that_of_many_slices(contact_ratio: float, overlap: float) -> None:
-    """Counted: a couple touches from 0 to the contact ratio, and slices lag by up to the overlap."""
-    slices = np.linspace(0, overlap, 4001)
-    means = []
-    for phase in np.linspace(0, 1, 201):
-        at = phase - slices
-        means.append(float((np.floor(at) - np.ceil(at - contact_ratio) + 1).mean()))
-    assert min(means) == pytest.approx(minimum_tooth_pairs(contact_ratio, overlap), abs=0.02 + 0.004 / overlap)
+    expected = minimum_tooth_pairs(contact_ratio, overlap)
+    assert counted(contact_ratio, overlap) == pytest.approx(expected, abs=0.02 + 0.004 / overlap)
 
 
 def test_straight_teeth_have_as_many_tooth_pairs_as_touch_at_minimum() -> None:
@@ -55,13 +71,9 @@ def test_straight_teeth_have_as_many_tooth_pairs_as_touch_at_minimum() -> None:
 
 def test_teeth_that_hardly_lean_are_as_strong_as_straight_ones() -> None:
     straight, leaning = strength(0, 20), strength(0.01, 20)
-    assert leaning.iso is not None
-    assert straight.iso is not None
     assert leaning.iso.stress == pytest.approx(straight.iso.stress, rel=1e-3)
     for one, other in zip(leaning.wheels, straight.wheels, strict=True):
         assert one.tip_stress == pytest.approx(other.tip_stress, rel=1e-3)
-        assert one.iso is not None
-        assert other.iso is not None
         assert one.iso.stress == pytest.approx(other.iso.stress, rel=1e-3)
 
 
@@ -70,23 +82,14 @@ def test_pressure_at_the_pitch_point_is_hertz_in_space_and_that_of_the_standard(
     """An overlap of 1: all phases alike. Two cylinders of the flanks' curvatures along lines of a known length."""
     width = pi * NORMAL / sin(radians(helix))
     found = strength(helix, width)
-    beta, alpha = radians(helix), radians(20)
-    transverse = atan(tan(alpha) / cos(beta))
-    base = asin(sin(beta) * cos(alpha))
-    r1, r2 = (z * NORMAL / cos(beta) / 2 for z in (Z1, Z2))
-    ends = []
-    for z, r in ((Z1, r1), (Z2, r2)):
-        tip, foot = r + NORMAL, r * cos(transverse)
-        ends.append(sqrt(tip**2 - foot**2))
-        assert z * NORMAL == pytest.approx(2 * r * cos(beta))
-    ratio = (sum(ends) - (r1 + r2) * sin(transverse)) / (pi * NORMAL / cos(beta) * cos(transverse))
+    transverse, r1, r2, ratio = section(helix)
+    base = asin(sin(radians(helix)) * cos(ANGLE))
     lines = width / cos(base) * ratio
     normal = TORQUE * 1e3 / r1 / cos(transverse) / cos(base)
     curvature = sum(1 / (r * sin(transverse) / cos(base)) for r in (r1, r2))
     pressure = 189.8 * sqrt(normal / lines * curvature)
     (pitch,) = (each for each in found.contact if each.where == "pitch point")
     assert pitch.pressure == pytest.approx(pressure * found.elasticity / 189.8, rel=1e-9)
-    assert found.iso is not None
     assert found.iso.Zeps == pytest.approx(1 / sqrt(ratio))
     assert found.iso.nominal == pytest.approx(pitch.pressure * found.iso.Zbeta, rel=1e-9)
     assert found.iso.stress == (found.iso.nominal, found.iso.nominal), "single contact there is none"
@@ -94,15 +97,9 @@ def test_pressure_at_the_pitch_point_is_hertz_in_space_and_that_of_the_standard(
 
 @pytest.mark.parametrize(("helix", "width"), [(8.0, 12.0), (15.0, 20.0), (30.0, 40.0)])
 def test_the_tooth_pairs_told_are_those_that_share_the_force(helix: float, width: float) -> None:
-    """Force across the axes times its part along the pitch circle times couples: the whole; counted by slices."""
-    beta, alpha = radians(helix), radians(20)
-    transverse = atan(tan(alpha) / cos(beta))
-    r1, r2 = (z * NORMAL / cos(beta) / 2 for z in (Z1, Z2))
-    ends = sum(sqrt((r + NORMAL) ** 2 - (r * cos(transverse)) ** 2) for r in (r1, r2))
-    ratio = (ends - (r1 + r2) * sin(transverse)) / (pi * NORMAL / cos(beta) * cos(transverse))
-    slices = np.linspace(0, width * sin(beta) / (pi * NORMAL), 4001)
-    phases = [phase - slices for phase in np.linspace(0, 1, 401)]
-    minimum = min(float((np.floor(at) - np.ceil(at - ratio) + 1).mean()) for at in phases)
+    """Force across the axes times its part along the pitch circle times tooth pairs: the whole; counted by slices."""
+    transverse, r1, _, ratio = section(helix)
+    minimum = counted(ratio, width * sin(radians(helix)) / (pi * NORMAL))
     found = strength(helix, width)
     for place in found.contact:
         assert place.tooth_pairs == pytest.approx(minimum, abs=0.005)
@@ -130,7 +127,6 @@ def test_roots_are_those_of_the_spur_wheel_with_the_teeth_across() -> None:
     assert z == pytest.approx(Z1 / cos(radians(15)) ** 3, rel=0.02)
     contact_ratio = strength(15, 40).contact
     assert contact_ratio
-    assert found.iso is not None
     wheel = RackWheel(z, 0.0, z / 2 + 1)
     force = TORQUE * 1e3 / (Z1 * NORMAL / cos(radians(15)) / 2)
     low, high = (root_stress(wheel, radians(20), force, 40, NORMAL, radius) for radius in (z / 2, z / 2 + 1))
@@ -150,54 +146,19 @@ def test_leaning_teeth_bear_more() -> None:
 
 def test_other_forms_that_lean_are_left_out_by_name() -> None:
     with pytest.raises((KeyError, geartrain.GearTrainError)):
-        strength(15, 40, "{form: cycloidal}")
+        strength(15, 40, "cycloidal")
 
 
 # --------------------------------------------------------------------------------------------------- strength of bevels
 
 
-ANGLE = radians(20)
+def found(z1: int, z2: int, width: float = 20, axis: str = "[0, 1, 0]") -> TrainStrength:
+    first, second = f"teeth: {z1}, module: 3 mm, kind: bevel", f"teeth: {z2}, kind: bevel"
+    return pair_of(first, second, width, 50.0, axis=axis).strength(turns=100)
 
 
-def found(
-    z1: int, z2: int, width: float = 20, module: float = 3, axis: str = "[0, 1, 0]", more: str = ""
-) -> TrainStrength:
-    return geartrain.load(f"""
-name: bevel pair
-material: steel
-face_width: {width} mm
-links:
-  frame: {{}}
-  a: {{wheels: {{p: {{teeth: {z1}, module: 3 mm, kind: bevel}}}}}}
-  b: {{wheels: {{w: {{teeth: {z2}, kind: bevel}}}}}}
-axes: {{A: {{direction: [1, 0, 0]}}, B: {{direction: {axis}}}}}
-revolutes: {{A: [frame, a], B: [frame, b]}}
-gears: [{{pair: [p, w], tooth_form: involute}}]
-inputs: {{a: 1}}
-loads: {{a: 50 N m}}
-solve_for: b
-""").strength(turns=100)
-
-
-def spur(z1: int, z2: int, module: float, torque: float, width: float = 20) -> PairStrength:
-    return (
-        geartrain.load(f"""
-name: spur pair
-material: steel
-face_width: {width} mm
-links:
-  frame: {{}}
-  a: {{wheels: {{p: {{teeth: {z1}, module: {module!r} mm}}}}}}
-  b: {{wheels: {{w: {z2}}}}}
-revolutes: {{A: [frame, a], B: [frame, b]}}
-gears: [{{pair: [p, w], tooth_form: involute}}]
-inputs: {{a: 1}}
-loads: {{a: {torque!r} N m}}
-solve_for: b
-""")
-        .strength()
-        .pairs["p~w"]
-    )
+def spur(z1: int, z2: int, module: float, torque: float) -> PairStrength:
+    return pair_of(f"teeth: {z1}, module: {module!r} mm", f"teeth: {z2}", 20, torque).strength().pairs["p~w"]
 
 
 def test_bevels_of_three_to_four_are_spur_wheels_of_whole_counts_in_the_middle() -> None:
@@ -239,18 +200,8 @@ def test_pressure_at_the_pitch_point_is_that_of_two_cones(z1: int, z2: int, widt
 @pytest.mark.parametrize(("z1", "z2", "off"), [(36, 48, 0.004), (17, 23, 0.02), (16, 64, 0.01)])
 def test_curvatures_are_those_of_the_path_on_the_sphere_within_two_percent(z1: int, z2: int, off: float) -> None:
     """Flanks are cones of rays through the apex: what they are curved across these is the geodesic curvature there."""
-    train = geartrain.load(f"""
-links:
-  frame: {{}}
-  a: {{wheels: {{p: {{teeth: {z1}, kind: bevel}}}}}}
-  b: {{wheels: {{w: {{teeth: {z2}, kind: bevel}}}}}}
-axes: {{A: {{direction: [1, 0, 0]}}, B: {{direction: [0, 1, 0]}}}}
-revolutes: {{A: [frame, a], B: [frame, b]}}
-gears: [{{pair: [p, w], tooth_form: involute}}]
-inputs: {{a: 1}}
-""")
-    sphere = train.meshes[0].path
-    assert sphere is not None
+    bevels = f"teeth: {z1}, module: 3 mm, kind: bevel", f"teeth: {z2}, kind: bevel"
+    sphere = pair_of(*bevels, 20, 1.0, axis="[0, 1, 0]").meshes[0].path
     cone = sphere.pitch.R1
     counts = z1 / cos(cone), z2 / sin(cone)
     base = [z / 2 * cos(ANGLE) for z in counts]

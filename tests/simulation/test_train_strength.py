@@ -43,7 +43,6 @@ def test_a_declared_pair_has_the_stresses_of_the_example() -> None:
     # case A of docs/strength.md: 1176.47 N, 638.33 and 706.85 MPa, 87.99 and 80.33 MPa
     pair = geartrain.load(PAIR).strength().pairs["p~w"]
     assert pair.tangential == pytest.approx(1176.47, abs=0.01)
-    assert pair.iso is not None
     assert (pair.iso.nominal, *pair.iso.stress) == pytest.approx((638.33, 706.85, 638.33), abs=0.01)
     roots = [wheel.iso.stress for wheel in pair.wheels if wheel.iso is not None]
     assert roots == pytest.approx([87.99, 80.33], abs=0.01)
@@ -54,7 +53,6 @@ def test_stress_and_lewis_factor_are_one_statement() -> None:
     pair = geartrain.load(PAIR).strength().pairs["p~w"]
     for wheel in pair.wheels:
         assert wheel.tip_stress == pytest.approx(pair.tangential / (20 * 2 * wheel.lewis), rel=1e-9)
-        assert wheel.shared_stress is not None
         assert wheel.shared_stress < wheel.tip_stress
 
 
@@ -70,7 +68,6 @@ def test_scaling(one: PairStrength, more: float, wider: float) -> None:
     other = geartrain.load(train).strength().pairs["p~w"]
     for first, second in zip(one.wheels, other.wheels, strict=True):
         assert second.tip_stress == pytest.approx(first.tip_stress * more / wider, rel=1e-6)
-        assert first.pressure is not None
         assert second.pressure == pytest.approx(first.pressure * sqrt(more / wider), rel=1e-6)
 
 
@@ -88,7 +85,6 @@ def test_the_weakest_part_has_the_minimum_safety_of_all() -> None:
     found = geartrain.load(PAIR).strength()
     safeties = [s for w in found.pairs["p~w"].wheels for s in (w.root_safety, w.contact_safety) if s is not None]
     safeties += [arbor.safety for arbor in found.arbors if arbor.safety is not None]
-    assert found.weakest is not None
     assert found.weakest.safety == min(safeties)
 
 
@@ -190,8 +186,6 @@ def test_the_maximum_torque_of_a_turn_bends_and_presses_and_the_mean_one_wears()
         assert other.tip_stress == pytest.approx(5 * one.tip_stress)
         assert other.shared_stress == pytest.approx(5 * one.shared_stress)  # type: ignore[operator]
         assert other.pressure == pytest.approx(sqrt(5) * one.pressure)  # type: ignore[operator]
-        assert one.wear is not None
-        assert other.wear is not None
         assert other.wear.volume == pytest.approx(one.wear.volume)
         assert other.wear.depth == pytest.approx(one.wear.depth)
     assert [each.tangential for each in most.forces] == pytest.approx([5 * each.tangential for each in mean.forces])
@@ -219,12 +213,10 @@ def test_worn_volume_is_coefficient_times_force_times_way_over_hardness() -> Non
     found = geartrain.load(PAIR).strength(turns=1000, wear=(1e-6, 1e-4))
     # Ohlendorf's loss over friction times the energy through the pair; 190 HV
     transmission = geartrain.load(PAIR).meshes[0].path
-    assert transmission is not None
     one, two = (arc / transmission.pitch.p for arc in transmission.arcs)
     loss = pi * (1 / 17 + 1 / 51) * (1 - one - two + one**2 + two**2)
     slid = 20_000 * 2 * pi * 1000 * loss
     wear = found.pairs["p~w"].wheels[0].wear
-    assert wear is not None
     assert wear.passages == 1000
     assert wear.volume == pytest.approx([1e-6 * slid / (190 * 9.80665), 1e-4 * slid / (190 * 9.80665)], rel=2e-3)
 
@@ -343,8 +335,6 @@ loads: {{b: {torque * 17 / 24!r} N m}}
     assert found.pairs["s~p"].tangential == pytest.approx(torque * 1e3 / 12)
     for one, other in zip(found.pairs["s~p"].wheels, alone.pairs["s~p"].wheels, strict=True):
         assert (one.tip_stress, one.pressure) == pytest.approx((other.tip_stress, other.pressure))
-        assert one.iso is not None
-        assert other.iso is not None
         assert one.iso.stress == pytest.approx(other.iso.stress)
 
 

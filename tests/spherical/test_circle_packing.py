@@ -180,9 +180,6 @@ def test_a_thousand_gears_pack_and_close() -> None:
     assert found.exact == ("phases",)
 
 
-# derivatives and rank ------------------------------------------------------------------------------------------------
-
-
 # gears from graphs ---------------------------------------------------------------------------------------------------
 
 
@@ -234,7 +231,7 @@ def test_the_prism_with_closed_phases() -> None:
 def test_a_map_without_symmetry_with_one_pitch() -> None:
     found = from_graph(faces_and_vertices(ASYM), teeth=ASYM_TEETH)
     assert found.exact == ("pitch",)
-    assert found.sizing.pitch == pytest.approx(0.013852180987, abs=2e-12)  # two parameters are free
+    assert found.sizing.pitch == pytest.approx(0.013852181, abs=1e-11)  # two parameters are free
     assert degrees(found.moved.max()) < 1
     check_pitch(found)
 

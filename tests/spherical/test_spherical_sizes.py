@@ -94,26 +94,6 @@ def test_a_crown_gear_and_an_internal_gear_follow_the_same_formula() -> None:
     assert virtual_teeth(40, pi / 2) == inf
 
 
-@given(ratios, st.floats(0, 2 * pi), st.floats(10, 30))
-def test_spherical_involutes_have_one_normal_speed_at_every_angle_between_the_axes(
-    pair: tuple[float, int, int], where: float, pressure: float
-) -> None:
-    S, z_1, z_2 = pair
-    pitch = float(operating_pitch(S, z_1, z_2))
-    c = pitch * cos(radians(pressure))
-    assume(max(z_1, z_2) * pitch < 0.999)
-    n_1, n_2 = np.array([0, 0, 1.0]), np.array([sin(S), 0, cos(S)])
-    q = line_of_action(n_1, n_2, np.arcsin(c * z_1), np.arcsin(c * z_2))
-    assert (float(q @ q), float(q @ n_1), float(q @ n_2)) == pytest.approx((1, c * z_1, -c * z_2), abs=1e-9)
-    # any point of the line of action
-    across = np.linalg.svd(q[None])[2][1:]
-    X = cos(where) * across[0] + sin(where) * across[1]
-    first = float(np.cross(n_1, X) @ np.cross(q, X))
-    second = float(np.cross(n_2, X) @ np.cross(q, X)) * -z_1 / z_2
-    assert first == pytest.approx(c * z_1, abs=1e-9)
-    assert second == pytest.approx(first, abs=1e-9)
-
-
 @given(ratios)
 def test_the_pressure_angle_is_that_between_the_line_of_action_and_the_pitch_circles(
     pair: tuple[float, int, int],

@@ -22,29 +22,8 @@ from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impa
 from geartrain.errors import GearTrainError
 from geartrain.report import collect_report, describe_train, to_markdown
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.teeth import (
-    CircularArc,
-    Cycloidal,
-    Involute,
-    Lantern,
-    LeastFriction,
-    PinRing,
-    Triangular,
-    UniformStress,
-    UniformTemperature,
-)
+from geartrain.teeth import CircularArc
 
-FORMS = (
-    CircularArc,
-    Cycloidal,
-    Involute,
-    Lantern,
-    LeastFriction,
-    PinRing,
-    Triangular,
-    UniformStress,
-    UniformTemperature,
-)
 FORM = CircularArc.model_validate({"form": "circular_arc"})
 
 # Wheel addendum and radius of its arc in modules, by leaves and ratio: tables of BS 978 Part 2 as M. Robinson's library
@@ -312,14 +291,6 @@ def test_no_file_of_the_package_but_its_own_the_registry_and_the_map_names_it() 
         "teeth/any_tooth_form.py",
         "teeth/__init__.py",
     }
-
-
-def test_every_form_has_parameters_that_are_its_fields() -> None:
-    said = call("mesh", "--form", "circular_arc", "--keys").output
-    assert "centre_distance" in said
-    assert "Radius of the tip arcs in modules" in " ".join(said.replace("\u2502", " ").split())
-    listed = call("mesh", "--help").output
-    assert all(kind.model_fields["form"].annotation.__args__[0] in listed for kind in FORMS)
 
 
 def test_friction_at_the_pitch_point_is_that_beside_it() -> None:

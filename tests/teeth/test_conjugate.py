@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from functools import cache, partial
-from math import asin, cos, degrees, inf, log, pi, radians, sin, tan
+from math import acos, asin, cos, degrees, hypot, inf, log, pi, radians, sin, tan
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,8 @@ from places import DATA
 from scipy.optimize import brentq
 
 from geartrain.teeth import Cycloidal, Involute, LeastFriction, UniformStress, UniformTemperature
-from geartrain.teeth.conjugate import PathLosses, PathOfContact, WheelPair, measure
+from geartrain.teeth.conjugate import ConjugatePair, PathLosses, PathOfContact, WheelPair, measure
+from geartrain.teeth.conjugate.admissibility import tip_thickness
 
 TABLES = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 Wheels = tuple[int, int, float | None]
@@ -34,11 +35,15 @@ def path(form: type, wheels: Wheels, **given: Any) -> PathOfContact:
     return form.declared(given).path(z1, z2, shaft_angle=angle)
 
 
-def involute(wheels: Wheels, psi: float = 20, arcs: tuple[float, float] = (0.5, 0.5)) -> PathOfContact:
+def involute_pair(wheels: Wheels, psi: float, arcs: tuple[float, float]) -> ConjugatePair:
     """Arcs in pitches, pressure angle in degrees."""
     z1, z2, angle = wheels
     given = {"pressure_angle": f"{psi!r} deg"}
-    return Involute.pair_of_arcs(WheelPair(z1, z2, shaft_angle=angle), arcs, given).path
+    return Involute.pair_of_arcs(WheelPair(z1, z2, shaft_angle=angle), arcs, given)
+
+
+def involute(wheels: Wheels, psi: float = 20, arcs: tuple[float, float] = (0.5, 0.5)) -> PathOfContact:
+    return involute_pair(wheels, psi, arcs).path
 
 
 @cache
@@ -282,3 +287,56 @@ def test_uniform_stress_is_uniform_and_never_undercuts_from_five_teeth_to_a_hund
         assert min(c.U1.min(), c.U2.min()) > 0
         expected = 2 * (found.pitch.A + found.pitch.B) / sin(2 * radians(tilted))
         assert c.H[30] == pytest.approx(expected, rel=1e-12)
+
+
+# faults against textbook formulas of the involute --------------------------------------------------------------------
+
+
+@given(st.integers(8, 150), st.integers(8, 150), st.floats(12, 30), st.floats(0.2, 0.9), st.floats(0.2, 0.9))
+@settings(max_examples=60, deadline=None)
+def test_an_involute_is_undercut_from_where_its_line_touches_the_base_circle(
+    z1: int, z2: int, psi: float, approach: float, recess: float
+) -> None:
+    pair = involute_pair((z1, z2, None), psi, (approach, recess))
+    pitch, found = pair.path.pitch, {fault.gear: fault.X for fault in pair.faults if fault.kind == "undercut"}
+    limits = {1: -pitch.R1 * tan(radians(psi)), 2: pitch.R2 * tan(radians(psi))}
+    for gear, arc in ((1, approach), (2, recess)):
+        if abs(limits[gear]) < arc * pitch.p * (1 - 1e-9):
+            assert found[gear] == pytest.approx(limits[gear], rel=1e-10)
+        elif abs(limits[gear]) > arc * pitch.p * (1 + 1e-9):
+            assert gear not in found
+
+
+@given(st.integers(8, 150), st.integers(8, 150), st.floats(14, 30), st.floats(0.2, 0.7), st.floats(0.2, 0.7))
+@settings(max_examples=60, deadline=None)
+def test_the_tip_of_an_involute_is_as_wide_as_the_textbook_says(
+    z1: int, z2: int, psi: float, approach: float, recess: float
+) -> None:
+    pair, alpha = involute_pair((z1, z2, None), psi, (approach, recess)), radians(psi)
+    pitch = pair.path.pitch
+    for gear, z, R, arc in ((1, z1, pitch.R1, recess), (2, z2, pitch.R2, approach)):
+        d = arc * pitch.p * cos(alpha)
+        radius = hypot(d * cos(alpha), R + d * pitch.S(1.0) * (1 - cos(alpha) ** 2) ** 0.5)
+        tip = acos(R * cos(alpha) / radius)
+        half = pi / (2 * z) + (tan(alpha) - alpha) - (tan(tip) - tip)
+        assert tip_thickness(pair.path, gear, pair.halves) == pytest.approx(2 * half, abs=1e-12)
+        assert any(fault.kind == "pointed" and fault.gear == gear for fault in pair.faults) == (half < 0)
+
+
+def test_a_bevel_pair_of_small_cones_has_the_tips_of_the_spur_pair() -> None:
+    pairs = [involute_pair((24, 36, angle), 20, (0.5, 0.6)) for angle in (None, 3e-3)]
+    for gear in (1, 2):
+        flat, cones = (tip_thickness(pair.path, gear, pair.halves) for pair in pairs)
+        assert cones == pytest.approx(flat, abs=1e-6)
+
+
+def test_a_contact_ratio_below_one_is_named() -> None:
+    (fault,) = involute_pair((30, 30, None), 20, (0.4, 0.5)).faults
+    assert fault.kind == "contact ratio"
+    assert "0.9" in fault.what
+
+
+def test_uniform_stress_is_never_undercut_where_the_involute_is() -> None:
+    assert any(fault.kind == "undercut" for fault in involute_pair((8, 40, None), 20, (0.7, 0.5)).faults)
+    transmission = UniformStress(form="uniform_stress", arcs="0.7").transmission(8, 40)
+    assert not any(fault.kind == "undercut" for fault in transmission.verdict.faults)

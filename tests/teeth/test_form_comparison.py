@@ -103,6 +103,15 @@ def test_every_conjugate_form_and_every_reading_can_be_compared() -> None:
     assert not {"circular_arc", "triangular", "ideal"} & set(known)
 
 
+def test_the_pressure_off_the_pitch_point_is_that_of_nearly_the_same_arcs() -> None:
+    """With these arcs a second pair of teeth leaves contact exactly a tenth of a pitch from the pitch point."""
+    exact, near = (compare_forms(PAIR, arcs=(0.3, last)).forms for last in (0.9, 0.9 - 1e-7))
+    for form, other in zip(exact, near, strict=True):
+        assert form.ratios is None or form.ratios.shared["off_pitch"] == pytest.approx(
+            other.ratios.shared["off_pitch"], rel=1e-5
+        )
+
+
 REFUSED = [
     ({"names": ["rubber"]}, "'rubber' is not a tooth form", ""),
     ({"names": []}, "no tooth form is given", ""),

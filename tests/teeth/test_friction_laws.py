@@ -91,36 +91,6 @@ def transmission_of(form: str, friction: float = 0.0) -> TransmissionFunction:
     return made.transmission(z1, z2, friction)
 
 
-@pytest.mark.parametrize("form", FORMS)
-def test_a_law_that_is_level_loses_what_the_number_does(form: str) -> None:
-    transmission = transmission_of(form, 0.1)
-    for each in (transmission, transmission.reversed_motion()):
-        rubbed = RubbedTransmission(each, PairFriction(LEVEL, 0.3))
-        assert rubbed.friction == pytest.approx(0.1, rel=1e-14)
-        assert rubbed.efficiency_mean() == pytest.approx(each.efficiency_mean(), rel=1e-14)
-        assert rubbed.efficiency_at_constant_load() == pytest.approx(each.efficiency_at_constant_load(), rel=1e-14)
-        assert rubbed.efficiency_minimum() == pytest.approx(each.efficiency_minimum(), abs=1e-6)
-    S = np.linspace(0.01, 0.99, 7) * transmission.period
-    assert RubbedTransmission(transmission, PairFriction(LEVEL, 1.0)).efficiency(S) == pytest.approx(
-        transmission.efficiency(S), rel=1e-13
-    )
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_teeth_slide_as_fast_as_what_they_lose_says(form: str) -> None:
-    """A normal force N takes in the power N v_n, and a little friction loses mu N v_slide of it."""
-    transmission = transmission_of(form)
-    made, counts = FORMS[form]
-    S = np.linspace(0.013, 0.987, 9) * transmission.period
-    small = 1e-6
-    lost = 1 - made.transmission(*counts, small).efficiency(S)
-    sliding, into, out = transmission.rubbing(S)
-    assert np.nanmean(into - out, axis=0) * small == pytest.approx(lost, rel=1e-4, abs=1e-13)
-    # v_slide over v_n, the speed of the normal: that of the pitch line times cos psi, so never less than this
-    assert (sliding[~np.isnan(sliding)] <= (into - out)[~np.isnan(sliding)] * 1.3).all()
-    assert (sliding[~np.isnan(sliding)] >= 0).all()
-
-
 def test_involutes_slide_with_the_distance_of_the_contact_from_the_pitch_point() -> None:
     """On the line of action, at base pitches: v = (w1 + w2) s, with s counted along the normal."""
     transmission = transmission_of("involute")

@@ -14,14 +14,12 @@ from commands import call
 from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 from sampling import few_or_many
-from shapely import Polygon
 
 import geartrain
 from geartrain.errors import GearTrainError
-from geartrain.teeth import BlankSizes, Involute
+from geartrain.teeth import Involute
 from geartrain.teeth.conjugate import measure
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, solve
-from geartrain.teeth.outlines import outline
 
 ALPHA = pi / 9
 BACKLASH = 0.05
@@ -269,40 +267,6 @@ def test_the_command_takes_contact_on_one_side() -> None:
     assert data["losses_and_stresses"]["shared"]["loss"] == pytest.approx(ISSUE.loss(True), rel=1e-6)
 
 
-@pytest.mark.parametrize("pair", [ISSUE, AFTER, BEFORE], ids=["ring", "after", "before"])
-def test_whole_wheels_of_one_sided_pairs_turn_together_without_touching_elsewhere(pair: Drawn) -> None:
-    transmission = pair.form().transmission(pair.z1, pair.z2, internal=pair.ring)
-    cut = BlankSizes(module=1.0, tolerance=1e-4)
-    wheels = [outline(transmission.pair, gear, cut) for gear in (1, 2)]
-    for at, wheel in enumerate(wheels):
-        assert wheel.tip_radius == pytest.approx(pair.tip(at), rel=1e-9)
-    first, second = (_polygon(wheel.contours, pair.ring and wheel.gear == 2) for wheel in wheels)
-    a = wheels[0].centre_distance
-    assert a == pytest.approx(pair.distance, rel=1e-9)
-    ratio = pair.z1 / pair.z2 * (1 if pair.ring else -1)
-    for turn in np.linspace(0, 2 * pi / pair.z1, 7, endpoint=False):
-        # a tooth of the first on the line of centres meets a space of the second
-        one = Polygon(_moved(first, turn, 0.0))
-        two = Polygon(_moved(second, (0.0 if pair.ring else pi) + pi / pair.z2 + ratio * turn, -a if pair.ring else a))
-        bitten = one.difference(two) if pair.ring else one.intersection(two)
-        assert bitten.area < 1e-4
-        # with half the play on either side, less than that keeps them apart: turned by it the flanks meet
-        ahead = _moved(first, turn + BACKLASH / pair.pitch_radius(0), 0.0)
-        met = Polygon(ahead).difference(two) if pair.ring else Polygon(ahead).intersection(two)
-        assert met.area > 1e-3
-
-
-def _polygon(contours: tuple, ring: bool) -> np.ndarray:
-    """The points of the teeth's contour, chords of arcs."""
-    contour = contours[1] if ring else contours[0]
-    return np.asarray(contour.flattened(1e-4))
-
-
-def _moved(points: np.ndarray, turn: float, x: float) -> np.ndarray:
-    place = (points[:, 0] + 1j * points[:, 1]) * np.exp(1j * turn) + x
-    return np.stack([place.real, place.imag], axis=1)
-
-
 TRAIN = """
 links:
   a: {{wheels: {{p: {{teeth: {z1}, module: 2 mm}}}}}}
@@ -337,12 +301,3 @@ def test_a_train_moves_and_loses_what_its_one_sided_teeth_say(pair: Drawn, tmp_p
     assert rigid["peak_to_peak"] == 0
     lost = 1 - float(train.torques().efficiency)
     assert lost / 1e-4 == pytest.approx(pair.loss(True), rel=2e-4)
-
-
-def test_a_train_of_one_sided_teeth_is_exported(tmp_path: Path) -> None:
-    given = {name: getattr(ISSUE, name) for name in ("z1", "z2", "x1", "x2", "add1", "add2")}
-    file = tmp_path / "ring.yaml"
-    file.write_text("name: ring\n" + TRAIN.format(**given, internal=", internal: true", load=-1), encoding="utf-8")
-    done = call("export", file, "--to", tmp_path / "out", "--as", "svg,dxf", "--thickness", "2mm")
-    assert done.exit_code == 0, done.output
-    assert list((tmp_path / "out").rglob("*.dxf"))

@@ -206,6 +206,8 @@ MESHES = {
     "involute": (24, 36),
     "involute with a ring": (24, 60, "--internal"),
     "involute shifted": (12, 37, "-p", "shift=0.4,0"),
+    "involute in recess only": (36, 70, "--internal", "-p", "shift=0.696,0.226"),
+    "involute in approach only": (60, 40, "-p", "shift=-1.15,1.15"),
     "uniform_stress": (17, 40),
     "uniform_temperature": (24, 36, "-p", "reading=c"),
     "least_friction": (24, 36),

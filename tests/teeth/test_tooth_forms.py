@@ -671,6 +671,10 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
         ),
         ({"form": "least_friction", "arcs": [3, 0]}, (24, 36), {}, "too long for a contact speed margin"),
         ({"form": "lantern"}, (30, 60), {"internal": True}, "ring of pins"),
+        ({"form": "lantern", "pin_radius": "20"}, (24, 36), {}, "do not reach the pitch circle"),
+        ({"form": "lantern", "pin_diameter": "3.5"}, (24, 36), {}, "touch each other"),
+        ({"form": "lantern", "arcs": [0.6, 1]}, (24, 36), {}, "too long"),
+        ({"form": "lantern", "addendum": "60"}, (24, 36), {}, "does not reach the tip radius"),
         ({"form": "lantern"}, (30, 60), {"shaft_angle": RIGHT}, "bevel lantern"),
     ],
 )

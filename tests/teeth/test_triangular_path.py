@@ -13,7 +13,6 @@ from mechanics import overlap
 from sorge import (
     Pair,
     Segment,
-    angles,
     drawn,
     entry_margin,
     exit_margin,
@@ -162,61 +161,6 @@ def test_the_work_does_not_grow_with_the_number_of_tooth_pairs() -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------ outlines
-
-
-def lenses(pair: Pair, t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Whether some two teeth overlap, f(x) < y < -f(-x), and how far y is from the nearest such bound (pitches)."""
-    inside, margin = np.zeros(len(t), bool), np.ones(len(t))
-    for k in range(int(np.floor(-pair.amax / pair.p1)) - 1, int(np.ceil(pair.amax / pair.p1)) + 1):
-        x = t + k * pair.p1
-        near = np.abs(x) <= pair.amax
-        if not near.any():
-            continue
-        low, high = angles(pair, x[near]), -angles(pair, -x[near])
-        turned = y[near] + np.ceil((low - y[near]) / pair.p2) * pair.p2
-        inside[near] |= turned < high
-        for bound in (low, high):
-            off = (bound - y[near]) / pair.p2
-            margin[near] = np.minimum(margin[near], np.abs(off - np.round(off)))
-    return inside, margin
-
-
-@pytest.mark.parametrize("number", [pytest.param(80), pytest.param(3000, marks=pytest.mark.long)])
-def test_wheels_overlap_where_the_transmission_forbids_it(number: int) -> None:
-    """Random positions of both wheels. Free of overlap: between the back flanks and the front flanks.
-
-    A pair that jams, clashes or stands still has also pockets and passages, free but beyond its law.
-    """
-    random, positions = Random(13), np.random.default_rng(13)
-    kinds: dict[str, int] = {}
-    while number:
-        sizes = few_teeth(random, 60) if number % 3 else TriangularSizes(*drawn(random, 100, "near"))
-        if leans(sizes):
-            continue
-        number -= 1
-        pair, path, kind = Pair.of(sizes, np), TriangularTransmission(sizes).contact.path, kind_of(sizes)
-        t = positions.uniform(0, pair.p1, 150)
-        upper = np.array([path.lowest(float(at)) for at in t]) + pair.ratio * t
-        lower = -np.array([path.lowest(float(-at)) for at in t]) + pair.ratio * t - pair.p2
-        around = np.where(positions.random(150) < 0.5, upper, lower)
-        y = np.where(
-            np.isfinite(around) & (positions.random(150) < 0.7),
-            around + pair.p2 * positions.normal(0, 0.03, 150),
-            positions.uniform(-1, 1, 150) * pair.p2,
-        )
-        overlapping = overlap(sizes, t, y)
-        inside, margin = lenses(pair, t, y)
-        sure = margin > 1e-9
-        assert (overlapping == inside)[sure].all(), sizes
-        both = np.isfinite(upper) & np.isfinite(lower) & sure
-        shifted = y[both] + np.floor((upper - y)[both] / pair.p2) * pair.p2
-        lawful = shifted >= lower[both]
-        assert not (overlapping[both] & lawful).any(), sizes
-        if kind == "runs":
-            assert both[sure].all()
-            assert (overlapping[both] != lawful).all(), sizes
-        kinds[kind] = kinds.get(kind, 0) + 150
-    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "dwell")) >= 450, kinds
 
 
 @pytest.mark.parametrize("number", [pytest.param(60), pytest.param(2000, marks=pytest.mark.long)])
@@ -396,19 +340,16 @@ def test_equally_deep_teeth_of_ancient_shape_run_just_within_their_window(number
         assert agree(sizes), sizes
 
 
-@pytest.mark.parametrize(("z1", "z2", "beta"), [(12, 22, 60.0), (161, 161, 44.6), (20, 20, 70.0)])
-def test_teeth_that_never_jam_have_a_window_from_0(z1: int, z2: int, beta: float) -> None:
+NEVER_JAM = [(12, 22, 60.0), (161, 161, 44.6), (20, 20, 70.0)]
+CLASH_OR_OVERHANG = [(26, 7, 18.76), (86, 3, 23.2), (20, 5, 47.9), (9, 8, 5.27)]
+
+
+@pytest.mark.parametrize(("z1", "z2", "beta"), [*NEVER_JAM, *CLASH_OR_OVERHANG])
+def test_odd_teeth_run_just_within_their_window(z1: int, z2: int, beta: float) -> None:
     sizes = equally_deep(z1, z2, radians(beta))
-    assert minimum_backlash(Pair.of(sizes.at(sizes.maximum_excess * 1e-6), np)) > 0
+    if (z1, z2, beta) in NEVER_JAM:
+        assert minimum_backlash(Pair.of(sizes.at(sizes.maximum_excess * 1e-6), np)) > 0
     assert agree(sizes)
-
-
-@pytest.mark.parametrize(
-    ("z1", "z2", "beta"),
-    [(26, 7, 18.76), (86, 3, 23.2), (20, 5, 47.9), (9, 8, 5.27)],
-)
-def test_clashes_and_overhangs_are_outside_the_window(z1: int, z2: int, beta: float) -> None:
-    assert agree(equally_deep(z1, z2, radians(beta)))
 
 
 @pytest.mark.parametrize(("z1", "z2", "beta"), [(25, 7, 11.7418), (25, 8, 9.4915)])

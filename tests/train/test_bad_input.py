@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
@@ -117,88 +119,63 @@ def test_a_mistake_is_said_with_its_line(refused: Refuse, mistake: str) -> None:
     assert len(str(error)) < 2000, "a message is read by a person"
 
 
-def test_several_mistakes_are_told_together(refused: Refuse) -> None:
-    text = SOUND.replace("p: 20", "p: 0").replace("w: 60", "w: 2.5").replace("axis: B", "axes: B")
-    error = refused(text)
-    places = {problem.place.rsplit(":", 1)[1] for problem in error.problems}
-    assert {"3", "4", "7"} <= places
-
-
-def test_several_dangling_names_are_told_together(refused: Refuse) -> None:
-    text = SOUND.replace("[p, w]", "[x, y]").replace("{a: 1}", "{z: 1}").replace("b: {expect", "q: {expect")
-    error = refused(text, "no wheel 'x'", "no wheel 'y'", "no link 'z'", "no link 'q'")
-    assert len(error.problems) == 4
-
-
-def test_several_pairs_without_a_carrier_are_told_together(refused: Refuse) -> None:
-    text = SOUND.replace("axis: B", "axis: A").replace("[p, w]}", "[p, w]}\n  - {id: again, pair: [w, p]}")
-    error = refused(text, "'p~w' has no carrier", "'again' has no carrier")
-    assert len(error.problems) == 2
-
-
-def test_a_wrong_expectation_is_a_result_and_no_error() -> None:
-    answer = load(SOUND.replace("-1/3", "1/3")).solve()
-    assert not answer
-    (failure,) = answer.failures
-    assert (failure.name, failure.expect_holds) == ("b", False)
-
-
-def test_missing_inputs_are_a_verdict_and_no_error() -> None:
-    answer = load(SOUND.replace("inputs: {a: 1}", "inputs: {}")).solve()
-    assert answer.verdict.kind == "free"
-    assert set(answer.verdict.links) == {"a", "b"}
-    assert not answer
-    assert answer.outputs["b"].expect_holds is False
-
-
-def test_inputs_that_contradict_are_a_verdict_and_no_error() -> None:
-    verdict = load(SOUND.replace("{a: 1}", "{a: 1, b: 1}")).solve().verdict
-    assert verdict.kind == "contradictory"
-    assert set(verdict.prescriptions) == {"a = 1", "b = 1"}
-
-
-@pytest.mark.parametrize("text", ["", "   \n\n", "# only a remark\n", "---\n", "~\n", "null\n"])
-def test_an_empty_file_is_refused(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "nothing.yaml"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(GearTrainError, match="empty"):
-        load(path)
-
-
-@pytest.mark.parametrize("text", ["- a\n- b\n", "just words\n", "42\n"])
-def test_a_file_that_is_no_mapping_is_refused(refused: Refuse, text: str) -> None:
-    refused(text, "not a mapping")
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (("p: 20", "w: 60", "axis: B"), ("p: 0", "w: 2.5", "axes: B"), [":3: ", ":4: ", ":7: "]),
+        (
+            ("[p, w]", "{a: 1}", "b: {expect"),
+            ("[x, y]", "{z: 1}", "q: {expect"),
+            ["no wheel 'x'", "no wheel 'y'", "no link 'z'", "no link 'q'"],
+        ),
+        (
+            ("axis: B", "[p, w]}"),
+            ("axis: A", "[p, w]}\n  - {id: again, pair: [w, p]}"),
+            ["'p~w' has no carrier", "'again' has no carrier"],
+        ),
+    ],
+)
+def test_several_mistakes_are_reported_together(refused: Refuse, old: Any, new: Any, said: list[str]) -> None:
+    text = SOUND
+    for one, other in zip(old, new, strict=True):
+        text = text.replace(one, other)
+    assert len(refused(text, *said).problems) >= len(said)
 
 
 @pytest.mark.parametrize(
-    "content",
-    [b"\x89PNG\r\n\x1a\n\x00\x00", b"links: {a: \xff\xfe}", bytes(range(256)), b"links:\x00\n", b"\x1b[31mlinks: {}\n"],
+    ("content", "said"),
+    [
+        *((each, "empty") for each in (b"", b"   \n\n", b"# only a remark\n", b"---\n", b"~\n", b"null\n")),
+        *((each, "not a mapping") for each in (b"- a\n- b\n", b"just words\n", b"42\n")),
+        *((each, "text|YAML") for each in (b"\x89PNG\r\n\x1a\n\x00\x00", b"links: {a: \xff\xfe}", bytes(range(256)))),
+        *((each, "text|YAML") for each in (b"links:\x00\n", b"\x1b[31mlinks: {}\n")),
+    ],
 )
-def test_a_binary_file_is_refused(tmp_path: Path, content: bytes) -> None:
-    path = tmp_path / "binary.yaml"
+def test_a_file_without_a_declaration_is_refused(tmp_path: Path, content: bytes, said: str) -> None:
+    path = tmp_path / "nothing.yaml"
     path.write_bytes(content)
-    with pytest.raises(GearTrainError) as caught:
+    with pytest.raises(GearTrainError, match=said) as caught:
         load(path)
     assert str(path) in str(caught.value)
-    assert "text" in str(caught.value) or "YAML" in str(caught.value)
+
+
+def test_what_is_no_regular_file_is_refused(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.yaml"
+    os.mkfifo(pipe)
+    for path, said in (
+        *((each, "this is not a regular file") for each in (pipe, Path("/dev/zero"), Path("/dev/null"))),
+        (tmp_path, "this is a directory"),
+        (tmp_path / "absent.yaml", "the file does not exist"),
+        ("pennestri-2022", "pennestri-2002"),
+    ):
+        with pytest.raises(GearTrainError, match=said):
+            load(path)
 
 
 def test_a_byte_order_mark_and_dos_line_ends_do_no_harm(tmp_path: Path) -> None:
     path = tmp_path / "dos.yaml"
     path.write_bytes(b"\xef\xbb\xbf" + SOUND.replace("\n", "\r\n").encode())
     assert load(path).solve()
-
-
-def test_a_directory_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(GearTrainError, match="this is a directory"):
-        load(tmp_path)
-
-
-def test_a_file_that_is_not_there_is_refused_with_a_suggestion(tmp_path: Path) -> None:
-    with pytest.raises(GearTrainError, match="the file does not exist"):
-        load(tmp_path / "absent.yaml")
-    with pytest.raises(GearTrainError, match="pennestri-2002"):
-        load("pennestri-2022")
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads everything")
@@ -246,28 +223,15 @@ def test_a_file_that_is_wrong_many_times_is_told_at_most_twenty_and_that_there_i
         load(WRONG[kind] + "\n")
     problems = caught.value.problems
     assert 1 <= len(problems) <= 21
-    assert len(problems) == 1 or "more problems were found" in str(problems[-1])
+    assert len(problems) == 1 or re.search("and .*more problems were found", str(problems[-1]))
+    assert kind != "entries that are no mappings" or f"and {MANY - 20} more" in str(problems[-1])
     assert len(made) < 60  # and no more were put into words
-
-
-def test_how_many_more_problems_there_are_is_said_where_they_are_counted() -> None:
-    text = "links: {frame: {}}\ngears: [" + "1," * 1000 + "]\n"
-    with pytest.raises(GearTrainError, match="and 980 more problems were found"):
-        load(text)
 
 
 def test_a_file_of_more_values_than_a_train_has_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("geartrain.train.yaml_nodes.MOST_VALUES", 1000)
     with pytest.raises(GearTrainError, match="the file is too large"):
         load("links: {frame: {}}\nfixed: [" + "a," * 1000 + "]\n")
-
-
-def test_only_regular_files_are_read(tmp_path: Path) -> None:
-    pipe = tmp_path / "pipe.yaml"
-    os.mkfifo(pipe)
-    for path in (pipe, Path("/dev/zero"), Path("/dev/null")):
-        with pytest.raises(GearTrainError, match="this is not a regular file"):
-            load(path)
 
 
 def test_aliases_in_reason_are_welcome() -> None:
@@ -278,21 +242,6 @@ def test_aliases_in_reason_are_welcome() -> None:
 @pytest.mark.parametrize(("opening", "closing"), [("[", "]"), ("{a: ", "}")])
 def test_deep_nesting_is_refused(refused: Refuse, opening: str, closing: str) -> None:
     refused(f"links: {opening * 20000}{closing * 20000}\n", "nested too deeply", line=1)
-
-
-def test_yaml_1_1_traps_are_read_as_written() -> None:
-    train = load(
-        """
-        frame: off
-        links: {off: {}, on: {wheels: {y: 010}}, n: {wheels: {N: {teeth: 20, internal: false}}}}
-        revolutes: [{pair: [off, on], axis: 1_000}, {pair: [off, n], axis: 12:30:45}]
-        gears: [{pair: [y, N]}]
-        inputs: {on: 1:30}
-        outputs: {n: {expect: -1/60}}
-        """
-    )
-    assert train.declaration.wheels["y"][1].count == 10, "010 is ten, and not eight"
-    assert train.solve()
 
 
 @given(st.text(alphabet="{}[]:,-&*!|>'\"%@`#? \n\tabp0159~/.", max_size=60))
@@ -321,54 +270,46 @@ def test_no_scrambled_declaration_raises_anything_but_our_own_error(draw: st.Dat
     assert all(problem.what and problem.fix for problem in problems)
 
 
-class TestMappings:
-    """The same care for data that came from no file: the place is the path of the value."""
-
-    def test_a_mistake_is_said_with_its_path(self) -> None:
-        data = {"links": {"frame": {}, "a": {"wheels": {"p": 0}}}}
-        with pytest.raises(GearTrainError) as caught:
-            load(data)
-        assert caught.value.problems[0].place.startswith("links.a.wheels.p")
-
-    @pytest.mark.parametrize("teeth", [20.0, 20.5, True, None, [], "20 teeth", 10**13, float("nan"), b"20"])
-    def test_a_tooth_count_is_a_whole_number(self, teeth: object) -> None:
-        with pytest.raises(GearTrainError):
-            load({"links": {"frame": {}, "a": {"wheels": {"p": teeth}}}})
-
-    @pytest.mark.parametrize("speed", [float("nan"), float("inf"), True, None, [1], b"1", 1j])
-    def test_a_speed_is_a_finite_number(self, speed: object) -> None:
-        data = {"links": {"frame": {}, "a": {}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}]}
-        with pytest.raises(GearTrainError):
-            load({**data, "inputs": {"a": speed}})
-
-    @pytest.mark.parametrize("data", [{}, {"links": None}, {"links": {}}, {"links": []}, {1: 2}])
-    def test_a_declaration_has_links_and_a_frame(self, data: dict[object, object]) -> None:
-        with pytest.raises(GearTrainError):
-            load(data)  # type: ignore[arg-type]
+# data that came from no file: the place is the path of the value
+JOINED = {"links": {"frame": {}, "a": {}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}]}
+TEETH = (20.0, 20.5, True, None, [], "20 teeth", 10**13, float("nan"), b"20")
 
 
-@pytest.mark.parametrize("count", [1, 3, 40])
-def test_pairs_that_are_lists_are_answered_once_with_the_form_to_write(refused: Refuse, count: int) -> None:
-    listed = "".join("  - [p, w]\n" for _ in range(count))
-    (problem,) = refused(changed("  - {pair: [p, w]}\n", listed)).problems
-    assert problem.place.endswith(":9")
-    assert problem.what == ("an entry of `gears` is a list" if count == 1 else f"{count} entries of `gears` are lists")
-    assert "write `p ~ w`" in problem.fix
-
-
-def test_turning_pairs_that_are_lists_are_answered_once(refused: Refuse) -> None:
-    text = SOUND.replace("{pair: [frame, a], axis: A}", "[frame, a]").replace(
-        "{pair: [frame, b], axis: B}", "[frame, b]"
-    )
-    (problem,) = refused(text).problems
-    assert problem.what == "2 entries of `revolutes` are lists"
-    assert "`{pair: [frame, a], axis: A}`" in problem.fix
-
-
-def test_pairs_that_are_lists_in_plain_data_are_answered_alike() -> None:
-    data = yaml.safe_load(SOUND) | {"gears": [("p", "w")]}
-    with pytest.raises(GearTrainError, match=r"an entry of `gears` is a list(.|\n)*write `p ~ w`"):
+@pytest.mark.parametrize(
+    ("data", "place"),
+    [
+        ({"links": {"frame": {}, "a": {"wheels": {"p": 0}}}}, "links.a.wheels.p"),
+        *(({"links": {"frame": {}, "a": {"wheels": {"p": teeth}}}}, "links.a.wheels.p") for teeth in TEETH),
+        *((JOINED | {"inputs": {"a": speed}}, "inputs.a") for speed in (float("nan"), float("inf"), True, None)),
+        *((JOINED | {"inputs": {"a": speed}}, "inputs.a") for speed in ([1], b"1", 1j)),
+        *((each, "") for each in ({}, {"links": None}, {"links": {}}, {"links": []}, {1: 2})),
+    ],
+)
+def test_a_mistake_in_plain_data_is_reported_with_its_path(data: Any, place: str) -> None:
+    with pytest.raises(GearTrainError) as caught:
         load(data)
+    assert caught.value.problems[0].place.startswith(place)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "what", "fix"),
+    [
+        ("  - {pair: [p, w]}\n", "  - [p, w]\n", "an entry of `gears` is a list", "write `p ~ w`"),
+        ("  - {pair: [p, w]}\n", "  - [p, w]\n" * 40, "40 entries of `gears` are lists", "write `p ~ w`"),
+        (
+            "{pair: [frame, a], axis: A}\n  - {pair: [frame, b], axis: B}",
+            "[frame, a]\n  - [frame, b]",
+            "2 entries of `revolutes` are lists",
+            "`{pair: [frame, a], axis: A}`",
+        ),
+    ],
+)
+def test_pairs_that_are_lists_are_answered_once(refused: Refuse, old: str, new: str, what: str, fix: str) -> None:
+    (problem,) = refused(changed(old, new)).problems
+    assert problem.what == what
+    assert fix in problem.fix
+    with pytest.raises(GearTrainError, match=what):
+        load(yaml.safe_load(changed(old, new)))
 
 
 def test_a_missing_revolutes_is_one_error(refused: Refuse) -> None:

@@ -55,7 +55,7 @@ def test_ids_are_the_text_as_written() -> None:
         frame: no
         links:
           no: {}
-          1: {wheels: {010: 20}}
+          1: {wheels: {010: 020}}
           1:30: {wheels: {0x10: 60}}
         revolutes: [{pair: [no, 1], axis: yes}, {pair: [no, 1:30], axis: 2024-01-01}]
         gears: [{pair: [010, 0x10]}]
@@ -182,36 +182,6 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
     assert wheel.status == "surviving"
 
 
-@pytest.mark.parametrize(
-    ("teeth", "said"),
-    [
-        ("{value: 60, range: [61, 65]}", "outside its range or choices"),
-        ("{value: 60, range: [65, 55]}", "empty"),
-        ("{value: 60, choices: [50, 55]}", "outside its range or choices"),
-        ("{value: 60, range: [59, 61], weights: [1, 2]}", "2 weights are given for 3 counts"),
-        ("{range: [59, 61]}", "no value"),
-        ("{value: 0}", "'0' is not a tooth count"),
-        ("20.0", "not a tooth count"),
-        ("1e3", "not a tooth count"),
-        ("true", "not a tooth count"),
-        ("٣٤", "not a tooth count"),
-    ],
-)
-def test_a_tooth_count_that_makes_no_sense_is_refused(teeth: str, said: str) -> None:
-    assert said in refusal(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", f"w: {{teeth: {teeth}}}"))
-
-
-def test_a_count_still_to_be_found_can_be_declared_and_not_solved() -> None:
-    text = PAIR.format(rest="inputs: {a: 1}").replace("w: 60", "w: {teeth: {search: [15, 80]}}")
-    assert "wheel 'w' has no tooth count yet" in refusal(text)
-
-
-def test_a_tooth_count_may_be_a_million_million() -> None:
-    assert load(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", "w: 1000000000000")).solve()["b"] == Fraction(
-        -20, 10**12
-    )
-
-
 # outputs --------------------------------------------------------------------------------------------------------------
 
 
@@ -223,29 +193,6 @@ def test_an_output_is_a_link_or_a_link_seen_from_a_link() -> None:
     assert answer["arm"] == 2
     # in the carrier's frame the sun makes 5 turns, and the planet -24/18 as many
     assert answer["rel"] == Fraction(-24, 18) * 5
-
-
-def test_an_output_is_requested_for_by_its_name() -> None:
-    train = planetary("inputs: {sun: 7}\noutputs: {rel: {of: planet, relative_to: carrier}}")
-    assert train.solve(output="rel")["rel"] == train.solve()["rel"]
-    with pytest.raises(GearTrainError, match="no output or link 'nonsense'"):
-        train.solve(output="nonsense")
-
-
-@pytest.mark.parametrize(
-    ("outputs", "said"),
-    [
-        ("{x: {}}", "no link 'x'"),
-        ("{b: {relative_to: c}}", "no link 'c'"),
-        ("{b: {dial: c}}", "no dial 'c'"),
-        ("{b: {expect: one third}}", "not a number"),
-        ("{b: {expect: 1/0}}", "divides by zero"),
-        ("{b: {published: {value: 1, as: output/crank}}}", "published"),
-        ("{b: {published: {value: 1, source: nobody}}}", "no source 'nobody'"),
-    ],
-)
-def test_outputs_that_point_nowhere_are_refused(outputs: str, said: str) -> None:
-    assert said in refusal(PAIR.format(rest=f"inputs: {{a: 1}}\noutputs: {outputs}"))
 
 
 # units ----------------------------------------------------------------------------------------------------------------
@@ -267,45 +214,7 @@ def test_a_unit_names_what_one_turn_takes() -> None:
     assert pair("inputs: {a: 1}\nunit: {per: 18 ft}").declaration.unit_days is None
 
 
-@pytest.mark.parametrize(
-    ("rest", "said"),
-    [
-        ("inputs: {a: 2 mm}", "a length, but a speed is required"),
-        ("inputs: {a: 2 furlongs}", "unknown unit"),
-        ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is not a unit"),
-        ("inputs: {a: 1}\nunit: {per: 7}", "is not a unit"),
-        ("inputs: {a: 1}\nunit: {per: month_synodic_j2000}", "did you mean 'month_synodic_J2000'"),
-        ("inputs: {frame: 1}", "the frame 'frame' is an input"),
-        ("inputs: {c: 1}", "no link 'c'"),
-        ("inputs: {a: 1}\ncrank: c", "no link 'c'"),
-    ],
-)
-def test_inputs_and_units_that_make_no_sense_are_refused(rest: str, said: str) -> None:
-    assert said in refusal(PAIR.format(rest=rest))
-
-
 # targets --------------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("targets", "said"),
-    [
-        ("[month_synodyc_J2000]", "did you mean 'month_synodic_J2000'"),
-        ("[{name: month_synodic_J2000, period: 3 d}]", "a target needs exactly one of its keys"),
-        ("[{turns: 3}]", "a target needs exactly one of its keys"),
-        ("[{period: 29.5}]", "no unit"),
-        ("[{period: 29.5 mm}]", "the train's unit is not a length"),
-    ],
-)
-def test_targets_that_make_no_sense_are_refused(targets: str, said: str) -> None:
-    rest = f"inputs: {{a: 1}}\nunit: {{per: 1 d}}\noutputs: {{b: {{targets: {targets}}}}}"
-    assert said in refusal(PAIR.format(rest=rest))
-
-
-def test_a_count_is_no_target() -> None:
-    name = next(row.name for row in period_table().values() if row.kind == "count")
-    text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: 1 d}}\noutputs: {{b: {{targets: [{name}]}}}}")
-    assert f"'{name}' is a count" in refusal(text)
 
 
 def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
@@ -315,10 +224,74 @@ def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
     assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == period_table()[name].value
 
 
-@pytest.mark.parametrize("unit", ["", "unit: {per: 18 ft}"])
-def test_a_period_is_no_target_where_the_unit_is_no_time(unit: str) -> None:
-    text = PAIR.format(rest=f"inputs: {{a: 1}}\n{unit}\noutputs: {{b: {{targets: [{{period: 3 d}}]}}}}")
-    assert ("the train's unit is not a time" if unit else "the train has no unit of time") in refusal(text)
+# what makes no sense --------------------------------------------------------------------------------------------------
+
+REFUSED = {
+    "inputs: {a: 1}\noutputs: {%s}": [
+        ("x: {}", "no link 'x'"),
+        ("b: {relative_to: c}", "no link 'c'"),
+        ("b: {dial: c}", "no dial 'c'"),
+        ("b: {expect: one third}", "not a number"),
+        ("b: {expect: 1/0}", "divides by zero"),
+        ("b: {published: {value: 1, as: output/crank}}", "published"),
+        ("b: {published: {value: 1, source: nobody}}", "no source 'nobody'"),
+        ("b: {targets: [{period: 3 d}]}", "the train has no unit of time"),
+    ],
+    "inputs: {%s}": [
+        ("a: 2 mm", "a length, but a speed is required"),
+        ("a: 2 furlongs", "unknown unit"),
+        ("frame: 1", "the frame 'frame' is an input"),
+        ("c: 1", "no link 'c'"),
+    ],
+    "inputs: {a: 1}\n%s": [
+        ("crank: c", "no link 'c'"),
+        ("unit: {per: 7 furlongs}", "is not a unit"),
+        ("unit: {per: 7}", "is not a unit"),
+        ("unit: {per: month_synodic_j2000}", "did you mean 'month_synodic_J2000'"),
+        ("unit: {per: 18 ft}\noutputs: {b: {targets: [{period: 3 d}]}}", "the train's unit is not a time"),
+        ("view: {positive: up}", "positive"),
+    ],
+    "inputs: {a: 1}\nunit: {per: 1 d}\noutputs: {b: {targets: [%s]}}": [
+        ("month_synodyc_J2000", "did you mean 'month_synodic_J2000'"),
+        ("{name: month_synodic_J2000, period: 3 d}", "a target needs exactly one of its keys"),
+        ("{turns: 3}", "a target needs exactly one of its keys"),
+        ("{period: 29.5}", "no unit"),
+        ("{period: 29.5 mm}", "the train's unit is not a length"),
+        *((row.name, f"'{row.name}' is a count") for row in period_table().values() if row.kind == "count"),
+    ],
+    "inputs: {a: 1}\ntooth_form: {%s}": [
+        ("form: square", "triangular"),
+        ("half_angle: 30 deg", "form"),
+        ("form: triangular, half_angle: 30, clearance_factor: 1.01", "no unit"),
+        ("form: triangular, half_angle: 95 deg, clearance_factor: 1.01", "outside 0 to 90 deg"),
+        ("form: triangular, half_angle: 30 deg, clearance_factor: 1.01, window: 0.5", "given 2 times"),
+        ("form: triangular, half_angle: 30 deg", "given 0 times"),
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    ("rest", "said"), [(rest % each, said) for rest, parts in REFUSED.items() for each, said in parts]
+)
+def test_what_makes_no_sense_is_refused(rest: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest=rest))
+
+
+@pytest.mark.parametrize(
+    ("teeth", "said"),
+    [
+        ("{teeth: {value: 60, range: [61, 65]}}", "outside its range or choices"),
+        ("{teeth: {value: 60, range: [65, 55]}}", "empty"),
+        ("{teeth: {value: 60, choices: [50, 55]}}", "outside its range or choices"),
+        ("{teeth: {value: 60, range: [59, 61], weights: [1, 2]}}", "2 weights are given for 3 counts"),
+        ("{teeth: {range: [59, 61]}}", "no value"),
+        ("{teeth: {search: [15, 80]}}", "wheel 'w' has no tooth count yet"),
+        ("{teeth: {value: 0}}", "'0' is not a tooth count"),
+        *((each, "not a tooth count") for each in ("20.0", "1e3", "true", "٣٤")),
+    ],
+)
+def test_a_tooth_count_that_makes_no_sense_is_refused(teeth: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", f"w: {teeth}"))
 
 
 # view, dials, what is kept for later ----------------------------------------------------------------------------------
@@ -328,7 +301,6 @@ def test_the_view_is_counter_clockwise_unless_it_says_otherwise() -> None:
     assert pair().declaration.view.positive == "counter-clockwise"
     view = pair("inputs: {a: 1}\nview: {from: front, positive: clockwise}").declaration.view
     assert (view.from_, view.positive) == ("front", "clockwise")
-    assert "positive" in refusal(PAIR.format(rest="view: {positive: up}"))
 
 
 def test_the_view_and_the_dial_never_change_a_sign() -> None:
@@ -337,37 +309,6 @@ def test_the_view_and_the_dial_never_change_a_sign() -> None:
     assert train.solve()["b"] == Fraction(-1, 3)
     dial = train.declaration.dials["d"]
     assert (dial.face, dial.turns, dial.divisions) == ("back", 4, 223)
-
-
-def test_teeth_and_loads_are_read_now_and_used_later() -> None:
-    train = pair(
-        """inputs: {a: 1}
-tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
-loads: {b: -3 N m}
-solve_for: a
-rate: 1 turn/s
-crank: a
-sources: {P74: "Price 1974"}
-errata: [{place: table 1, printed: 5, right: 6, why: arithmetic}]"""
-    )
-    assert train.solve()["b"] == Fraction(-1, 3)
-    assert train.declaration.sources["P74"].cite == "Price 1974"
-    assert train.declaration.errata[0].printed == "5"
-
-
-@pytest.mark.parametrize(
-    ("form", "said"),
-    [
-        ("{form: square}", "triangular"),
-        ("{half_angle: 30 deg}", "form"),
-        ("{form: triangular, half_angle: 30, clearance_factor: 1.01}", "no unit"),
-        ("{form: triangular, half_angle: 95 deg, clearance_factor: 1.01}", "outside 0 to 90 deg"),
-        ("{form: triangular, half_angle: 30 deg, clearance_factor: 1.01, window: 0.5}", "given 2 times"),
-        ("{form: triangular, half_angle: 30 deg}", "given 0 times"),
-    ],
-)
-def test_tooth_forms_that_make_no_sense_are_refused(form: str, said: str) -> None:
-    assert said in refusal(PAIR.format(rest=f"inputs: {{a: 1}}\ntooth_form: {form}"))
 
 
 Refuse = Callable[..., GearTrainError]

@@ -30,8 +30,7 @@ def short_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     """A report follows motion over 20,001 positions: what can be raised of it is raised at fewer."""
     monkeypatch.setattr("geartrain.report.motion_report._TURNS", 2.0)
     monkeypatch.setattr("geartrain.report.motion_report._POSITIONS", 201)
-    for bound, low in {"_MOST_STEPS": 64, "_MOST_LEFT": 64, "_MOST_WIDE": 16, "_BATCHES": 1}.items():
-        monkeypatch.setattr(f"geartrain.dynamics.motion.extreme_search.{bound}", low)
+    monkeypatch.setattr("geartrain.dynamics.motion.extreme_search.MOST_KINKS", 100)
 
 
 def ask(train: GearTrain) -> None:

@@ -14,7 +14,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.dynamics import find_torque_period
 from geartrain.report import to_markdown
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, describe_budget, find_budget
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, describe_budget, find_budget
 
 TROPICAL_YEAR, TROPICAL_MONTH = Fraction("365.242190402"), Fraction("27.321582241")
 SHORT = {"turns": 2.0, "samples": 2001}
@@ -52,7 +52,7 @@ def test_days_are_degrees_at_the_pointers_own_speed(freeth: TrainBudget) -> None
     assert moon.degrees_per_day == pytest.approx(360 * 254 / 19 / float(TROPICAL_YEAR), rel=1e-12)
     for cause in moon.ranked:
         assert cause.days == pytest.approx((cause.degrees or 0.0) / (moon.degrees_per_day or 1.0))
-    # in a month's phase the Sun's own speed is off: 12.19 degrees a day, not 13.18
+    # the phase of the Moon is relative to the Sun: 12.19 degrees a day, not 13.18
     assert freeth["synodic month"].degrees_per_day == pytest.approx(360 * 235 / 19 / float(TROPICAL_YEAR), rel=1e-12)
 
 
@@ -67,7 +67,7 @@ def test_the_drift_overtakes_the_maximum_other_cause_when_the_years_say(freeth: 
 
 
 def series(M: float, e: float) -> float:
-    """The equation of centre to the fifth power of e, as the textbooks have it."""
+    """The equation of centre as a series to the fifth power of e, from textbooks."""
     return (
         (2 * e - e**3 / 4 + 5 * e**5 / 96) * sin(M)
         + (5 * e**2 / 4 - 11 * e**4 / 24) * sin(2 * M)
@@ -96,7 +96,7 @@ def test_the_pins_of_the_moon_leave_what_a_blind_search_finds(freeth: TrainBudge
 def test_a_sun_without_pins_errs_by_the_whole_equation_of_centre(freeth: TrainBudget) -> None:
     peak = max(series(each, 0.0167) for each in np.linspace(0, pi, 100_001))
     assert freeth["sun"]["theory"].degrees == pytest.approx(2 * degrees(peak), rel=1e-6)
-    # Moon and Sun have cycles that nothing relates: ranges add, squares of rms add
+    # the cycles of Moon and Sun are unrelated, so ranges add, and squares of rms add
     both, parts = freeth["synodic month"]["theory"], (freeth["moon"]["theory"], freeth["sun"]["theory"])
     assert both.degrees == pytest.approx(sum(part.degrees or 0.0 for part in parts))
     assert both.rms == pytest.approx(sqrt(sum((part.rms or 0.0) ** 2 for part in parts)))
@@ -145,7 +145,7 @@ def test_lost_motion_of_involutes_is_the_sum_of_their_backlash_at_the_pointer() 
     form = "tooth_form: {form: involute, pressure_angle: 20 deg, backlash: 0.02}"
     train = declare(f"[{{pair: [p, q], {form}}}, {{pair: [r, s], {form}}}]")
     pointer = find_budget(train, BudgetQuestion(**SHORT))["c"]
-    # play in pitches of the driven wheel: 360/60 deg a pitch, a third of it at c; and 360/54 deg
+    # backlash in pitches of the driven wheel: 360/60 deg per pitch, a third of it at c; and 360/54 deg
     first, second = (mesh.backlash for mesh in train.meshes)
     assert first > 0 < second
     wanted = first * 360 / 60 / 3 + second * 360 / 54
@@ -254,7 +254,7 @@ def test_wheels_cut_nearly_true_add_nothing_to_the_ripple_of_even_teeth() -> Non
     pointer = cut("0.00001 %")
     assert (pointer["teeth"].degrees or 0.0) > 0.02
     assert (pointer["cutting"].degrees or 1.0) < 1e-4
-    # small errors of the same wheels, twice as great, lead the pointer twice as far astray, but for what switches
+    # twice the errors of the same wheels give twice the deviation of the pointer, except where tooth pairs change
     assert (cut("0.02 %")["cutting"].degrees or 0.0) / (cut("0.01 %")["cutting"].degrees or 1.0) == pytest.approx(
         2, rel=0.05
     )
@@ -264,7 +264,7 @@ def test_cutting_of_one_pair_is_as_great_as_the_places_of_its_teeth() -> None:
     cause = cut("0.5 %", 256)["cutting"]
     # y + phi_j = f(x + theta_i): both teeth are off by 0.5 % of their own pitch, at the pointer 360/225 degrees
     sigma = sqrt(2) * 0.005 * 360 / 225
-    # of several couples that may touch the foremost does, and the mean is the pointer's setting: no more than that
+    # the foremost of several tooth pairs drives, and the mean is removed, so the rms is at most about sigma
     assert 0.5 * sigma < (cause.rms or 0.0) < 1.1 * sigma
     assert cause.interval is not None
     assert cause.interval[0] < (cause.degrees or 0.0) < cause.interval[1]
@@ -297,7 +297,7 @@ def test_the_cranks_torque_is_the_loads_over_the_efficiency() -> None:
 
 
 def test_a_pointer_driven_alone_loses_on_the_way_from_the_crank() -> None:
-    """Teeth that lose more one way than the other."""
+    """The efficiency of the teeth depends on the direction of power."""
     gears = "gears: [{pair: [p, q], efficiency: {forward: 0.9, backward: 0.5}}, {pair: [r, s], efficiency: 0.8}]\n"
     crank = find_budget(geartrain.load(PAIRS + gears), BudgetQuestion(**SHORT)).crank
     assert crank.pointers == pytest.approx({"c": 0.9 * 0.8})
@@ -312,8 +312,6 @@ def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget)
 
 
 def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
-    from geartrain.workshop import budget_figure
-
     requested = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
     budget = find_budget(geartrain.load("freeth-2021-teeth"), requested)
     axes = budget_figure(budget).axes[0]
@@ -334,9 +332,6 @@ def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
 
 
 def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:
-    from geartrain.report import to_markdown
-    from geartrain.workshop import describe_budget
-
     text = to_markdown([describe_budget(freeth)])
     missing = freeth.not_declared
     assert f"theory of {missing['theory']}, teeth of {missing['teeth']}" in text
@@ -346,26 +341,22 @@ def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(fr
 
 
 def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
-    from geartrain.workshop import budget_figure
-
     with pytest.raises(geartrain.GearTrainError, match="nothing to draw"):
         budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))
 
 
 def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
-    train = GearTrain.declare(
-        {
-            "links": {"frame": {}, "x": {"wheels": {"a": 24}}, "y": {"wheels": {"b": 36}}},
-            "revolutes": [{"pair": ["frame", "x"], "axis": "A"}, {"pair": ["frame", "y"], "axis": "B"}],
-            "gears": [{"pair": ["a", "b"]}],
-            "inputs": {"x": -1},
-            "outputs": {"y": {}},
-            "loads": {"y": "-3 N m"},
-            "unit": {"per": "1 d"},
-        }
-    )
+    train = geartrain.load("""
+links: {frame: {}, x: {wheels: {a: 24}}, y: {wheels: {b: 36}}}
+revolutes: {A: [frame, x], B: [frame, y]}
+gears: [a ~ b]
+inputs: {x: -1}
+outputs: {y: {}}
+loads: {y: -3 N m}
+unit: {per: 1 d}
+""")
     crank = find_budget(train, BudgetQuestion(**SHORT)).crank
-    # no loss: 3 N m at two thirds of the speed, put in
+    # no loss: 3 N m at two thirds of the speed of the crank
     assert crank.torque is not None
     assert crank.torque == pytest.approx(2)
     assert crank.over_turn is not None
@@ -375,50 +366,7 @@ def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
 # ------------------------------------------------------------------------ over how many turns a budget tells the torque
 
 
-TRIANGULAR = """
-tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
-friction: 0.2
-"""
-
-
-def natural_turns(train: GearTrain, pointer: str) -> float:
-    """Turns of the crank over which the budget of a pointer takes the torque."""
-    over_turn = find_budget(train, BudgetQuestion((pointer,), samples=4, trials=1)).crank.over_turn
-    assert over_turn is not None
-    return over_turn.span
-
-
-def test_a_year_of_a_crank_that_turns_five_times_in_it() -> None:
-    train = geartrain.load(f"extends: pennestri-2002{TRIANGULAR}links: {{'5': {{bearing: 1 N mm}}}}\n")
-    assert find_torque_period(train.mechanics) == 95
-    assert natural_turns(train, "1") == pytest.approx(5, rel=1e-9)
-
-
-def test_a_clock_repeats_long_before_a_year_has_passed() -> None:
-    """Between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter."""
-    train = geartrain.load("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n")
-    assert find_torque_period(train.mechanics) == Fraction(1, 4)
-
-
-def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
-    train = geartrain.load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
-    period = find_torque_period(train.mechanics)
-    assert period == Fraction(1, 4)
-    found = train.torques(turns=1, samples=200)
-    assert found.period == 0.25
-    for turns in (0.0321, 0.2, 0.61):
-        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)
-
-
-def test_where_nothing_is_uneven_an_hour_tells_as_much_as_a_year() -> None:
-    train = geartrain.load("extends: longcase-clock\nloads: {escape: -1 N mm}\n")
-    assert find_torque_period(train.mechanics) is None
-    assert natural_turns(train, "minute") == 1
-
-
-def test_a_year_counts_days_of_the_unit_of_speeds() -> None:
-    """A pin that comes round in a thousand days: a year is so many turns of a wheel that turns once a day."""
-    train = geartrain.load("""
+DAYS = """
 links: {frame: {}, day: {wheels: {a: 10}}, slow: {wheels: {b: 10000}}, slot: {bearing: 1 N mm}}
 revolutes: [{pair: [frame, day], axis: A}, {pair: [frame, slow], axis: B}, {pair: [frame, slot], axis: C}]
 gears: [{pair: [a, b]}]
@@ -426,9 +374,39 @@ couplings: [{kind: pin_and_slot, pin: slow, slot: slot, pin_radius: 10 mm, offse
 unit: {per: 1 d}
 inputs: {day: 1}
 outputs: {slot: {}}
-""")
-    assert find_torque_period(train.mechanics) == 1000
-    assert natural_turns(train, "slot") == pytest.approx(float(TROPICAL_YEAR), rel=1e-12)
+"""
+TRIANGULAR = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\nfriction: 0.2\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "period", "pointer", "turns"),
+    [
+        # a year of a crank that turns five times in it
+        (f"extends: pennestri-2002\n{TRIANGULAR}links: {{'5': {{bearing: 1 N mm}}}}\n", 95, "1", 5.0),
+        # between weight and escape wheel 8, 60 and 420 teeth pass in an hour: a quarter of each in a quarter
+        ("extends: longcase-clock-bs978\nloads: {escape: -1 N mm}\n", Fraction(1, 4), "minute", 0.25),
+        # with constant ratios and friction, an hour gives the same result as a year
+        ("extends: longcase-clock\nloads: {escape: -1 N mm}\n", None, "minute", 1.0),
+        # a pin that comes round in a thousand days: a year is so many turns of a wheel that turns once a day
+        (DAYS, 1000, "slot", float(TROPICAL_YEAR)),
+    ],
+)
+def test_a_budget_takes_the_torque_over_a_period_or_a_year(
+    text: str, period: Fraction | None, pointer: str, turns: float
+) -> None:
+    train = geartrain.load(text)
+    assert find_torque_period(train.mechanics) == period
+    over_turn = find_budget(train, BudgetQuestion((pointer,), samples=4, trials=1)).crank.over_turn
+    assert over_turn is not None
+    assert over_turn.span == pytest.approx(turns, rel=1e-9)
+
+
+def test_teeth_that_keep_their_ratio_repeat_too_where_their_friction_is_uneven() -> None:
+    train = geartrain.load("extends: longcase-clock-cycloidal\nfriction: 0.2\nloads: {escape: -1 N mm}\n")
+    found = train.torques(turns=1, samples=200)
+    assert find_torque_period(train.mechanics) == found.period == 0.25
+    for turns in (0.0321, 0.2, 0.61):
+        assert found.at(turns) == pytest.approx(found.at(turns + 0.25), rel=1e-6)
 
 
 # ---------------------------- the torque at the crank over a train's natural run, and a clock's weight against its drum

@@ -107,7 +107,7 @@ def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
 
 @pytest.mark.parametrize("name", ["freeth-2008", "voulgaris-2024-a"])
 def test_the_edge_of_a_dial_passes_the_wheel_of_the_crank(name: str) -> None:
-    """Its feet stand beyond its dials, and the plate went straight to them, through the crown wheel beside the dial."""
+    """The feet are outside the dials; the edge of the plate between them passed through the crown wheel."""
     work = model(name)
     (plate,) = (each for each in work.parts if each.name.startswith("dial zodiac") and each.kind == "plate")
     (crown,) = (each for each in work.parts if each.name == "a1")

@@ -18,10 +18,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError
+import geartrain
+from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import export_files, notices, train_file, wheel_file
 from geartrain.workshop.export.cut_sheets import file_names
+from geartrain.workshop.export.proof.turned_pair import cut_lines
 
 shapely = pytest.importorskip("shapely")
 
@@ -38,47 +40,19 @@ INVOLUTE = "{form: involute, backlash: 0.05}"
 TRIANGULAR = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
 
 
-def declared(text: str) -> GearTrain:
-    import yaml
-
-    return GearTrain.declare(yaml.safe_load(text))
-
-
 def workpiece(z1: int = 24, z2: int = 36, form: str = INVOLUTE, **making: float) -> SolidModel:
-    return SolidModel(declared(PAIR.format(z1=z1, z2=z2, form=form)), ManufacturingSizes(**making))
+    return SolidModel(geartrain.load(PAIR.format(z1=z1, z2=z2, form=form)), ManufacturingSizes(**making))
 
 
 # ---------------------------------------------------------------------------------------------------- reading back
 
 
-def from_svg(data: bytes) -> dict[str, list[np.ndarray]]:
-    """Polygons by id, y turned back up, from svgelements, which knows nothing of how they were made."""
-    elements = pytest.importorskip("svgelements")
-    found: dict[str, list[np.ndarray]] = {}
-    image = elements.SVG.parse(io.StringIO(data.decode()), reify=False)
-    scale = 96 / 25.4  # its pixels a mm
-    for element in image.elements():
-        if isinstance(element, elements.Path | elements.Circle):
-            name = element.values.get("id") or element.values.get("group", {}).get("id") or element.id or ""
-            for part in elements.Path(element).as_subpaths():
-                path = elements.Path(part)
-                points: list[complex] = []
-                for segment in path:
-                    if isinstance(segment, elements.Line | elements.Close):
-                        points.append(complex(*segment.end))
-                    elif isinstance(segment, elements.Arc):
-                        spokes = complex(*segment.start) - complex(*segment.center)
-                        turn = np.exp(1j * segment.sweep * np.arange(1, 65) / 64)
-                        assert segment.rx == pytest.approx(segment.ry)
-                        points += (complex(*segment.center) + spokes * turn).tolist()
-                ring = [
-                    z
-                    for z, following in zip(points, [*points[1:], points[0]], strict=True)
-                    if abs(z - following) > 1e-6  # mm: what files are rounded to
-                ]
-                found.setdefault(str(name), []).append(np.array([(z.real, -z.imag) for z in ring]))
-    assert image.width == pytest.approx(image.viewbox.width * scale)
-    return found
+def from_svg(data: bytes) -> list[np.ndarray]:
+    """Closed lines of a drawing to cut, at scale 1:1, without the point that closes them."""
+    text = data.decode()
+    width, shown = re.search(r'width="([\d.]+)mm".* viewBox="\S+ \S+ ([\d.]+) ', text).groups()  # type: ignore[union-attr]
+    assert width == shown
+    return [np.array(line[:-1]) for line in cut_lines(text)]
 
 
 def from_dxf(data: bytes) -> dict[str, list[np.ndarray]]:
@@ -136,7 +110,7 @@ def test_wheels_read_back_have_their_teeth_their_bore_and_the_same_area_in_svg_a
     work = workpiece(form=form, module=2, bore=5)
     for wheel, z in (("p", 24), ("w", 36)):
         svg, dxf = from_svg(wheel_file(work, wheel, ".svg")), from_dxf(wheel_file(work, wheel, ".dxf"))
-        drawn, cut = polygon(svg["CUT"]), polygon(dxf["CUT"])
+        drawn, cut = polygon(svg), polygon(dxf["CUT"])
         assert teeth_of(np.array(cut.exterior.coords), z) == z, "they cross the pitch circle of module 2"
         assert drawn.area == pytest.approx(cut.area, rel=2e-5)
         assert drawn.symmetric_difference(cut).area < 1e-4 * cut.area
@@ -149,7 +123,7 @@ def test_wheels_read_back_have_their_teeth_their_bore_and_the_same_area_in_svg_a
 
 def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
     work = workpiece(64, 38, TRIANGULAR, module=1, bore=0)
-    (outline,) = from_svg(wheel_file(work, "w", ".svg"))["CUT"]
+    (outline,) = from_svg(wheel_file(work, "w", ".svg"))
     r = np.hypot(*outline.T)
     tips, valleys = outline[r > r.mean()], outline[r < r.mean()]
     assert (len(tips), len(valleys)) == (38, 38)
@@ -164,7 +138,7 @@ def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
 
 def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
     work = SolidModel(load("planetary-24-18-60-involute"), ManufacturingSizes())
-    ring = polygon(from_svg(wheel_file(work, "ring", ".svg"))["CUT"])
+    ring = polygon(from_svg(wheel_file(work, "ring", ".svg")))
     hole, *posts = sorted(ring.interiors, key=lambda each: -shapely.Polygon(each).area)
     module = work.layout.wheels["ring"].module
     assert len(posts) == 3, "posts hold it to a plate"
@@ -203,7 +177,7 @@ def test_both_plates_have_a_hole_at_every_axis_and_four_for_pillars_and_stand_ro
     plates = [each for each in export_files(work, ["svg"]) if each.path.startswith("plates/")]
     assert [each.path for each in plates] == ["plates/frame-back-plate.svg", "plates/frame-front-plate.svg"]
     for plate in plates:
-        drawn = polygon(from_svg(plate.make())["CUT"])
+        drawn = polygon(from_svg(plate.make()))
         holes = [shapely.Polygon(ring) for ring in drawn.interiors]
         axes = sorted(axis.point[:2] for axis in work.layout.axes.values())
         nearest = [min(holes, key=lambda hole: hypot(hole.centroid.x - x, hole.centroid.y - y)) for x, y in axes]
@@ -220,7 +194,7 @@ def test_slots_are_as_long_as_the_pin_wanders() -> None:
     """A pin at 9.6 mm about an axis 1.1 mm off comes as near as 8.5 mm, and as far as 10.7; it is 2 mm thick."""
     work = SolidModel(load("freeth-2008"), ManufacturingSizes(bore=2))
     (wheel,) = [each for each in export_files(work, ["svg"]) if each.path.endswith("wheels/k2.svg")]
-    drawn = polygon(from_svg(wheel.make())["CUT"])
+    drawn = polygon(from_svg(wheel.make()))
     holes = [shapely.Polygon(ring) for ring in drawn.interiors]
     slot = max(holes, key=lambda hole: hole.centroid.distance(shapely.Point(0, 0)))
     ends = [shapely.Point(0, 0).distance(slot), shapely.Point(0, 0).hausdorff_distance(slot)]
@@ -380,22 +354,17 @@ def test_rexs_carries_teeth_distances_and_speeds_of_a_turbine_gearbox() -> None:
 
 
 def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
-    """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels stand on them."""
-    data = {
-        "links": {
-            "frame": {},
-            "a": {"wheels": {"p": {"teeth": 20, "module": "2 mm"}}},
-            "b": {"wheels": {"q": {"teeth": 30}}},
-        },
-        "axes": {
-            "A": {"direction": ["1", "0", "0"], "position": ["0 mm", "0 mm", "0 mm"]},
-            "B": {"direction": ["1", "0", "0"], "position": ["7 mm", "30 mm", "40 mm"]},
-        },
-        "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-        "gears": [{"id": "G", "pair": ["p", "q"]}],
-        "inputs": {"a": 1},
-    }
-    work = SolidModel(GearTrain.declare(data), ManufacturingSizes())
+    """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels are along them."""
+    train = geartrain.load("""
+links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 2 mm}}}, b: {wheels: {q: 30}}}
+axes:
+  A: {direction: [1, 0, 0], position: [0 mm, 0 mm, 0 mm]}
+  B: {direction: [1, 0, 0], position: [7 mm, 30 mm, 40 mm]}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [p ~ q]
+inputs: {a: 1}
+""")
+    work = SolidModel(train, ManufacturingSizes())
     (stage,) = (
         part
         for part in json.loads(train_file(work, "rexs"))["model"]["components"]
@@ -409,7 +378,7 @@ def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
 @pytest.mark.parametrize("sizes", ["module: 1 m", "module: 0.01 mm", "module: 1 mm, thickness: 2 m"])
 def test_wheels_declared_beyond_what_is_made_are_refused_by_their_place(sizes: str) -> None:
     text = PAIR.format(z1=24, z2=36, form=INVOLUTE).replace("p: 24", f"p: {{teeth: 24, {sizes}}}")
-    work = SolidModel(declared(text), ManufacturingSizes())
+    work = SolidModel(geartrain.load(text), ManufacturingSizes())
     with pytest.raises(GearTrainError, match="cannot be made") as found:
         export_files(work, ["svg"])
     assert all(each.place and each.why and each.fix for each in found.value.problems)

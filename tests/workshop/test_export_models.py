@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from places import TRAINS
 from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError
+import geartrain
+from geartrain import GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.triangle_solids import Solid, approximation_solid, fill
 from geartrain.workshop import train_file, wheel_file
@@ -35,9 +36,7 @@ def volume(solid: Solid) -> float:
 
 
 def inline(text: str, **making: float) -> SolidModel:
-    import yaml
-
-    return SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes(**making))
+    return SolidModel(geartrain.load(text), ManufacturingSizes(**making))
 
 
 # ----------------------------------------------------------------------------------------------------------- triangles
@@ -371,7 +370,7 @@ def test_wheels_of_equal_shape_and_different_status_share_vertices_but_no_mesh()
 
 
 def test_a_glb_takes_at_most_26_bytes_for_a_triangle_of_a_wheel() -> None:
-    """Floats at corners of their own took 72. The rest of the file is keys, and 600 bytes of JSON a part."""
+    """Separate corners with floats needed 72. The rest is key frames, and 600 bytes of JSON for each part."""
     work = workpiece("three-planets")
     data = train_file(work, "glb")
     glb = Glb(data)
@@ -391,7 +390,7 @@ def test_key_frames_are_the_exact_angles_of_a_planetary_and_close() -> None:
     channels = glb.channels()
     assert set(channels) == {"sun", "carrier", "planet"}
     relative = {"sun": Fraction(1), "carrier": Fraction(2, 7), "planet": Fraction(-24, 18) * (1 - Fraction(2, 7))}
-    turns = 21  # the least number after which all three are home
+    turns = 21  # the minimum number after which all three are in their initial positions
     for name, (moments, quaternions) in channels.items():
         angle = turned(quaternions)
         share = np.arange(len(moments)) / (len(moments) - 1)
@@ -405,7 +404,7 @@ def test_key_frames_are_the_exact_angles_of_a_planetary_and_close() -> None:
 
 
 def test_key_frames_of_real_teeth_follow_the_motion() -> None:
-    """At its key frames the driven wheel of triangular teeth stands where the motion has it, and not in the mean."""
+    """At key frames the driven wheel of triangular teeth has the angle of the motion, not its mean angle."""
     work = workpiece("moon-triangular")
     turns = Fraction(1, 2)
     channels = Glb(train_file(work, "glb", turns)).channels()
@@ -443,8 +442,10 @@ def test_more_turns_than_key_frames_can_show_are_refused() -> None:
 
 
 def test_the_same_train_is_the_same_file() -> None:
-    first, second = (train_file(workpiece("planetary-24-18-60"), "glb") for _ in range(2))
-    assert first == second
+    works = [workpiece("planetary-24-18-60") for _ in range(2)]
+    for make in (lambda work: train_file(work, "glb"), lambda work: wheel_file(work, "s", ".dxf")):
+        first, second = map(make, works)
+        assert first == second
 
 
 # ---------------------------------------------------------------------------------------------------------------- STEP

@@ -10,12 +10,11 @@ from random import Random
 
 import numpy as np
 import pytest
-import yaml
 from commands import call
 from shapely.geometry import Polygon, box
 from shipped import train as load
 
-from geartrain import GearTrain
+import geartrain
 from geartrain.errors import GearTrainError, QuestionError
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bearing_plates import EngravedText, FlatDrawing
@@ -116,14 +115,12 @@ def test_wheels_without_a_thickness_are_of_one_stock() -> None:
     for name, stock in (("freeth-2008", 1.2), ("longcase-clock-cycloidal", 2.5)):
         wheels = SolidModel(load(name), ManufacturingSizes()).blanks.wheels
         assert {blank.thickness for blank in wheels.values()} == {stock}
-    given = GearTrain.declare(
-        yaml.safe_load("""
+    given = geartrain.load("""
 links: {frame: {}, a: {wheels: {p: {teeth: 20, thickness: 1.7 mm}}}, b: {wheels: {w: 40}}, c: {wheels: {q: 30}}}
 revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
 gears: [p ~ w, w ~ q]
 inputs: {a: 1}
 """)
-    )
     made = SolidModel(given, ManufacturingSizes(module=0.43))  # 1.075 mm
     assert {name: blank.thickness for name, blank in made.blanks.wheels.items()} == {"p": 1.7, "w": 1.0, "q": 1.0}
     requested = SolidModel(given, ManufacturingSizes(module=0.43, thickness=1.1))

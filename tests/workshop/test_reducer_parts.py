@@ -67,7 +67,7 @@ def parts(name: str, start: str) -> list[Any]:
 
 
 def in_place(name: str, of: str, drawing: str) -> shapely.Polygon:
-    """A drawn part where it stands in the zero pose, seen along z."""
+    """A drawn part in its place in the zero pose, seen along z."""
     made, (outer, *holes) = part(name, of), sorted(written(name)[drawing], key=lambda line: -shapely.Polygon(line).area)
     (a, b), (c, d), (x, y) = made.turn[0, :2], made.turn[1, :2], made.place[:2]
     return affine_transform(shapely.Polygon(outer, holes), [a, b, c, d, x, y])
@@ -119,7 +119,7 @@ def test_the_disc_passes_all_pins_with_backlash_wherever_its_eccentric_stands() 
     disc = in_place("cycloidal-reducer", "lobes", "lobes")
     ring, flange = (middles("cycloidal-reducer", f"{which} pin") for which in ("ring", "holes"))
     assert (len(ring[0].geoms), len(flange[0].geoms)) == (12, 6)
-    # it stands against its pins at the start: turned back by half its play it is free of all
+    # it touches its pins at the start; turned back by half its backlash it is free of all
     back = max(np.linspace(-0.3, 0.3, 61), key=lambda each: min(gaps(rotate(disc, each, origin=(1.5, 0)), ring)))
     assert abs(back) == pytest.approx(np.degrees(0.15 / 16.5) / 2, abs=0.01)
     solid = shapely.Polygon(disc.exterior)
@@ -181,7 +181,7 @@ def test_all_cranks_bear_the_disc_side_by_side_wherever_they_stand() -> None:
         centre, arbor = (made.turn[:2, :2] @ (each.x, each.y) + made.place[:2] for each in (round_, bore))
         assert arbor == pytest.approx(place, abs=1e-6)
         assert centre - arbor == pytest.approx(middle, abs=1e-6), "as far out as the disc, and the same way"
-        # so that each stays in its hole while all turn alike: the holes stand on the circle of the cranks
+        # each stays in its hole while all turn alike, because the holes are on the circle of the cranks
         found = [disc.turn[:2, :2] @ (each.x, each.y) + disc.place[:2] for each in holes]
         assert min(np.hypot(*(each - centre)) for each in found) < 1e-6
         assert round_.diameter == pytest.approx(11.0, abs=1e-4)
@@ -225,7 +225,7 @@ def test_two_discs_stand_opposite_each_other_and_share_pins_and_load() -> None:
 
 
 def bent(line: np.ndarray, turn: float, rise: float = 1.0) -> np.ndarray:
-    """Points of a ring of 200 teeth in one of 202 while a wave stands at `turn`, by steps along the middle line.
+    """Points of a ring of 200 teeth in one of 202 while a wave is at `turn`, by steps along the middle line.
 
     The line is bent to the curve R + rise cos 2(t - turn); places on it keep their distances, which are added up, and
     what lies beside it stays across it.

@@ -1,4 +1,4 @@
-"""The best sizes of triangular teeth: against scans, another method and outlines; what is asked of them."""
+"""The best sizes of triangular teeth: against scans, another method and outlines; refusals."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_the_best_radii_of_any_counts_are_no_worse_than_a_scan_of_all(seed: int)
     for aim in AIMS:
         found = find_tooth_sizes(start, (aim,))
         assert found.best.merit(aim) <= scanned(start, aim, 0.8, 1.25)
-        # where another couple only just touches, the outlines, which are polynomials, may miss it: 38/46 does so
+        # where another tooth pair barely touches, the outlines, which are polynomials, may miss it: 38/46 does so
         assert found.outlines.difference < 3e-3
 
 
@@ -172,7 +172,7 @@ def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
     for one in found.front:
         assert not any(each.loss <= one.loss and each.error < one.error for each in found.tried)
         assert not any(each.loss < one.loss and each.error <= one.error for each in found.tried)
-    # the ends are those of each aim alone
+    # the ends are the optima of each objective
     assert found.front[0].loss == found.best.loss
     alone = find_tooth_sizes(pair(15, 60, radii=0.95), ("error",), {"window": (0.3, 0.8)})
     assert found.front[-1].error == pytest.approx(alone.best.error, rel=1e-6)
@@ -219,7 +219,7 @@ def test_outlines_and_transmission_agree_on_wheels_of_two_half_angles() -> None:
     assert found.difference < 1e-4
 
 
-# ----------------------------------------------------------------------------------------- the law of the page on radii
+# ------------------------------------------------------------------------------------- the formula of the page on radii
 
 
 PAGE = (DOCS / "best-radii.md").read_text(encoding="utf-8")

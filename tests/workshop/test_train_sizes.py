@@ -1,4 +1,4 @@
-"""Sizes of the triangular teeth of a train: what is gained, that it stands in the declaration, published figures."""
+"""Sizes of the triangular teeth of a train: the improvement, the written declaration, and published values."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_pairs_that_name_the_driven_wheel_first_are_sized_alike() -> None:
 
 @pytest.mark.parametrize("folder", ["", "below"])
 def test_the_declaration_extends_the_train_from_wherever_it_is_written(tmp_path: Path, folder: str) -> None:
-    """Its figure is the one that was told; a window alone is free, so that little has to be looked for."""
+    """The value is the one that was printed; only the window is free, so the search is short."""
     source, written = tmp_path / "two.yaml", tmp_path / folder / "best.yaml"
     source.write_text(TWO, encoding="utf-8")
     written.parent.mkdir(exist_ok=True)

@@ -15,10 +15,9 @@ from geartrain.numerics import open_executor, run
 from geartrain.numerics.confidence_intervals import wilson
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
-from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts, batch_verdicts, nominal_backlash
 from studies.cut_pair_transmission import CutPairLaw
-from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
+from studies.cutting_errors import CuttingErrorModel, ErrorDistribution, with_errors
 from studies.uncertainty_records import ErrorRecord
 
 Bools = NDArray[np.bool_]
@@ -126,7 +125,7 @@ def uneven_driven(places: NDArray[np.float64]) -> CutGearPair:
     sizes = sized(64, 38, 0.01)
     half = nominal_backlash(sizes) * sizes.p2 / (2 * SHARE)
     driver, driven = _even_wheels(sizes)
-    return CutGearPair(sizes, driver, driven.placed(half * places))
+    return CutGearPair(sizes, driver, with_errors(driven, place=half * places))
 
 
 # trials in blocks of their own seeds ----------------------------------------------------------------------------------

@@ -5,11 +5,12 @@ A train declares its errors; `geartrain.workshop.find_trial_plan` draws those.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, pi
 from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Floats
@@ -57,9 +58,17 @@ class CuttingErrorModel:
         place, tip = self.place.draw(rng, shape), self.tip.draw(rng, shape)
         leading, trailing = self.aperture_deviation.draw(rng, shape), self.aperture_deviation.draw(rng, shape)
         e, towards = self.eccentricity.draw(rng, (trials,)), rng.uniform(0.0, 2 * pi, trials)
-        wheel = even.placed(even.pitch * place)
-        if self.tip.size:
-            wheel = wheel.grown(high * tip)
+        errors = {"place": even.pitch * place, "tip": high * tip if self.tip.size else 0.0}
         if self.aperture_deviation.size:
-            wheel = wheel.widened(even.half_angle * leading, even.half_angle * trailing)
-        return wheel.eccentric(high * np.abs(e), towards) if self.eccentricity.size else wheel
+            errors |= {"leading": even.half_angle * leading, "trailing": even.half_angle * trailing}
+        return with_errors(even, **errors, e=high * np.abs(e) if self.eccentricity.size else 0.0, towards=towards)
+
+
+def with_errors(wheel: CutWheel, e: ArrayLike = 0.0, towards: ArrayLike = 0.0, **more: ArrayLike) -> CutWheel:
+    """A wheel with errors added to its arrays, then cut `e` off its axle. Raises `RangeError` if it cannot be cut."""
+    wheel = replace(wheel, **{name: getattr(wheel, name) + np.asarray(each) for name, each in more.items()})
+    for found in (wheel, wheel.moved(e, towards)):
+        if not found.cuttable.all():
+            what = "a tooth of the wheel cannot be cut"
+            raise RangeError(Problem(what, "two flanks do not meet, or leave no space", "give smaller errors"))
+    return found if np.any(e) else wheel

@@ -16,7 +16,7 @@ from geartrain.kinematics import WillisEquation, WillisSystem
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
-from geartrain.kinematics.speeds.padded_rows import PaddedRows
+from geartrain.kinematics.willis_matrix import PaddedRows
 from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
 from studies.records import StudyRecords

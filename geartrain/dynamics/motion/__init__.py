@@ -5,7 +5,7 @@ pair_errors, error_propagation            errors of pairs as sources; their prop
 error_composition                         errors along the order of solution
 compiled_composition                      the same calculation as a compiled kernel
 motion_run, run_statistics                run over some revolutions, its spectrum by exact orders; peaks and moments
-extreme_search, rate_bounds               extremes between the positions of a run, with bounds
+extreme_search                            extremes between the positions of a run
 kink_positions                            positions of kinks of transmission functions
 superposition                             fast first-order estimates
 pair_impacts                              energy of tooth impacts

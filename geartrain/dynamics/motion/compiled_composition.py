@@ -313,8 +313,6 @@ class CompiledComposition:
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:
-    """Return the compiled form of a composition; None if a transmission function has no table, or if pairs are
-    coupled.
-    """
+    """Return the compiled form of a composition; None if pairs are coupled or a transmission function has no table."""
     arrays = make_composition_arrays(composition)
     return None if arrays is None else CompiledComposition(composition, arrays)

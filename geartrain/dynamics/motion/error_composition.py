@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -88,8 +88,7 @@ class CompositionStep(NamedTuple):
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of earlier sources on which the drivers depend, with coefficients `from_known`, shape (sources, known).
-    """
+    """Indices of earlier sources on which the drivers depend; `from_known` has coefficients, shape (sources, known)."""
     from_known: Floats
     own: Floats
     """Change of each driver's angle per unit of the error of each source of the step, shape (sources, sources)."""
@@ -108,9 +107,7 @@ class SeenLink(NamedTuple):
     sense: int = 1
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference, from values of all links about their own
-        axes.
-        """
+        """Return the value of the link minus the value of its reference, from values of links about their own axes."""
         return float(values[self.of] - self.sense * values[self.base])
 
 
@@ -140,6 +137,24 @@ class ErrorSamples(NamedTuple):
 
     def __repr__(self) -> str:
         return short_repr(self)
+
+
+class ErrorSampler(Protocol):
+    """Protocol of objects that compute errors of outputs, for at most `chunk` positions at once."""
+
+    @property
+    def chunk(self) -> int:
+        """Maximum number of positions evaluated at once."""
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
+
+
+def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
+    """Return errors and rates at any number of positions of the input [revolutions], computed in chunks."""
+    parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
+    error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
+    return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
 
 @dataclass

@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import copysign, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -23,7 +22,7 @@ import numpy as np
 from geartrain.errors import GearTrainError, Problem, RangeError
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.numerics.elimination import LinearForm, eliminate
-from geartrain.numerics.exact import as_float
+from geartrain.numerics.exact import nearest_float
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -205,7 +204,7 @@ class ErrorPropagation:
         for link, form in enumerate(self.forms):
             for pair in self.reached.intersection(form):
                 # exact up to here, rounded only once
-                found[link, pair] = _nearest(form[pair] * self.joints[pair].coefficient)
+                found[link, pair] = nearest_float(form[pair] * self.joints[pair].coefficient)
         return found
 
     def errors(self, deltas: Floats) -> Floats:
@@ -229,14 +228,6 @@ class ErrorPropagation:
             why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
             raise RangeError(Problem(what, why, "choose an input nearer to this output, or use `solve`"))
         return found
-
-
-def _nearest(value: Fraction) -> float:
-    """Return the nearest float; beyond the range of float64, 0 or an infinity."""
-    number = as_float(value)
-    if number is not None:
-        return number
-    return copysign(0.0 if abs(value) < 1 else inf, -1 if value < 0 else 1)
 
 
 def find_error_propagation(

@@ -1,5 +1,4 @@
-"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between
-them.
+"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between them.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
 equation (3) of docs/motion.md, which includes the errors of earlier pairs. The equation S_m(x) = kink + an integer
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase
+from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, evaluate
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
@@ -69,15 +68,6 @@ class InputSteps(NamedTuple):
     high: Floats
 
 
-def equal_steps(start: float, end: float, number: int, chunk: int) -> Iterator[InputSteps]:
-    """Yield equal steps from one position of the input to another [revolutions], at most `chunk` at once."""
-    for first in range(0, number, chunk):
-        at = np.arange(first, min(first + chunk, number) + 1)
-        ends = start + (end - start) * (at / number)
-        ends[at == number] = end
-        yield InputSteps(ends[:-1], ends[1:])
-
-
 @dataclass(frozen=True)
 class PairKinks:
     """Kinks of one transmission function, with the angle of its driver as a function of the input position.
@@ -103,14 +93,8 @@ class PairKinks:
         """
         if not len(turns):
             return np.zeros(0), np.zeros(0)
-        size = self.drivers.chunk
-        parts = [self.drivers.at(turns[start : start + size]) for start in range(0, len(turns), size)]
-        error, rate = (
-            np.concatenate([part.error[0] for part in parts]),
-            np.concatenate([part.rate[0] for part in parts]),
-        )
-        way = self.source.forward * self.source.driver_sense
-        return way * error, self.source.mean + way * rate
+        found, way = evaluate(self.drivers, turns), self.source.forward * self.source.driver_sense
+        return way * found.error[0], self.source.mean + way * found.rate[0]
 
     def between(self, steps: InputSteps) -> Floats:
         """Return the positions of kinks within some steps [revolutions] and the indices of the kinks, shape (2, n), in
@@ -138,11 +122,12 @@ class PairKinks:
             middle = (low + high) / 2
             before = (self.shift(middle)[1] >= 0) == first
             low, high = np.where(before, middle, low), np.where(before, high, middle)
+        stops = ends[:, 1:].copy()
+        stops[turning] = low
         return InputSteps(
             np.concatenate([steps.low[~slow], ends[:, :-1].ravel(), high]),
-            np.concatenate([steps.high[~slow], np.where(turning, _filled(turning, low, ends), ends[:, 1:]).ravel(),
-                            ends[:, 1:][turning]]),
-        )  # fmt: skip
+            np.concatenate([steps.high[~slow], stops.ravel(), ends[:, 1:][turning]]),
+        )
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
         """Return positions and indices of the kinks in steps without reversals, from `low` and `high`, the driver's
@@ -179,13 +164,6 @@ class PairKinks:
         return np.sort(turns[~again])
 
 
-def _filled(chosen: Floats, values: Floats, ends: Floats) -> Floats:
-    """Return `values` at the indices `chosen`, and the ends of the steps elsewhere."""
-    found = ends[:, 1:].copy()
-    found[chosen] = values
-    return found
-
-
 class KinkSearch:
     """Search for kinks of all pairs on which an output of a composition depends."""
 
@@ -216,9 +194,13 @@ class KinkSearch:
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Return narrow steps from one position of the input to another [revolutions], in chunks."""
+        """Yield equal narrow steps from one position of the input to another [revolutions], in chunks."""
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
-        return equal_steps(start, end, number, self.composition.chunk)
+        for first in range(0, number, self.composition.chunk):
+            at = np.arange(first, min(first + self.composition.chunk, number) + 1)
+            ends = start + (end - start) * (at / number)
+            ends[at == number] = end
+            yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
         """Return the kinks within the given narrow steps."""

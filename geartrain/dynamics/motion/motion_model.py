@@ -17,7 +17,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
+from geartrain.dynamics.motion.error_composition import (
+    ErrorComposition,
+    ErrorSamples,
+    SeenLink,
+    common_period,
+    evaluate,
+)
 from geartrain.dynamics.motion.kink_positions import KinkPositions, KinkSearch
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
@@ -31,58 +37,11 @@ if TYPE_CHECKING:
     from numpy.random import Generator
 
     from geartrain.dynamics.motion.compiled_composition import CompiledComposition
+    from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
-    from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
 
 _PACE = 2e6  # positions of pairs per second evaluated by numpy in typical trains
-
-
-@dataclass(frozen=True)
-class PointerCompositions:
-    """Compositions of the outputs of a train for both directions of the input, with pointers set at position 0."""
-
-    errors: PairErrors
-    outputs: tuple[SeenLink, ...]
-
-    def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the composition for one direction of the input, 1 or -1. `besides` has the same meaning as in
-        `PairErrors.sources`.
-        """
-        backlash, (teeth, pins) = self.errors.backlash(way), self._start
-        found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
-        sources = tuple(
-            replace(
-                each,
-                # backlash displaces the driver; `set_back` is its advance at position 0 due to other pairs
-                phase=each.phase + found.driver_shift(each, backlash),
-                set_back=found.driver_shift(each, teeth + pins),
-            )
-            for each in found.sources
-        )
-        return replace(
-            found, sources=sources, offsets=tuple(each.difference(backlash - teeth) for each in self.outputs)
-        )
-
-    @cached_property
-    def _start(self) -> tuple[Floats, Floats]:
-        """Angles added to each link at position 0 of the input by teeth, and by pins [rad].
-
-        They are linear in the errors of the pairs, because all driver angles are known.
-        """
-        deltas = np.zeros((len(self.errors.spread.pairs), 2))
-        pins = {joint.coupling.name for joint in self.errors.train.pins}
-        for each in self.errors.sources(1):
-            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
-        teeth, slots = self.errors.spread.errors(deltas).T
-        return teeth, slots
-
-    @property
-    def setting(self) -> Floats:
-        """Angle by which each link is turned relative to its wheels so that its teeth cause no error at position 0
-        [rad].
-        """
-        return -self._start[0]
 
 
 @dataclass(frozen=True)
@@ -225,15 +184,7 @@ class Motion(Shown):
     def _path(self, pair: str) -> ErrorPath:
         """Return the links of a pair or coupling, through which its errors propagate.
 
-        Parameters
-        ----------
-        pair : str
-            Name of the pair.
-
-        Raises
-        ------
-        QuestionError
-            If the pair is redundant, so that its errors have no unique effect.
+        Raise `QuestionError` if the pair is redundant, so that its errors have no unique effect.
         """
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
@@ -247,19 +198,14 @@ class Motion(Shown):
     @cached_property
     def _forward(self) -> ErrorComposition:
         """Composition while the input turns in the declared sense."""
-        return self._compositions.composed(1)
+        return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition while the input turns in the declared sense, with additional pairs as sources.
+        """Return the composition in the declared sense of the input, with the given pairs as additional sources.
 
         Pairs with constant ratio can thus be given other transmission functions.
-
-        Parameters
-        ----------
-        pairs : collection of str
-            Names of pairs to include; pairs with variable errors are included anyway.
         """
-        return self._compositions.composed(1, pairs)
+        return self._composed(1, pairs)
 
     @cached_property
     def _unset(self) -> ErrorComposition:
@@ -269,7 +215,7 @@ class Motion(Shown):
     @cached_property
     def _backward(self) -> ErrorComposition:
         """Composition while the input turns against the declared sense, with the coast flanks driving."""
-        return self._compositions.composed(-1)
+        return self._composed(-1)
 
     @cached_property
     def _seen(self) -> tuple[SeenLink, ...]:
@@ -278,17 +224,43 @@ class Motion(Shown):
             SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
         )
 
+    def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
+        """Return the composition for one direction of the input, 1 or -1, with the pairs `besides` as further sources.
+
+        Every pointer is set at position 0 of the declared sense.
+        """
+        backlash, (teeth, pins) = self._errors.backlash(way), self._start
+        found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
+        sources = tuple(
+            replace(
+                each,
+                # backlash displaces the driver; `set_back` is its advance at position 0 due to other pairs
+                phase=each.phase + found.driver_shift(each, backlash),
+                set_back=found.driver_shift(each, teeth + pins),
+            )
+            for each in found.sources
+        )
+        return replace(found, sources=sources, offsets=tuple(each.difference(backlash - teeth) for each in self._seen))
+
     @cached_property
-    def _compositions(self) -> PointerCompositions:
-        return PointerCompositions(self._errors, self._seen)
+    def _start(self) -> tuple[Floats, Floats]:
+        """Angles added to each link at position 0 of the input by teeth, and by pins [rad].
+
+        They are linear in the errors of the pairs, because all driver angles are known.
+        """
+        deltas = np.zeros((len(self._errors.spread.pairs), 2))
+        pins = {joint.coupling.name for joint in self._problem.pins}
+        for each in self._errors.sources(1):
+            deltas[each.pair, int(each.id in pins)] = each.sense * float(each.transmission.error(each.phase))
+        teeth, slots = self._errors.spread.errors(deltas).T
+        return teeth, slots
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
         """Output -> constant angle between its pointer and its wheels, such that the output's error at position 0 is 0
         [rad].
         """
-        found = self._compositions.setting
-        return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
+        return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
     def _refuse_loops(self) -> None:
         for loop, real in self._problem.contradictions():
@@ -349,21 +321,10 @@ class Motion(Shown):
         return [seen.difference(angles) for seen in self._seen]
 
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
-        """Yield the errors of a run in chunks that fit into memory.
+        """Yield the errors at equally spaced positions from 0 to `turns`, both included, in chunks that fit in memory.
 
-        Parameters
-        ----------
-        turns : float
-            Revolutions of the input from 0; negative against the declared sense, with the coast flanks driving.
-        samples : int
-            Number of positions including both ends, 2 or more.
-        first : int
-            Index of the first position.
-
-        Yields
-        ------
-        ErrorSamples
-            Errors at consecutive positions.
+        turns   revolutions of the input; negative against the declared sense, with the coast flanks driving
+        first   index of the first position
         """
         composition = self._sampler(turns, samples)
         chunk = composition.chunk
@@ -373,20 +334,7 @@ class Motion(Shown):
             yield composition.at(turns * (at / (samples - 1)))
 
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """Return the composition for a run, or its compiled kernel.
-
-        Parameters
-        ----------
-        turns : float
-            Revolutions of the input; only the sign is used.
-        samples : int
-            Number of positions of the run.
-
-        Returns
-        -------
-        ErrorSampler
-            Composition, or its compiled kernel.
-        """
+        """Return the composition for a run of `samples` positions, or its compiled kernel."""
         composition = self._forward if turns >= 0 else self._backward
         pairs = len(composition.used)
         if not pairs or not is_fast(self.fast, samples * pairs / _PACE):
@@ -400,9 +348,7 @@ class Motion(Shown):
 
     @cached_property
     def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are
-        requested.
-        """
+        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are needed."""
         return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
@@ -420,11 +366,7 @@ class Motion(Shown):
             Transmission errors [rad] and speed deviations [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
-        composition = self._sampler(1, len(turns))
-        chunk = composition.chunk
-        parts = [composition.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
-        error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
-        return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
+        return evaluate(self._sampler(1, len(turns)), turns)
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
         """Return the positions of the input at which a pair passes a kink of its transmission function. The errors of
@@ -535,8 +477,7 @@ class Motion(Shown):
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
         """Compute the motion over a number of revolutions of the input, with peak values and moments of each output's
-        error and
-        speed.
+        error and speed.
 
         Parameters
         ----------

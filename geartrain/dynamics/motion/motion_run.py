@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
-from geartrain.dynamics.motion.extreme_search import ExtremeSearch
-from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
+from geartrain.dynamics.motion.extreme_search import count_extremes
+from geartrain.dynamics.motion.kink_positions import KinkSearch
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
 
@@ -292,19 +292,17 @@ class MotionRun(Tabular, Pictured):
             If coupled pairs have no unique solution.
         """
         self.statistics = self.motion._statistics()
-        peaks = SampledPeaks(len(self.statistics))
         for passage in self.motion._stretches(self.turns, self.samples):
             for at, tally in enumerate(self.statistics):
                 tally.add(passage.error[at], passage.rate[at])
-            peaks.add(passage)
             self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
         # samples miss sharp peaks, so extremes are searched between them
         composition = self.motion._forward if self.turns >= 0 else self.motion._backward
-        search = ExtremeSearch(composition)
-        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
-        self.reversing_drivers |= search.reversing_drivers
+        positions = int(3 * KinkSearch(composition).rate * abs(self.turns))
+        sampler = self.motion._sampler(self.turns, max(self.samples, positions))
+        self.reversing_drivers |= count_extremes([composition], sampler, self.turns, self.statistics)
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.
@@ -358,20 +356,9 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for some positions: revolutions of the input, then angle [rad], error [rad] and
-        speed [1] of each output.
+        """Return the table columns for some positions: revolutions, then angle [rad], error [rad], speed [1] by output.
 
         An angle is the sum of starting angle, mean motion and error.
-
-        Parameters
-        ----------
-        passage : ErrorSamples
-            Errors at consecutive positions of the run.
-
-        Returns
-        -------
-        list of array of float, (n,)
-            Columns in the order of `_position_columns`.
         """
         found = [passage.turns]
         angle = 2 * pi * passage.turns
@@ -381,19 +368,9 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if the last row of a partial table does not belong to this run.
+        """Raise an error if the last row of a partial table, cells separated by commas, does not belong to this run.
 
-        Parameters
-        ----------
-        row : str
-            Last row, with cells separated by commas.
-        rows : int
-            Number of rows.
-
-        Raises
-        ------
-        GearTrainError
-            If this run has another position in this row, or fewer positions.
+        rows   number of rows of the partial table
         """
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))

@@ -78,10 +78,11 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
     """Return the energies of the impacts in one pitch [J]: transferred to the driven side, dissipated, and their sum.
 
-    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, with speed ratios
-    before and after the impact. The driver has the constant speed omega1 [rad/s], so the sum is its work. J is the
-    `inertia` of the driven wheel and all links that it drives [kg m2]. Sorge's paper on triangular teeth takes the
-    first term as lost energy; the lost energy is the second term.
+    inertia   moment of inertia J of the driven wheel and all links that it drives [kg m2]
+    omega1    constant speed of the driver [rad/s]
+
+    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, with the speed ratios
+    before and after. Sorge's paper on triangular teeth takes the first term as lost energy; it is the second term.
     """
     leaps, scale = tuple(leaps), inertia * omega1**2
     handed = sum((leap.after**2 - leap.before**2) / 2 for leap in leaps) * scale

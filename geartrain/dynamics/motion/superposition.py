@@ -32,10 +32,7 @@ class Superposition:
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used
-        spread = composition.spread
-        pairs = [source.pair for source in self.sources]
-        rows = [spread.sensitivity(*seen)[pairs] for seen in composition.outputs]
-        self.response = np.array(rows).reshape(len(composition.outputs), len(pairs))
+        self.response = composition.weights[:, [at for step in composition.steps for at in step.sources]]
 
     @cached_property
     def ranges(self) -> Floats:
@@ -93,6 +90,7 @@ class SuperpositionEstimate(Result):
     )
 
     own: RunningStatistics
+    """Statistics of the estimated error [rad]; `off` has those of the estimated minus the composed error [rad]."""
     off: RunningStatistics
 
     @property
@@ -126,8 +124,7 @@ class ErrorEstimates(Result):
     nominal: SuperpositionEstimate
     """First-order superposition of the pairs' errors, with each driver at its mean angle."""
     lagged: SuperpositionEstimate
-    """First-order superposition of the pairs' errors, with each driver displaced by the mean errors of all pairs (lag).
-    """
+    """First-order superposition of the pairs' errors, with each driver displaced by the mean errors of all pairs."""
 
     @property
     def bound_error(self) -> float:
@@ -143,9 +140,7 @@ class ErrorEstimates(Result):
 def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
-    """Return the first-order estimates of every output's error, compared with the composition at `samples`
-    positions.
-    """
+    """Return first-order estimates of every output's error, compared with the composition at `samples` positions."""
     superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
     for passage in motion._stretches(turns, samples):

@@ -14,7 +14,7 @@ from functools import cached_property
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.torque_results import BearingTorque
 from geartrain.kinematics.circuits import Axes, Circuit, Tree
-from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.circuits.fundamental import WillisEquation
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.elimination import LinearForm, add_into, eliminate
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
@@ -58,9 +58,7 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on one link that balances the loads in every motion, equation (16); None if no
-    torque does.
-    """
+    """Return the torque on one link that balances the loads in every motion, equation (16); None if no torque does."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))

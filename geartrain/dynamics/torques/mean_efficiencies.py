@@ -54,9 +54,9 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     if tooth.wheels.friction_law is not None:
         speed = pitch_line_speed(setting, circuit, tooth)
         # undetermined relative motion: `find_neglected_effects` reports these losses
-        if speed.value is None and speed.problem is None:
+        if speed is None:
             return MeanEfficiencies()
-        tooth = at_speed(tooth, speed.known())
+        tooth = at_speed(tooth, speed)
     return _of_both(*(tooth.efficiency(wheel) for wheel in gear.pair))
 
 
@@ -78,9 +78,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a pin and slot, slot driving first; 1 for a follower, which transmits no mean
-    power.
-    """
+    """Return the efficiencies of a pin and slot, slot driving first; 1 for a follower, whose mean power is 0."""
     joint = setting.joints.get(circuit.id)
     if joint is None or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()
@@ -143,28 +141,12 @@ def _side(mesh: LoadedPair, link: str) -> int:
 
 
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
-    """Compute the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
+    """Return the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
+
+    driving, driven   helix angles of the wheels [rad], right hand positive; their sum is the shaft angle
+    pressure_angle    normal pressure angle [rad]
 
     Only sliding along the teeth at the pitch point is considered; sliding along the profile is small compared with it.
-
-    Parameters
-    ----------
-    driving, driven : float
-        Helix angles of the driving and of the driven wheel [rad], right hand positive. Their sum is the shaft angle.
-    friction : float
-        Coefficient of friction, 0 or more.
-    pressure_angle : float
-        Normal pressure angle [rad].
-
-    Examples
-    --------
-    A worm with a lead angle of 5 degrees and a coefficient of friction of 0.1 has the efficiency
-    tan(lead angle) / tan(lead angle + friction angle). The wheel cannot drive the worm:
-
-    >>> round(screw_efficiency(radians(85), radians(5), 0.1 * cos(NORMAL_ANGLE)), 6)
-    0.462552
-    >>> screw_efficiency(radians(5), radians(85), 0.1 * cos(NORMAL_ANGLE)) < 0
-    True
     """
     slide = tan(driving) + tan(driven)
     # the normal force on an inclined flank is larger by 1 / cos(pressure angle)

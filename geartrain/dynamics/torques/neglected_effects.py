@@ -20,14 +20,14 @@ from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.elimination import LinearForm, eliminate
-from geartrain.numerics.exact import as_float, decimal
+from geartrain.numerics.exact import decimal, nearest_float
 
 if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
     from geartrain.teeth.transmission import TransmissionFunction
 
 
 _MOST_NONUNIFORM = 300  # nonuniform pairs: the gains of n pairs at n links are n squared numbers
-_SAMPLES = 1 << 14  # angles at which a speed is averaged, for three digits
 _SLACK = 1e-12  # of a speed: smaller reversals are rounding
 _NO_FORM = (
     "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
@@ -37,32 +37,6 @@ _NO_HELIX = (
     "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
 )
 _MEAN = "the reported torques are means over a turn"
-
-
-@dataclass(frozen=True)
-class SpeedBounds:
-    """Bounds of a speed, such as the speed of a bearing."""
-
-    low: float
-    high: float
-    magnitude: float | None = None
-    """Mean magnitude of the speed, if only one pair causes its variation; else None."""
-    most: float | None = None
-    """Maximum magnitude of the speed, if only one pair causes its variation; else None."""
-
-    @property
-    def reverses(self) -> bool:
-        """True if the bounds include speeds of both signs."""
-        return self.low < -_SLACK * abs(self.high) and self.high > _SLACK * abs(self.low)
-
-    def plus(self, other: SpeedBounds) -> SpeedBounds:
-        """Return bounds of the sum of two speeds, each within its bounds."""
-        return SpeedBounds(self.low + other.low, self.high + other.high)
-
-    def times(self, other: SpeedBounds) -> SpeedBounds:
-        """Return bounds of the product of two numbers, each within its bounds."""
-        ends = [_product(x, y) for x in (self.low, self.high) for y in (other.low, other.high)]
-        return SpeedBounds(min(ends), max(ends))
 
 
 @dataclass(frozen=True)
@@ -81,31 +55,55 @@ class _NonuniformPair:
     mean: Fraction
 
     @property
-    def swing(self) -> SpeedBounds:
+    def swing(self) -> tuple[float, float]:
         """Bounds of tau - m, the deviation of the speed ratio from its mean."""
         if self.transmission is None:
-            return SpeedBounds(-inf, inf)
+            return -inf, inf
         low, high = self.transmission.speed_range()
-        return SpeedBounds(low - float(self.mean), high - float(self.mean))
+        return low - float(self.mean), high - float(self.mean)
 
 
-def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, SpeedBounds] | None:
-    """Return speed bounds of the links that may reverse in their bearings; None if there are too many nonuniform
-    pairs.
+def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, tuple[float, float]] | None:
+    """Return minimum and maximum speed of the links that may reverse in their bearings; None if there are too many
+    nonuniform pairs.
     """
     nonuniform = list(_nonuniform_pairs(setting))
     if len(nonuniform) > _MOST_NONUNIFORM:
         return None
     if not nonuniform or not links:
         return {}
+    import numpy as np
+
     gains = _gains(setting, nonuniform)
-    added = _added(setting, nonuniform, gains)
-    found = {}
-    for link in links:
-        bounds = _bounds(setting, gains, added, link, setting.tree.parent[link][0])
-        if bounds.reverses:
-            found[link] = _with_mean(setting, nonuniform, gains, link, bounds)
-    return found
+
+    def bounds(link: str, carrier: str, added: Floats) -> Floats:
+        """Return the bounds of a relative speed; `added` has those of (tau - m) w of each pair, shape (2, pairs)."""
+        mean = setting.relative(link, carrier)
+        if mean is None:
+            return np.array([-inf, inf])
+        gain = gains[link] - gains[carrier]
+        # a pair without effect may have infinite bounds, and 0 times infinity is NaN
+        ends = np.where(gain, gain * added, 0.0)
+        return nearest_float(mean) + np.array([ends.min(axis=0).sum(), ends.max(axis=0).sum()])
+
+    swings, added = np.array([each.swing for each in nonuniform]).T, np.zeros((2, len(nonuniform)))
+    with np.errstate(invalid="ignore"):
+        # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
+        for _ in range(len(nonuniform) + 1):
+            turning = np.array([bounds(each.driver, each.carrier, added) for each in nonuniform]).T
+            products = np.nan_to_num(swings[:, None] * turning, nan=0.0, posinf=inf, neginf=-inf).reshape(4, -1)
+            wider = np.stack([products.min(axis=0), products.max(axis=0)])
+            if (wider == added).all():
+                break
+            added = wider
+        else:
+            added = np.full_like(added, inf) * [[-1], [1]]
+        found = {link: tuple(bounds(link, setting.tree.parent[link][0], added).tolist()) for link in links}
+    return {
+        link: (low, high)
+        for link, (low, high) in found.items()
+        if low < -_SLACK * abs(high) and high > _SLACK * abs(low)
+    }
 
 
 def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
@@ -129,10 +127,10 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
         )
 
 
-def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Mapping[int, float]]:
-    """Return for each link the speed added by a unit deviation of each pair, by index of the pair, with input speeds
-    fixed.
-    """
+def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Floats]:
+    """Return the speed that a unit deviation of each pair adds to each link while the inputs turn uniformly."""
+    import numpy as np
+
     number = {each.id: at for at, each in enumerate(nonuniform)}
     system = setting.system
     column = {link: at for at, link in enumerate(system.links)}
@@ -144,87 +142,12 @@ def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[
             form[-1 - number[row.label]] = -nonuniform[number[row.label]].factor
         rows.append(form)
     forms = eliminate(rows).forms()
-    return {
-        link: {-1 - key: setting.sense(link) * _number(value) for key, value in forms.get(at, {}).items() if key < 0}
-        for link, at in column.items()
-    }
-
-
-def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) -> dict[int, float]:
-    """Return the gains of the speed of a link relative to `carrier`, by index of the pair."""
-    found = dict(gains[link])
-    for number, gain in gains[carrier].items():
-        found[number] = found.get(number, 0.0) - gain
-    return {number: gain for number, gain in found.items() if gain}
-
-
-def _bounds(
-    setting: LoadCase, gains: Mapping[str, Mapping[int, float]], added: Sequence[SpeedBounds], link: str, carrier: str
-) -> SpeedBounds:
-    """Return the bounds of the speed of a link relative to `carrier`."""
-    mean = setting.relative(link, carrier)
-    found = SpeedBounds(-inf, inf) if mean is None else SpeedBounds(_number(mean), _number(mean))
-    for number, gain in _between(gains, link, carrier).items():
-        found = found.plus(added[number].times(SpeedBounds(gain, gain)))
+    found = {link: np.zeros(len(nonuniform)) for link in column}
+    for link, at in column.items():
+        for key, value in forms.get(at, {}).items():
+            if key < 0:
+                found[link][-1 - key] = setting.sense(link) * nearest_float(value)
     return found
-
-
-def _added(
-    setting: LoadCase, nonuniform: Sequence[_NonuniformPair], gains: Mapping[str, Mapping[int, float]]
-) -> Sequence[SpeedBounds]:
-    """Return bounds of the deviation tau - m times driver speed for each pair, by fixed-point iteration."""
-    swings = [each.swing for each in nonuniform]
-    added = [SpeedBounds(0.0, 0.0)] * len(nonuniform)
-    # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
-    for _ in range(len(nonuniform) + 1):
-        turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in nonuniform]
-        wider = [swing.times(speed) for swing, speed in zip(swings, turning, strict=True)]
-        if wider == added:
-            return added
-        added = wider
-    # cyclic dependencies: no bound was found
-    return [SpeedBounds(-inf, inf)] * len(nonuniform)
-
-
-def _with_mean(
-    setting: LoadCase,
-    nonuniform: Sequence[_NonuniformPair],
-    gains: Mapping[str, Mapping[int, float]],
-    link: str,
-    bounds: SpeedBounds,
-) -> SpeedBounds:
-    """Return the bounds with mean and maximum magnitude, if only one pair causes the variation and its driver turns
-    uniformly.
-    """
-    import numpy as np
-
-    carrier = setting.tree.parent[link][0]
-    own = _between(gains, link, carrier)
-    mean = setting.relative(link, carrier)
-    if len(own) != 1 or mean is None:
-        return bounds
-    ((number, gain),) = own.items()
-    pair = nonuniform[number]
-    speed = setting.relative(pair.driver, pair.carrier)
-    if pair.transmission is None or speed is None or _between(gains, pair.driver, pair.carrier):
-        return bounds
-    # the midpoint rule is as accurate as any other for a periodic function with kinks
-    S = (np.arange(_SAMPLES) + 0.5) * (pair.transmission.period / _SAMPLES)
-    found = np.abs(_number(mean) + gain * (pair.transmission.speed(S) - float(pair.mean)) * _number(speed))
-    return SpeedBounds(bounds.low, bounds.high, float(found.mean()), max(-bounds.low, bounds.high))
-
-
-def _number(value: Fraction) -> float:
-    """Return the nearest float; beyond the range of float64, 0 or an infinity."""
-    number = as_float(value)
-    if number is not None:
-        return number
-    return 0.0 if abs(value) < 1 else inf if value > 0 else -inf
-
-
-def _product(x: float, y: float) -> float:
-    """Return x times y, where 0 times infinity is 0."""
-    return x * y if x and y else 0.0  # IEEE arithmetic would give NaN for 0 times infinity
 
 
 def find_neglected_effects(
@@ -367,24 +290,13 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
         why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
         yield NeglectedEffect("friction of bearings that reverse", tuple(known), why)
         return
-    for link, bounds in back.items():
-        mean = setting.relative(link, setting.tree.parent[link][0])
-        yield NeglectedEffect("friction of bearings that reverse", (link,), _turns(bounds, mean or Fraction(0)))
-
-
-def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
-    """Describe the mean and maximum magnitude of a bearing's speed relative to its mean speed."""
-    reach = f"the speed varies from {bounds.low:.4g} to {bounds.high:.4g} within a turn"
-    what = f"it is computed at the mean speed {decimal(mean, 4)}, but {reach}"
-    if bounds.magnitude is None or bounds.most is None:
-        return what
-    if not mean:
-        return f"{what}: it counts as 0, although the mean magnitude of the speed is {bounds.magnitude:.4g}"
-    size = abs(as_float(mean) or inf)
-    return (
-        f"{what}: the actual loss is {bounds.magnitude / size:.3f} times as large on average, and "
-        f"{bounds.most / size:.3f} times at its maximum"
-    )
+    for link, (low, high) in back.items():
+        mean = setting.relative(link, setting.tree.parent[link][0]) or Fraction(0)
+        why = (
+            f"it is computed at the mean speed {decimal(mean, 4)}, but the speed varies from {low:.4g} to {high:.4g} "
+            "within a turn, so that more is lost: torques over a turn include it"
+        )
+        yield NeglectedEffect("friction of bearings that reverse", (link,), why)
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:

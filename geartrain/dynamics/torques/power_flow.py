@@ -125,9 +125,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty
-    without a cycle.
-    """
+    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty without a cycle."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -317,11 +315,6 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
         yield PowerNode("bearing", bearing.link), [(link, -torque * speed[link]) for link, torque in ends if torque]
 
 
-def has_torque_units(train: Train, state: str | None) -> bool:
-    """Return True if the loads and bearings of one state have units."""
-    return train.has_torque_units(state)
-
-
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
     """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are numbers
     without a unit.
@@ -329,6 +322,6 @@ def watts_per_unit(train: Train, case: StateCase) -> float | None:
     Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
     have units.
     """
-    if not has_torque_units(train, case.state):
+    if not train.has_torque_units(case.state):
         return None
     return radians_per_second(train, case)

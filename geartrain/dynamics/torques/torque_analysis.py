@@ -137,9 +137,7 @@ def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, with the cause: shares, bearing friction, or tooth
-    friction.
-    """
+    """Return the verdict that no torques balance the load, with the cause: shares, friction of bearings or of teeth."""
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -198,9 +196,7 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the other
-    patterns.
-    """
+    """Return the verdict on several flow patterns; it describes the returned pattern and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -280,9 +276,10 @@ def find_ties(
 
 
 @dataclass(frozen=True)
-class UnknownLinks:
-    """Links with unknown torques, chosen for one load case."""
+class TorqueQuestion:
+    """Loads in one load case [N m, or numbers without a unit], and the links with unknown torques."""
 
+    loads: Mapping[str, Fraction]
     links: tuple[str, ...]
     enough: bool = True
     """True if the number of unknown torques equals the number of degrees of freedom.
@@ -291,17 +288,8 @@ class UnknownLinks:
     """
     undecided: TorqueVerdict | None = None
     """Verdict that requests a further unknown torque, returned if the loads are not in equilibrium without it; None if
-    no
-    choice is open.
+    no choice is open.
     """
-
-
-@dataclass(frozen=True)
-class TorqueQuestion:
-    """Loads in one load case, and the links with unknown torques."""
-
-    loads: Mapping[str, Fraction]
-    requested: UnknownLinks
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
@@ -312,7 +300,7 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return Torques(setting.case.state, question)
-    return _balanced(setting, question.loads, question.requested, flows_only=flows_only)
+    return _balanced(setting, question, flows_only=flows_only)
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
@@ -326,7 +314,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
     if isinstance(question, TorqueVerdict):
         return ()
     known = _acting(question.loads, _bearing_friction(setting))
-    return idle_pairs(generic_balance(build_balance(setting, known, question.requested.links)))
+    return idle_pairs(generic_balance(build_balance(setting, known, question.links)))
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
@@ -337,11 +325,11 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
-    requested = _requested(setting, loads, solve_for)
-    verdict = _without_axis(setting, (*loads, *requested.links))
+    question = _requested(setting, loads, solve_for)
+    verdict = _without_axis(setting, (*loads, *question.links))
     if verdict is None:
-        verdict = _at_rest(setting, requested.links)
-    return TorqueQuestion(loads, requested) if verdict is None else verdict
+        verdict = _at_rest(setting, question.links)
+    return question if verdict is None else verdict
 
 
 def torques_unknown(state: str | None) -> Torques:
@@ -360,12 +348,13 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
             why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
             return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
     # a single unknown torque is enough for one degree of freedom
-    requested = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
+    enough = len(setting.case.inputs) == 1 and not setting.forms
     # the torque that takes one unit of power out at this speed
-    return _balanced(setting, {load: -1 / setting.speeds[load]}, requested, bearings=False)
+    question = TorqueQuestion({load: -1 / setting.speeds[load]}, (source,), enough)
+    return _balanced(setting, question, bearings=False)
 
 
-def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
+def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
     """Return the links with unknown torques: as many as there are inputs, or only the links that are certain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
@@ -373,11 +362,11 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
     if setting.forms and len(free) <= needed:
         # a freely turning link has no torque except a declared or requested one
         named = (solve_for,) if solve_for is not None and solve_for not in free else ()
-        return UnknownLinks((*free, *named), enough=False)
+        return TorqueQuestion(loads, (*free, *named), enough=False)
     if needed == 1 and solve_for is not None:
         free = (solve_for,)
     if len(free) == needed:
-        return UnknownLinks(free)
+        return TorqueQuestion(loads, free)
     if len(free) > needed:  # a crank besides the inputs: one of the inputs has no torque
         certain, candidates = free[:1], free[1:]
     else:
@@ -387,7 +376,7 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
         candidates = () if solve_for in certain else (solve_for,)
     lacking = needed - len(certain)
     if len(candidates) == lacking:
-        return UnknownLinks(certain + candidates, enough=not setting.forms)
+        return TorqueQuestion(loads, certain + candidates, enough=not setting.forms)
     loaded = ", ".join(link for link in enter if link in loads)
     why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is not an input"
     text = (
@@ -395,7 +384,7 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
         f"{len(candidates)}): name one with `solve_for`"
     )
     certain += candidates if len(candidates) < lacking else ()
-    return UnknownLinks(certain, False, TorqueVerdict("undecided", text, candidates))
+    return TorqueQuestion(loads, certain, False, TorqueVerdict("undecided", text, candidates))
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
@@ -430,25 +419,19 @@ def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | N
     return None
 
 
-def _balanced(
-    setting: LoadCase,
-    loads: Mapping[str, Fraction],
-    requested: UnknownLinks,
-    bearings: bool = True,
-    flows_only: bool = False,
-) -> Torques:
+def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True, flows_only: bool = False) -> Torques:
     bearing_friction = _bearing_friction(setting) if bearings else {}
-    known = _acting(loads, bearing_friction)
+    known = _acting(unknown.loads, bearing_friction)
     state = setting.case.state
-    if not requested.enough and (lacking := find_imbalance(setting, known, requested.links)) is not None:
-        return Torques(state, _with_reason(requested, lacking), requested.links)
+    if not unknown.enough and (lacking := find_imbalance(setting, known, unknown.links)) is not None:
+        return Torques(state, _with_reason(unknown, lacking), unknown.links)
     from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, apply_mean_efficiencies
 
     means = all_mean_efficiencies(setting)
-    driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
-    balance, neither = apply_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
+    driving = sum((torque * setting.speeds.get(link, 0) for link, torque in unknown.loads.items()), Fraction(0)) > 0
+    balance, neither = apply_mean_efficiencies(build_balance(setting, known, unknown.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
-    question = LoadedBalance(balance, setting.speeds, loads, bearing_friction, requested.enough, setting.open)
+    question = LoadedBalance(balance, setting.speeds, unknown.loads, bearing_friction, unknown.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
@@ -461,22 +444,22 @@ def _balanced(
         neglected = find_neglected_effects(setting, means, neither, missed, bearings)
     verdict = find_torque_verdict(question, flows, complete, neglected)
     if not flows:
-        verdict = _with_reason(requested, verdict)
-        return Torques(state, verdict, requested.links, neglected=neglected)
+        verdict = _with_reason(unknown, verdict)
+        return Torques(state, verdict, unknown.links, neglected=neglected)
     return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
 
 
-def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
+def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
     """Return one verdict from two: which torque could be requested, and what fails without it.
 
     The first part is omitted if no further torque could help.
     """
-    if requested.undecided is None:
+    if question.undecided is None:
         return lacking
-    untried = [link for link in requested.undecided.candidates if link not in requested.links]
+    untried = [link for link in question.undecided.candidates if link not in question.links]
     if not untried and not lacking.candidates:
         return lacking
-    text = f"{requested.undecided.text}; {lacking.text}"
+    text = f"{question.undecided.text}; {lacking.text}"
     return TorqueVerdict("undecided", text, tuple(untried) or lacking.candidates)
 
 

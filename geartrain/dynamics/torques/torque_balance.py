@@ -18,9 +18,7 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Mesh -> driving side: 1 if the first link drives in the carrier's frame, -1 if the second link drives, 0 without
-loss.
-"""
+"""Mesh -> driving side in the carrier's frame: 1 for the first link, -1 for the second link, 0 without loss."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """Link, and the meshes on one of its wheels, each with its fraction of the wheel's torque."""

@@ -137,9 +137,7 @@ class PairTorque(Result):
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Basic efficiency (with the carrier at rest) for `driver` as driving side; a float if it is a mean over
-        teeth.
-        """
+        """Basic efficiency (with the carrier at rest) for `driver` as driving side; a float for a mean over teeth."""
         return self.share if self.exact else float(self.share)
 
     @property
@@ -211,8 +209,7 @@ class TorqueVerdict(Result):
     text: str
     """Verdict as a sentence."""
     candidates: tuple[str, ...] = ()
-    """Links whose torque may be requested (`solve_for`) or would balance the loads, or pairs with undetermined torques.
-    """
+    """Links whose torque may be requested (`solve_for`) or balances the loads, or pairs with undetermined torques."""
 
     def _summary(self) -> str:
         return f"{self.kind}: {self.text}"

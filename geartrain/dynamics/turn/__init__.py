@@ -1,5 +1,4 @@
-"""Torque over a revolution: balance at every position with its actual ratio and friction (docs/torques.md, section
-16).
+"""Torque over a revolution: balance at every position with its actual ratio and friction (docs/torques.md, section 16).
 
 train_turn           entry: torque of a train over revolutions of its input, and the results of a run
 turn_run             positions at which torques are computed, and integrals over them

@@ -32,8 +32,7 @@ class LinkMotion(NamedTuple):
     """Positions of the input [revolutions], shape (n,)."""
     speeds: Floats
     """Speeds of links about the reference direction of parallel axes, divided by the magnitude of the input speed [1],
-    shape
-    (links, n).
+    shape (links, n).
     """
     angles: Mapping[str, Floats]
     """Pair -> forward angle of its driver [rad], shape (n,), for each pair that is evaluated at positions."""
@@ -107,8 +106,7 @@ class PositionMotion:
         return LinkMotion(turns, speeds, angles)
 
     def kinks(self, coasting: frozenset[str], span: float) -> Floats:
-        """Return the positions of the input from 0 to `span` [revolutions] at which a transmission function has a
-        kink.
+        """Return the positions of the input from 0 to `span` [revolutions] at which a transmission function has a kink.
 
         coasting   pairs whose coast flanks are in contact at all positions
         """

@@ -26,7 +26,6 @@ class TorqueExtreme(NamedTuple):
     torque: float
     """Torque at the requested link [N m, or number without a unit], positive if it drives in the link's mean sense of
     rotation.
-
     """
     turns: float
     """Revolutions of the input from the start of the run."""
@@ -296,8 +295,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     @property
     def minimum_torque(self) -> float | None:
         """Minimum torque, negative if the loads drive; None if the train is locked at all positions [N m, or number
-        without a
-        unit].
+        without a unit].
         """
         return None if self.minimum is None else self.minimum.torque
 

@@ -19,7 +19,6 @@ import numpy as np
 
 from geartrain.dynamics.pair_speeds import pitch_line_speed, radians_per_second
 from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
-from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.teeth.friction_law import PairFriction
 
 if TYPE_CHECKING:
@@ -87,9 +86,7 @@ class ContactLosses:
         return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose signs change where the torques have kinks but the speed ratio has none; None by
-        default.
-        """
+        """Return values whose signs change where torques, but not the speed ratio, have kinks; None by default."""
         del at
         return None
 
@@ -326,7 +323,7 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
     if transmission is None:
         return ToothFriction(coefficient, static)
     # proportional to the driver's speed, which varies with the position
-    pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
+    pitch_line = (pitch_line_speed(setting, circuit, mesh) or 0.0) / (source.mean or 1.0)
     return ToothFriction(lambda sliding, turning: PairFriction(transmission, pitch_line * turning)(sliding), static)
 
 
@@ -364,6 +361,6 @@ def _radians_per_second(setting: LoadCase) -> float | None:
     """Return the magnitude of the input speed [rad/s]; None if speeds or torques are numbers without a unit."""
     unit = radians_per_second(setting.train, setting.case)
     driving_speed = next((speed for speed in setting.case.inputs.values() if speed), None)
-    if unit is None or driving_speed is None or not has_torque_units(setting.train, setting.case.state):
+    if unit is None or driving_speed is None or not setting.train.has_torque_units(setting.case.state):
         return None
     return unit * abs(float(driving_speed))

@@ -8,25 +8,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
-from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.position_motion import PositionMotion
-from geartrain.dynamics.turn.torque_cycle import (
-    CycleEnergy,
-    PairCycle,
-    PlaceInRun,
-    TorqueCycle,
-    TorqueExtreme,
-)
+from geartrain.dynamics.turn.torque_cycle import CycleEnergy, PairCycle, PlaceInRun, TorqueCycle, TorqueExtreme
 from geartrain.dynamics.turn.train_contacts import (
     dragging_links,
     find_bearings,
@@ -123,7 +117,7 @@ def solve(
     if isinstance(found, TorqueVerdict):
         return TorqueCycle(setting.case.state, found, of or "")
     found.on_done = on_done
-    return _RunResults(TurnRun(found, turns, samples)).cycle(of)
+    return _RunResults(TurnRun(found, turns, samples), of).cycle()
 
 
 def find_torque_period(train: TrainMechanics, state: str | None = None, of: str | None = None) -> Fraction | None:
@@ -174,9 +168,9 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return question
-    if not question.requested.enough:
+    if not question.enough:
         text = "fewer torques are unknown than the train has degrees of freedom: loads cannot balance everywhere"
-        return question.requested.undecided or TorqueVerdict("undecided", text)
+        return question.undecided or TorqueVerdict("undecided", text)
     return build_turn_balance(setting, problem, question)
 
 
@@ -189,11 +183,11 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
-    bases = {link: setting.reacts_on(link) for link in question.requested.links}
+    bases = {link: setting.reacts_on(link) for link in question.links}
     reactions = {
         link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items() if base != frame
     }
-    balanced = replace(build_balance(setting, known, question.requested.links), reactions=reactions)
+    balanced = replace(build_balance(setting, known, question.links), reactions=reactions)
     whole = generic_balance(balanced)
     balance = without_pairs(whole, idle_pairs(whole))
     busy = replace(
@@ -214,24 +208,34 @@ class _RunResults:
     """Results of a run, computed from its positions."""
 
     run: TurnRun
+    of: str | None
 
-    def _requested(self, of: str | None) -> _Request:
-        train = self.run.train
-        row = train.requested.index(of) if of in train.requested else 0
-        link, setting = train.requested[row], train.setting
-        speed = setting.relative(link, setting.reacts_on(link)) or 0
-        return _Request(row, -1 if setting.sense(link) * speed < 0 else 1)
+    @cached_property
+    def _row(self) -> int:
+        """Row of the reported link among the links with unknown torque."""
+        requested = self.run.train.requested
+        return requested.index(self.of) if self.of in requested else 0
 
-    def _mean(self, own: _Request) -> float:
-        return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
+    @cached_property
+    def _way(self) -> int:
+        """Sign of the reported link's mean speed about its own axis."""
+        setting, link = self.run.train.setting, self.run.train.requested[self._row]
+        return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
-    def cycle(self, of: str | None) -> TorqueCycle:
+    def _torque(self, found: PositionTorques) -> Floats:
+        """Return the torque of the link, positive in its mean sense, in the solution with minimum loss."""
+        return np.asarray(self._way * found.torque[self._row])
+
+    def _highest(self, found: PositionTorques) -> Floats:
+        """Return the torque of the link, positive in its mean sense, in the solution with maximum loss."""
+        return np.asarray(self._way * found.highest[self._row])
+
+    def cycle(self) -> TorqueCycle:
         train, found = self.run.train, self.run.found
-        own = self._requested(of)
-        link = train.requested[own.row]
+        link = train.requested[self._row]
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
-        maximum = None if locked else self._extreme(own, 1, False)
-        torque, neglected, period = own.torque(found), self._neglected(), train.motion.period
+        maximum = None if locked else self._extreme(1, False)
+        torque, neglected, period = self._torque(found), self._neglected(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
         # repr: the label of a position has all digits
@@ -240,20 +244,20 @@ class _RunResults:
             train.setting.case.state,
             self._verdict(locked, ambiguous, neglected),
             link,
-            has_torque_units(train.setting.train, train.setting.case.state),
+            train.setting.train.has_torque_units(train.setting.case.state),
             self.run.span,
             None if period is None else float(period),
             self.run.cells.turns,
             torque,
-            own.highest(found),
-            own.highest(self.run.standing),
+            self._highest(found),
+            self._highest(self.run.standing),
             labelled_array(found.speeds, link=train.outside, position=labels),
             labelled_array(found.powers, link=train.outside, position=labels),
             labelled_array(found.losses, part=names, position=labels),
-            None if locked else self._mean(own),
+            None if locked else float(self.run.cells.weights @ torque) / self.run.span,
             maximum,
-            self._extreme(own, -1, False),
-            self._starting(own, maximum),
+            self._extreme(-1, False),
+            self._starting(maximum),
             None if locked else self._energy(parts),
             parts,
             locked,
@@ -311,27 +315,18 @@ class _RunResults:
         speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion._problem.driving_link]))
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
-    def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if no value is
-        finite.
-        """
-
-        def torque(found: PositionTorques) -> Floats:
-            return own.highest(found) if way > 0 else own.torque(found)
-
-        extreme = find_extreme(
-            lambda turns: torque(self.run.train.at(turns, static)),
-            self.run.cells,
-            way,
-            torque(self.run.standing if static else self.run.found),
-        )
+    def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
+        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if none is finite."""
+        torque = self._highest if way > 0 else self._torque
+        values = torque(self.run.standing if static else self.run.found)
+        extreme = find_extreme(lambda turns: torque(self.run.train.at(turns, static)), self.run.cells, way, values)
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
-    def _starting(self, own: _Request, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
+    def _starting(self, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
         """Return the maximum torque with static friction; None if the train does not start at every position."""
         if not self.run.standing.valid.all():
             return None
-        return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
+        return self._extreme(1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
         """Return the energies over the run [J, or torque without a unit times rad]."""
@@ -358,18 +353,12 @@ class _RunResults:
     def _parts(self, names: tuple[str, ...]) -> Mapping[str, PairCycle]:
         found, weights = self.run.found, self.run.cells.weights * 2 * np.pi
         kinds = [each.kind for each in self.run.train.contacts.values()] + ["bearing"] * len(self.run.train.bearings)
-        losses, passed = (
-            np.where(found.valid, found.losses, 0) @ weights,
-            np.where(found.valid, found.passed, 0) @ weights,
-        )
+        losses, passed = (np.where(found.valid, each, 0) @ weights for each in (found.losses, found.passed))
         # noise around a torque of 0 is not a change of flanks
         changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
         bearings = len(self.run.train.bearings)
         changes += [0] * bearings
-        maximum = [
-            *np.abs(np.where(found.valid, found.pressed, 0)).max(axis=1, initial=0.0).tolist(),
-            *[0.0] * bearings,
-        ]
+        maximum = np.abs(np.where(found.valid, found.pressed, 0)).max(axis=1, initial=0.0).tolist() + [0.0] * bearings
         rows = zip(names, kinds, losses.tolist(), passed.tolist(), changes, maximum, strict=True)
         return {name: PairCycle(kind, *figures) for name, kind, *figures in rows}
 
@@ -393,23 +382,6 @@ class _RunResults:
         return tuple(
             (self._place(float(turns[a])), self._place(float(turns[b]))) for a, b in zip(starts, ends, strict=True)
         )
-
-
-class _Request(NamedTuple):
-    """Row of the reported link, and the sign of its mean speed."""
-
-    row: int
-    way: int
-
-    def torque(self, found: PositionTorques) -> Floats:
-        """Return the torque of the link, positive in its mean sense, in the solution with minimum loss."""
-        torque: Floats = self.way * found.torque[self.row]
-        return torque
-
-    def highest(self, found: PositionTorques) -> Floats:
-        """Return the torque of the link, positive in its mean sense, in the solution with maximum loss."""
-        torque: Floats = self.way * found.highest[self.row]
-        return torque
 
 
 def _changes(signs: Floats, closes: bool) -> int:

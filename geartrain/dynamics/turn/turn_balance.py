@@ -208,9 +208,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Return the layers extended by the solutions of one block; there are as many layers as solutions at any
-    position.
-    """
+    """Return the layers extended by the solutions of one block, as many as there are solutions at any position."""
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -248,17 +246,14 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at some positions; the last axis has length n. Powers and losses are divided by the speed of the
-    input.
-    """
+    """Torques at n positions, the last axis. Powers and losses are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     valid: Bools
     """True at positions where a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """True at positions where a link rests within its backlash, or where no choice of flanks agrees with the torques.
-    """
+    """True at positions where a link rests within its backlash, or no choice of flanks agrees with the torques."""
     layers: Floats
     torque: Floats
     """Unknown torque on each requested link about its own axis, in the solution with minimum loss, shape (requested,
@@ -269,13 +264,11 @@ class PositionTorques(NamedTuple):
     speeds: Floats
     """Speeds of the links with external torques, about their own axes, divided by the speed of the input, shape
     (outside, n).
-
     """
     powers: Floats
     """Power of each external torque, positive into the train, shape (outside, n)."""
     losses: Floats
-    """Lost power of pairs, then of bearings, shape (parts, n). `passed` is the power input of the driving side of each.
-    """
+    """Lost power of pairs, then of bearings, shape (parts, n). `passed` is the power input of each driving side."""
     passed: Floats
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
@@ -291,8 +284,6 @@ class _State(NamedTuple):
     """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
 
     Only the first of several equal planets has torques here.
-
-    Of several equal planets only the first has torques here.
     """
 
     motion: LinkMotion

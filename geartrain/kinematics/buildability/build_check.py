@@ -205,9 +205,9 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
     between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     if lock:
         why = f"a clutch can only join coaxial links, and this one would have to block the joints {joints}"
-        fix = "lock coaxial links, or join the two by a pair of equal wheels"
+        fix = "lock coaxial links, or join the two links by a pair of equal wheels"
     else:
-        why = f"a brake acts on links that turn about an axis of the frame, and would have to block the joints {joints}"
+        why = f"a brake fixes a link that turns on the frame, and this one would have to block the joints {joints}"
         fix = (
             f"fix {' or '.join(repr(link) for link in between)} as well, or instead" if between else "fix another link"
         )

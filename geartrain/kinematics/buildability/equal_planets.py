@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of a rule: the id of a wheel with a free count, or a fixed count."""
+"""Tooth count as a term of a rule: the id of a wheel with a variable count, or a fixed count."""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without unit, "m" for a length."""
@@ -44,7 +44,7 @@ class AssemblyMesh:
     axes: tuple[str, str]
     """Labels of the axes about which the two links turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
-    """Tooth counts of the wheels: the id of a wheel with a free count, or a fixed count."""
+    """Tooth counts of the wheels: the id of a wheel with a variable count, or a fixed count."""
     sense: int
     """1 if the wheels turn in opposite senses relative to the carrier, else -1."""
     ring: int | None
@@ -60,7 +60,7 @@ class AssemblyMesh:
 
     @property
     def is_free(self) -> bool:
-        """True if at least one tooth count of the pair is free."""
+        """True if at least one tooth count of the pair is variable."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
@@ -103,9 +103,14 @@ class Planet:
     @property
     def wheels(self) -> tuple[str, ...]:
         """Ids of the planet's wheels that mesh in the set; isomorphic sets have the same order."""
+        return tuple(self.mesh_of)
+
+    @property
+    def mesh_of(self) -> dict[str, AssemblyMesh]:
+        """Wheel of the planet that meshes in the set -> one of its meshes, the last in the order of the fields."""
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
-        return tuple(dict.fromkeys(self.own(mesh) for mesh in meshes))
+        return {self.own(mesh): mesh for mesh in meshes}
 
     @property
     def form(self) -> object:
@@ -140,9 +145,12 @@ class PlanetSet:
         return ", ".join(f"'{link}'" for link in self.links)
 
 
+_Central = tuple[str, AssemblyMesh]  # central wheel, and its mesh with a planet
+
+
 @dataclass(frozen=True)
 class TrainAssembly:
-    """Train with the data that the assembly rules of planets need: fixed and free tooth counts, meshes, sets of
+    """Train with the data that the assembly rules of planets need: fixed and variable tooth counts, meshes, sets of
     planets.
     """
 
@@ -155,12 +163,12 @@ class TrainAssembly:
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
-        """Return the assembly data of a train whose wheels `free` have free tooth counts."""
+        """Return the assembly data of a train whose wheels `free` have variable tooth counts."""
         tree = find_tree(train)
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of a rule: its id if the count is free, else the count."""
+        """Return the tooth count of a wheel as a term of a rule: its id if the count is variable, else the count."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
@@ -233,59 +241,50 @@ class TrainAssembly:
     def sets(self) -> tuple[PlanetSet, ...]:
         """Sets of planets on carriers other than the frame; isomorphic sets are `copies` of the first."""
         found: list[PlanetSet] = []
-        for carrier in dict.fromkeys(mesh.carrier for mesh in self.meshes if mesh.carrier != self.train.frame):
+        by_carrier: dict[str, list[AssemblyMesh]] = {}
+        for mesh in self.meshes:
+            if mesh.carrier != self.train.frame and not mesh.worm:
+                by_carrier.setdefault(mesh.carrier, []).append(mesh)
+        for carrier, meshes in by_carrier.items():
             alike: dict[object, list[PlanetSet]] = {}
-            for links in self._groups(carrier):
-                one = self._set(carrier, links)
+            planets = [[link for link in mesh.links if self.tree.bears(carrier, link)] for mesh in meshes]
+            for links in joined_groups(chain(*planets), planets):
+                one = self._set(carrier, links, meshes)
                 # planets that mesh in a loop have no canonical form, so such a set has no copies
                 alike.setdefault(one.planets.form if one.planets else one.links, []).append(one)
             for first, *others in alike.values():
                 found.append(PlanetSet(carrier, first.planets, first.links, tuple(others)))
         return tuple(found)
 
-    def _groups(self, carrier: str) -> list[list[str]]:
-        """Return the planets of a carrier in groups that mesh with each other."""
-        meshing = [mesh.links for mesh in self._meshes_of(carrier)]
-        planets = [[link for link in links if self.tree.bears(carrier, link)] for links in meshing]
-        return joined_groups(chain(*planets), planets)
-
-    def _meshes_of(self, carrier: str) -> list[AssemblyMesh]:
-        return self._by_carrier.get(carrier, [])
-
-    @cached_property
-    def _by_carrier(self) -> Mapping[str, list[AssemblyMesh]]:
-        found: dict[str, list[AssemblyMesh]] = {}
-        for mesh in self.meshes:
-            if not mesh.worm:
-                found.setdefault(mesh.carrier, []).append(mesh)
-        return found
-
-    def _set(self, carrier: str, links: list[str]) -> PlanetSet:
-        among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]
+    def _set(self, carrier: str, links: list[str], meshes: Sequence[AssemblyMesh]) -> PlanetSet:
+        among = [mesh for mesh in meshes if set(mesh.links) <= set(links)]
         # a connected graph of n planets is a tree only if it has n - 1 meshes
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
         # start at the planet whose central wheels come first, so that equal sets have isomorphic trees
-        start = min(links, key=lambda link: (self._mates(carrier, link) or ["\uffff"], links.index(link)))
-        return PlanetSet(carrier, self._planet(carrier, start, None, among), tuple(links))
+        central = {link: self._central(carrier, link, meshes) for link in links}
+        start = min(links, key=lambda link: ([wheel for wheel, _ in central[link]] or ["\uffff"], links.index(link)))
+        return PlanetSet(carrier, self._planet(start, None, among, central), tuple(links))
 
-    def _mates(self, carrier: str, link: str) -> list[str]:
-        return [mesh.wheels[1 - mesh.links.index(link)] for mesh in self._central(carrier, link)]
+    def _central(self, carrier: str, link: str, meshes: Iterable[AssemblyMesh]) -> list[_Central]:
+        sides = [(mesh, 1 - mesh.links.index(link)) for mesh in meshes if link in mesh.links]
+        found = [(mesh.wheels[side], mesh) for mesh, side in sides if not self.tree.bears(carrier, mesh.links[side])]
+        return sorted(found, key=lambda each: each[0])
 
-    def _central(self, carrier: str, link: str) -> list[AssemblyMesh]:
-        found = [mesh for mesh in self._meshes_of(carrier) if link in mesh.links]
-        sides = [(mesh, 1 - mesh.links.index(link)) for mesh in found]
-        sides = [(mesh, side) for mesh, side in sides if not self.tree.bears(carrier, mesh.links[side])]
-        return [mesh for mesh, _ in sorted(sides, key=lambda each: each[0].wheels[each[1]])]
-
-    def _planet(self, carrier: str, link: str, inward: AssemblyMesh | None, among: list[AssemblyMesh]) -> Planet:
+    def _planet(
+        self,
+        link: str,
+        inward: AssemblyMesh | None,
+        among: list[AssemblyMesh],
+        central: Mapping[str, list[_Central]],
+    ) -> Planet:
         rest = [mesh for mesh in among if link not in mesh.links]
         outward = []
         for mesh in among:
             if link in mesh.links:
-                outward.append((mesh, self._planet(carrier, mesh.links[1 - mesh.links.index(link)], mesh, rest)))
+                outward.append((mesh, self._planet(mesh.links[1 - mesh.links.index(link)], mesh, rest, central)))
         outward.sort(key=lambda each: repr(each[1].form))
-        return Planet(link, inward, tuple(self._central(carrier, link)), tuple(outward))
+        return Planet(link, inward, tuple(mesh for _, mesh in central[link]), tuple(outward))
 
 
 def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
@@ -457,18 +456,14 @@ def check_planets(
     """Yield findings of rules A1 to A3 on two or more equal sets of planets that mesh with the same central wheels."""
     if len(train.gears) < 2:
         return
+    teeth = {wheel: each.count for wheel, (_, each) in train.wheels.items()}
     for one in TrainAssembly(train, frozenset(), tree, tuple(circuits)).sets:
-        copies = [copy for copy in one.copies if _is_equal(train, one, copy)]
+        copies = [copy for copy in one.copies if all(teeth[i] == teeth[j] for i, j in corresponding(one, copy).items())]
         if one.planets is None or not copies or not all(mesh.spur for mesh in one.planets.central):
             continue
         found = _EqualPlanets(train, tree, one, copies, sizes, outlines())
         yield from found.assembly()
         yield from found.clearance()
-
-
-def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
-    wheels = train.wheels
-    return all(wheels[mine][1].count == wheels[its][1].count for mine, its in corresponding(one, copy).items())
 
 
 class _EqualPlanets:
@@ -577,7 +572,7 @@ class _EqualPlanets:
     def clearance(self) -> Iterator[BuildFinding]:
         """Yield findings of rule A3: neighbouring planets whose tips overlap or nearly touch."""
         for planet in self.planet.walk():
-            for mesh in _one_mesh_per_wheel(planet):
+            for mesh in planet.mesh_of.values():
                 if self._is_on_eccentric(planet, mesh):
                     continue  # discs on eccentrics are next to each other along the axis
                 gap = self._neighbour_clearance(planet, mesh, self.number)
@@ -700,7 +695,7 @@ class _EqualPlanets:
         `_tip_diameter`.
         """
         found = 0.0
-        for mesh in _one_mesh_per_wheel(planet):
+        for mesh in planet.mesh_of.values():
             reach = self._axis_distance(planet, planet.own(mesh))
             if reach:
                 found = max(found, 2 * asin(min(self._tip_diameter(planet, mesh, addendum) / reach, 1.0)) / tau)
@@ -713,12 +708,6 @@ class _EqualPlanets:
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
-
-
-def _one_mesh_per_wheel(planet: Planet) -> list[AssemblyMesh]:
-    inward = [planet.inward] if planet.inward else []
-    meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
-    return list({planet.own(mesh): mesh for mesh in meshes}.values())
 
 
 def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:

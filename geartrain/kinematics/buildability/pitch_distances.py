@@ -1,6 +1,6 @@
 """Checks of modules and centre distances: wheels in mesh must have the same module, and two axes one centre distance.
 
-Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance between two
+Modules and distances are stored as multiples of each other. Wheels in mesh share a module (1). The distance between two
 axes is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions
 and offsets give some of them in mm. These statements are stored in a weighted union-find structure with exact
 fractions; a statement on a quantity that is already known is compared with it.
@@ -74,6 +74,7 @@ def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> fl
     SDP/SI equations 5-9 to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, a ring of 80
     or 100 teeth 16.
     """
+    # a tip circle of the ring within its base circle is treated as the base circle
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
     lean = cos(tip2) / cos(tip1)
     outer = asin(sqrt(min(max((1 - lean**-2) / (1 - (z1 / z2) ** 2), 0.0), 1.0)))
@@ -233,7 +234,8 @@ class PitchPair:
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum centre distance at which these teeth can run, possibly with more backlash [modules].
+        """Minimum and maximum centre distance at which these teeth can run [modules]; the backlash at the maximum may
+        be larger than at `distance`.
 
         Profiles may be shifted if no tooth form is declared. If no size is declared either, the two wheels may have
         been cut with slightly different pitches. Declared involutes can run at distances with more backlash.

@@ -96,6 +96,24 @@ class Circuit(NamedTuple):
         return self._replace(a=a if self.a > 0 else -a, b=b if self.b > 0 else -b)
 
 
+class WillisEquation(NamedTuple):
+    """Equation of a Willis system: the sum of coefficient times speed over `terms` is equal to `right`.
+
+    See Also
+    --------
+    WillisSystem : all rows of a train
+    """
+
+    label: str
+    """Name of the pair, or of the prescribed speed, such as `input sun`."""
+    kind: str
+    """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
+    terms: tuple[tuple[str, int], ...]
+    """Pairs of a link and its non-zero coefficient."""
+    right: Fraction = Fraction(0)
+    """Right-hand side of the equation [unit of the train]."""
+
+
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
     """Return the circuits of all gear pairs, then of all couplings, in the order of the declaration."""
@@ -185,12 +203,14 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     steps = links[0] + "".join(f" -({label})- {link}" for label, link in zip(labels, links[1:], strict=True))
     changes = [links[at + 1] for at in range(len(labels) - 1) if labels[at] != labels[at + 1]]
     if not changes:
-        why = f"the turning pairs {steps} have one axis label, so '{i}' and '{j}' are coaxial"
-        fix = "a gear pair needs two distinct axes: correct the axis labels or the wheels"
+        why = (
+            f"the turning pairs {steps} have one axis label, so '{i}' and '{j}' are coaxial, but a pair needs two axes"
+        )
+        fix = "correct the axis labels, or the wheels of the pair"
     else:
         where = " and at ".join(changes)
         why = f"on the turning pairs {steps} the axis changes at {where}, so the centre distance is not fixed"
-        fix = f"a gear pair needs exactly one carrier: join '{i}' and '{j}' to one of {', '.join(changes)}"
+        fix = f"join '{i}' and '{j}' to one carrier: {' or '.join(changes)}"
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 

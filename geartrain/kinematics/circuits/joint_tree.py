@@ -179,19 +179,10 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
     -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
 
-    Parameters
-    ----------
-    wheels : tuple of Wheel
-        The two wheels.
-    angle : float
-        Angle between the directions of the axes [rad], 0 to pi.
-    side : int
-        1 if the angle is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown.
+    angle   angle between the directions of the axes [rad], 0 to pi
+    side    1 if it is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown
 
-    Raises
-    ------
-    GearTrainError
-        If the teeth are not aligned.
+    Raises `GearTrainError` if the teeth are not aligned.
     """
     lean = wheels[0].helix + wheels[1].helix
     # both sides are tried if the positions do not determine the sense of the angle
@@ -217,12 +208,8 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
     """Return the helix angles of two wheels on skew axes [rad], positive for right hands; None if none is declared.
 
     The helix angle of a worm and the shaft angle determine the helix angle of its wheel by (12a); it may also be
-    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
-
-    Raises
-    ------
-    GearTrainError
-        If the wheel of a worm declares another helix angle or hand than the worm requires.
+    declared. A worm without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`. Raises
+    `GearTrainError` if the wheel of a worm declares another helix angle or hand than the worm requires.
     """
     kinds = [wheel.kind for wheel in wheels]
     if "worm" not in kinds:
@@ -455,20 +442,22 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
     `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
     if every case has problems.
     """
-    lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
-    closed = [_closed_case(train, lines, sums, case) for case in cases]
+    axes = Axes(train, tree)
+    sums = axes.joint_sums
+    closed = [_closed_case(train, axes, sums, case) for case in cases]
     if all(case.problems for case in closed):
         raise DeclarationError({str(problem): problem for case in closed for problem in case.problems}.values())
     return closed
 
 
-def _closed_case(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
+def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase) -> StateCase:
     problems = list(_driven_sums(train, case, sums))
-    across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
+    bodies = _Bodies(axes, case)
+    across = [rigid for rigid in bodies.connections if len(rigid.joints) > 1]
     if across:
-        stops, linkages = _Bodies(lines, case).close(across)
+        stops, linkages = bodies.close(across)
         problems += [_linkage(train, case, rigid) for rigid in linkages]
-        case = _joint_by_joint(lines.frame, case, across, stops)
+        case = _joint_by_joint(train.frame, case, across, stops)
     return replace(case, problems=tuple(problems)) if problems else case
 
 
@@ -478,61 +467,23 @@ def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rig
 
     Joints that are closed by other brakes and locks are not counted.
     """
-    lines = JointLines(train, tree)
-    bodies = _Bodies(lines, case)
-    return (rigid for rigid in rigid_connections(lines, case) if len(bodies.open(rigid)) > 1)
-
-
-class JointLines:
-    """Axes of a train as lines: joints between two links, collinear axes, and mobility of closed chains."""
-
-    def __init__(self, train: Train, tree: Tree) -> None:
-        self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
-
-    def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints on the path between two links, one for each line; collinear axes are merged."""
-        parent, top = self._tree.parent, self._tree.top
-        up, down = ways_to_common_ancestor(a, b, top.get)
-        steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
-        steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
-        found: list[JointOnLine] = []
-        for start, end, label in steps:
-            # consecutive joints on one line are one joint
-            if found and self._same_line(found[-1][2][-1], label):
-                before = found.pop()
-                labels = before[2] if before[2][-1] == label else (*before[2], label)
-                found.append((before[0], end, labels))
-            else:
-                found.append((start, end, (label,)))
-        return tuple(found)
-
-    def _same_line(self, one: str, other: str) -> bool:
-        return one == other or self._axes.are_one_line(one, other)
-
-    def rigid(self, labels: Sequence[str]) -> bool:
-        """Return True if a closed chain of turning pairs with these axes has no mobility, False if it may move."""
-        # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
-        if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
-            return True
-        screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
-        return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
-
-
-def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
-    """Yield every brake and lock of a case with its joints."""
-    for link in case.fixed:
-        yield Rigid((link,), lines.joints(link, lines.frame))
-    for a, b in case.locks:
-        yield Rigid((a, b), lines.joints(a, b))
+    bodies = _Bodies(Axes(train, tree), case)
+    return (rigid for rigid in bodies.connections if len(bodies.open(rigid)) > 1)
 
 
 class _Bodies:
-    """Rigid bodies as disjoint sets of links; closing a joint merges two of them."""
+    """Rigid bodies of a case as disjoint sets of links, with its brakes and locks; closing a joint merges two bodies.
 
-    def __init__(self, lines: JointLines, case: StateCase) -> None:
-        self._lines = lines
+    Axes of the joints are lines: collinear axes are one.
+    """
+
+    def __init__(self, axes: Axes, case: StateCase) -> None:
+        self._axes, self._tree = axes, axes.tree
+        ends = [(link, self._tree.frame) for link in case.fixed] + list(case.locks)
+        names = [(link,) for link in case.fixed] + list(case.locks)
+        self.connections = [Rigid(links, self._joints(*pair)) for links, pair in zip(names, ends, strict=True)]
         self._bodies: DisjointSets[str] = DisjointSets()
-        for rigid in rigid_connections(lines, case):
+        for rigid in self.connections:
             if len(rigid.joints) == 1:
                 self._bodies.join(*rigid.joints[0][:2])
 
@@ -543,11 +494,7 @@ class _Bodies:
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
         # closing a joint may leave fewer open joints in other chains, so it is repeated
-        while waiting:
-            able = [rigid for rigid in waiting if self._lines.rigid(self._labels(rigid))]
-            if not able:
-                break
-            rigid = able[0]
+        while rigid := next((each for each in waiting if self._is_immobile(self.open(each))), None):
             waiting.remove(rigid)
             for joint in self.open(rigid):
                 self._bodies.join(*joint[:2])
@@ -558,8 +505,33 @@ class _Bodies:
         """Return the joints on the path of a brake or lock that are not closed yet."""
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
-    def _labels(self, rigid: Rigid) -> list[str]:
-        return [labels[0] for _, _, labels in self.open(rigid)]
+    def _joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
+        """Return the joints on the path between two links, one for each line; collinear axes are merged."""
+        parent, top = self._tree.parent, self._tree.top
+        up, down = ways_to_common_ancestor(a, b, top.get)
+        steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
+        steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
+        found: list[JointOnLine] = []
+        for start, end, label in steps:
+            # consecutive joints on one line are one joint
+            if found and self._same_line(found[-1][2][-1], label):
+                before = found.pop()
+                found.append((before[0], end, tuple(dict.fromkeys((*before[2], label)))))
+            else:
+                found.append((start, end, (label,)))
+        return tuple(found)
+
+    def _same_line(self, one: str, other: str) -> bool:
+        return one == other or self._axes.are_one_line(one, other)
+
+    def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
+        """Return True if a closed chain of these joints has no mobility, False if it may move."""
+        labels = [labels[0] for _, _, labels in joints]
+        # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
+        if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
+            return True
+        screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
+        return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
 
 
 def _joint_by_joint(

@@ -1,4 +1,4 @@
-"""Outputs as exact rational functions of free tooth counts."""
+"""Outputs as exact rational functions of variable tooth counts."""
 
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas, with_counts
 from geartrain.kinematics.formulas.rational_functions import Formula

@@ -240,7 +240,9 @@ class ClosedForm(Result):
         if wheel not in wheels:
             top, bottom = Laurent.constant(0, width), Laurent.constant(1, width)
         else:
-            steep, flat = (_times_derivative(each, wheels.index(wheel)) for each in (top, bottom))
+            at = wheels.index(wheel)
+            # z dp/dz: every term times its exponent of z
+            steep, flat = (Laurent(width, {e: c * e[at] for e, c in p.terms.items() if e[at]}) for p in (top, bottom))
             top, bottom = steep * bottom - top * flat, top * bottom
         found, _ = make_formula(f"elasticity of {self.formula.label} in {wheel}", wheels, top, bottom)
         parts = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
@@ -308,11 +310,6 @@ class ClosedForm(Result):
             text = written[0] if written[1] == "1" else style.over(*written)
             words.append(f"{'-' if value < 0 else '+' if words else ''}{' ' if words else ''}{text}")
         return " ".join(words)
-
-
-def _times_derivative(p: Laurent, at: int) -> Laurent:
-    """Return z dp/dz for the variable z with index `at`: every term times its exponent of z."""
-    return Laurent(p.width, {exponents: c * exponents[at] for exponents, c in p.terms.items() if exponents[at]})
 
 
 def _product(p: FactoredPolynomial, wheels: Sequence[str], style: _Style) -> str:

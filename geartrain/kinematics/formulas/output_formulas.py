@@ -1,4 +1,4 @@
-"""Outputs of a declared train as exact rational functions of the free tooth counts.
+"""Outputs of a declared train as exact rational functions of variable tooth counts.
 
 Relative to one carrier, the speeds of links that mesh are monomial multiples of one unknown. The equations that couple
 these components, and the equations of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
@@ -20,7 +20,6 @@ from geartrain.kinematics.components import Components, find_components, reduce_
 from geartrain.kinematics.formulas.laurent import Laurent, TooLongError, minors
 from geartrain.kinematics.formulas.laurent import Term as Term
 from geartrain.kinematics.formulas.rational_functions import Formula as Formula
-from geartrain.kinematics.formulas.rational_functions import MonomialGroup as MonomialGroup
 from geartrain.kinematics.formulas.rational_functions import make_formula
 from geartrain.numerics.elimination import PRIME, add_into, eliminate_units
 from geartrain.numerics.results import Result
@@ -203,11 +202,11 @@ class Chord:
 class SymbolicEquations:
     """Equations of one case, as rows that must be 0, with the unknowns of `reduce_components`.
 
-    circuits   fundamental circuits, with different tooth counts for all free wheels
+    circuits   fundamental circuits, with different tooth counts for all wheels in `free`
     free       wheel -> index of its variable
 
     rows, origin   the equations, and the cause of each of them
-    chords         circuits whose loops have the ratio product 1 for some of the free counts only
+    chords         circuits whose loops have the ratio product 1 for some values of the variable counts only
     """
 
     def __init__(
@@ -225,7 +224,7 @@ class SymbolicEquations:
         self._ratios = self._find_ratios(parts)
         loops = [self._chord(parts, at) for at in (*parts.closing, *parts.breaking)]
         one = Laurent.constant(1, self.width)
-        # a constant product other than 1: the loop locks for all free counts
+        # a constant product other than 1: the loop locks for all values of the variable counts
         never = [chord.circuit for chord in loops if chord.product.is_constant and chord.product != one]
         self.chords = tuple(chord for chord in loops if not chord.product.is_constant)
         self._reduced = reduce_components(replace(parts, breaking=never))
@@ -272,8 +271,8 @@ class SymbolicEquations:
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return coefficient a (side 0) or b (side 1) of a circuit; for a free wheel, its variable with the sign of the
-        coefficient.
+        """Return coefficient a (side 0) or b (side 1) of a circuit; for a variable count, its variable with the
+        sign of the coefficient.
         """
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.kind == "gear" else None
@@ -344,12 +343,12 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Formulas(Mapping[str, Formula], Result):
-    """Outputs of a train in one state as functions of the tooth counts of its free wheels. The object is also a
-    mapping with the items of `outputs`.
+    """Outputs of a train in one state as functions of its variable tooth counts. The object is also a mapping with
+    the items of `outputs`.
 
-    A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with free wheels are assumed to turn. A
-    train that moves although such a loop is locked therefore has no formulas. Loops without free wheels may turn or be
-    locked.
+    A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with variable counts are assumed to
+    turn. A train that moves although such a loop is locked therefore has no formulas. Loops without variable counts may
+    turn or be locked.
     """
 
     outputs: Mapping[str, Formula]
@@ -386,14 +385,14 @@ class Formulas(Mapping[str, Formula], Result):
 def find_formulas(
     train: Train, state: str | None, free: Mapping[str, Counts], inputs: Mapping[str, int] | None = None
 ) -> Formulas:
-    """Return every output of one state as a function of the tooth counts of the free wheels.
+    """Return every output of one state as a function of the variable tooth counts.
 
     state    a declared state, or None for a train without states
     free     wheel -> allowed tooth counts; all other wheels keep their declared count
     inputs   speeds of the input links, instead of the declared speeds
 
     Raises `QuestionError` for wheels or states that the train does not have, and for trains whose coupled part is too
-    large; `DeclarationError` if a wheel that is not free has no count.
+    large; `DeclarationError` if a wheel that is not in `free` has no count.
     """
     _check(train, state, free)
     tree = find_tree(train)
@@ -446,7 +445,9 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs. Free wheels are represented by large, different random counts."""
+    """Return the equations that affect the outputs; variable counts are represented by large, different random
+    counts.
+    """
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -482,7 +483,7 @@ def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquation
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield the condition of each loop with free wheels: ratio product 1, or wheels of the loop at rest."""
+    """Yield the condition of each loop with variable counts: ratio product 1, or wheels of the loop at rest."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -510,7 +511,7 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
 
 
 def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
-    """Return the declared counts of the free wheels, or None if one is not declared."""
+    """Return the declared counts of the wheels in `free`, or None if one is not declared."""
     counts = [train.wheels[name][1].count for name in wheels]
     return [count for count in counts if count is not None] if all(counts) else None
 
@@ -524,8 +525,8 @@ def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
             raise QuestionError(
                 Problem(
                     f"wheel '{name}' has no allowed tooth count",
-                    "a free wheel needs a list of at least one count",
-                    "allow at least one count",
+                    "its count is variable, and the sequence of its allowed counts is empty",
+                    f"give at least one count, such as `{{'{name}': [20]}}`",
                     place,
                 )
             )

@@ -1,7 +1,4 @@
-"""Rational functions of tooth counts: exact values, fast values with error bounds, and monomial groups.
-
-A monomial group is a set of wheels on which the function depends only through one monomial.
-"""
+"""Rational functions of tooth counts in lowest terms: exact values, and fast values with error bounds."""
 
 from __future__ import annotations
 
@@ -13,56 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, common_divisor, divide
 from geartrain.numerics.exact import fraction_text, is_short, log10
-from geartrain.numerics.results import Key, Result
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from geartrain.numerics.arrays import Floats, Ints
-
-
-@dataclass(frozen=True, slots=True)
-class MonomialGroup(Result):
-    """Set of wheels on which the function depends only through x, the product of their counts to the powers
-    `exponents`.
-    """
-
-    KEYS = (Key("exponents", "by_wheel"), "degree")
-
-    wheels: tuple[str, ...]
-    """Names of the wheels in the order of the declaration."""
-    exponents: Exponents
-    """Non-zero exponent of each wheel's count; usually 1 or -1. The first exponent is positive."""
-    degree: int
-    """Highest power of x in the numerator or the denominator; for 1 the function is a Moebius transformation of x."""
-
-    @property
-    def by_wheel(self) -> dict[str, int]:
-        """Exponent of each wheel, by name."""
-        return dict(zip(self.wheels, self.exponents, strict=True))
-
-    @property
-    def roundings(self) -> int:
-        """Number of roundings in `monomials`; to first order the relative error is below this number times 2^-53."""
-        return sum(map(abs, self.exponents))
-
-    def monomials(self, columns: Mapping[str, Any]) -> NDArray[np.float64]:
-        """Return x for many combinations of tooth counts (arrays by wheel, which are broadcast); see `roundings` for
-        the error.
-        """
-        import numpy as np
-
-        top: NDArray[np.float64] = np.ones(())
-        bottom = top
-        for wheel, power in zip(self.wheels, self.exponents, strict=True):
-            column = np.asarray(columns[wheel]).astype(np.float64)
-            for _ in range(abs(power)):
-                if power > 0:
-                    top = top * column
-                else:
-                    bottom = bottom * column
-        return np.asarray(top / bottom, dtype=np.float64)
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,19 +135,13 @@ class Formula:
     label: str
     """Name of the output whose speed is given by the function, or cause of a condition."""
     wheels: tuple[str, ...]
-    """Free wheels on which the function depends, in the order of the declaration."""
+    """Wheels on whose tooth counts the function depends, in the order of the declaration."""
     numerator: tuple[Term, ...]
     """Terms of the numerator, with non-negative exponents in the order of `wheels`. Coefficients are integers, coprime
     with the coefficients of the denominator.
     """
     denominator: tuple[Term, ...]
     """Terms of the denominator in the same form; the first coefficient is positive."""
-    groups: tuple[MonomialGroup, ...]
-    """Coarsest groups of wheels such that the function depends on each group through one monomial."""
-    upper: tuple[Term, ...]
-    """Numerator with the monomials of `groups` as variables; exponents are not negative."""
-    lower: tuple[Term, ...]
-    """Denominator with the monomials of `groups` as variables; exponents are not negative."""
 
     @property
     def constant(self) -> Fraction | None:
@@ -256,7 +200,6 @@ class Formula:
             "wheels": list(self.wheels),
             "numerator": _listed(self.numerator),
             "denominator": _listed(self.denominator),
-            "groups": [group.to_dict() for group in self.groups],
         }
 
     def __str__(self) -> str:
@@ -269,11 +212,12 @@ class Formula:
         """Return values in float64, and bounds on their absolute errors."""
         import numpy as np
 
-        from geartrain.numerics.bounded_polynomials import BoundedQuotient, in_range, products_of
+        from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of
 
-        quotient = BoundedQuotient.of(self.upper, self.lower, [group.roundings for group in self.groups])
         with np.errstate(all="ignore"):
-            value, error = quotient.bounded(products_of([group.monomials(columns) for group in self.groups]))
+            # tooth counts up to 10^12 are exact in float64
+            product = products_of([np.asarray(columns[wheel]).astype(np.float64) for wheel in self.wheels])
+        value, error = bounded_quotient(self.numerator, self.denominator, [0] * len(self.wheels), product)
         terms = (*self.numerator, *self.denominator)
         scale = max(abs(term.coefficient) for term in terms)
         # the bounds are valid only without overflow and underflow
@@ -291,16 +235,12 @@ def make_formula(
     """
     # 1/0 in lowest terms: the function has no value anywhere
     if not denominator:
-        return Formula(label, (), (Term(1, ()),), (), (), (Term(1, ()),), ()), Laurent.constant(1, len(wheels))
+        return Formula(label, (), (Term(1, ()),), ()), Laurent.constant(1, len(wheels))
+    # in the monomials of groups of wheels, polynomials have fewer variables, and their divisor is found faster
     grouping = find_grouping([numerator, denominator])
-    top, bottom = grouping.rewritten
-    common = common_divisor(top, bottom)
-    cancelled = grouping.back(common, len(wheels))
-    if not common.is_constant:
-        quotients = [grouping.back(_quotient(each, common), len(wheels)) for each in (top, bottom)]
-        grouping = find_grouping(quotients)  # the quotients may have fewer classes
-        top, bottom = grouping.rewritten
-    return _formula(label, wheels, grouping, top, bottom), cancelled
+    common = common_divisor(*grouping.rewritten)
+    parts = [grouping.back(_quotient(each, common), len(wheels)) for each in grouping.rewritten]
+    return _formula(label, wheels, *parts), grouping.back(common, len(wheels))
 
 
 def _listed(terms: Sequence[Term]) -> list[list[Any]]:
@@ -308,29 +248,18 @@ def _listed(terms: Sequence[Term]) -> list[list[Any]]:
     return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]
 
 
-def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top: Laurent, bottom: Laurent) -> Formula:
-    used = sorted(variable for members in grouping.members for variable in members)
-    spread = [grouping.back(each, len(wheels)) for each in (top, bottom)]
+def _formula(label: str, wheels: Sequence[str], top: Laurent, bottom: Laurent) -> Formula:
     # exponents are made non-negative by a common monomial factor
-    lowest = list(map(min, *(each.lowest() for each in spread if each))) if top else list(spread[1].lowest())
-    spread = [each.shifted(tuple(-power for power in lowest)) for each in spread]
+    lowest = tuple(map(min, top.lowest(), bottom.lowest())) if top else bottom.lowest()
     # canonical form: coprime integer coefficients, the first one of the denominator positive
-    first = max(spread[1].terms.items())[1]
-    scale = (1 if first > 0 else -1) / top.content(bottom)
-    groups = tuple(
-        MonomialGroup(
-            tuple(wheels[variable] for variable in members),
-            tuple(members.values()),
-            max(exponents[at] for each in (top, bottom) for exponents in each.terms),
-        )
-        for at, members in enumerate(grouping.members)
-    )
+    scale = (1 if max(bottom.terms.items())[1] > 0 else -1) / top.content(bottom)
+    spread = [each.shifted(tuple(-power for power in lowest)).scaled(scale) for each in (top, bottom)]
+    used = [at for at in range(len(wheels)) if any(exponents[at] for each in spread for exponents in each.terms)]
     numerator, denominator = (
-        tuple(Term(c, tuple(powers[variable] for variable in used)) for c, powers in each.scaled(scale).sorted_terms())
+        tuple(Term(c, tuple(powers[variable] for variable in used)) for c, powers in each.sorted_terms())
         for each in spread
     )
-    upper, lower = (each.scaled(scale).sorted_terms() for each in (top, bottom))
-    return Formula(label, tuple(wheels[at] for at in used), numerator, denominator, groups, upper, lower)
+    return Formula(label, tuple(wheels[at] for at in used), numerator, denominator)
 
 
 def _quotient(p: Laurent, q: Laurent) -> Laurent:

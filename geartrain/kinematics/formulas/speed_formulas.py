@@ -159,13 +159,8 @@ def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ())
             required = [each for formulas in found.values() for each in formulas.conditions]
             excluded = [each for formulas in found.values() for each in formulas.exclusions]
             poles = [text for share in shares for text in share.ratio.poles] + _zeros(excluded, counts)
-            yield OutputFormula(
-                name, state, tuple(filter(_is_nonzero, shares)), _unique(_zeros(required, counts)), _unique(poles)
-            )
-
-
-def _is_nonzero(share: InputShare) -> bool:
-    return bool(share.ratio.formula.numerator)
+            shown = tuple(share for share in shares if share.ratio.formula.numerator)
+            yield OutputFormula(name, state, shown, _unique(_zeros(required, counts)), _unique(poles))
 
 
 def _zeros(formulas: Sequence[Formula], counts: Mapping[str, int]) -> list[str]:

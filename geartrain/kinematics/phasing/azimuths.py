@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.quantity import UNITS, Figure, Quantity
 from geartrain.numerics.rational_angles import rational_angle, recognised_angle
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
-from geartrain.numerics.vectors import IntegerVector, across_whole, cross, dot, minus, parallel
+from geartrain.numerics.vectors import IntegerVector, across_whole, azimuth, cross, dot, frame, minus, parallel, unit
 from geartrain.train import Train
 
 if TYPE_CHECKING:
@@ -146,10 +146,8 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
     # an undeclared axis is parallel to z, without a position
     plain = _Axis(_Z, 0.0, _Z, None, Fraction(0))
     placed: list[Circuit] = []
-    ways: list[tuple[IntegerVector, IntegerVector]] = []
-    senses: list[tuple[IntegerVector, IntegerVector]] = []
-    rounded: list[float] = []
-    blurred: list[float] = []
+    contacts: list[_Contact] = []
+    turns: list[tuple[float, float]] = []
     omitted: list[UnplacedPair] = []
     for circuit in circuits:
         if circuit.kind != "gear":
@@ -161,14 +159,11 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
             omitted.append(UnplacedPair(circuit.id, found))
             continue
         placed.append(mount_frame_wheels(circuit, train.frame))
-        ways.append(found[:2])
-        rounded.append(found[2])
-        blurred.append(found[3])
-        senses.append((first.sense, second.sense))
-    azimuth = _azimuths(ways, senses)
-    slack = np.add(rounded, blurred)[:, None] * np.ones(2)
-    family, part, guessed = _families(placed, ways, azimuth, rounded, blurred)
-    return PitchPoints(tuple(placed), azimuth, slack, family, part, guessed, tuple(omitted))
+        contacts.append(found)
+        turns.append((_azimuth(found.ways[0], first.sense), _azimuth(found.ways[1], second.sense)))
+    slack = np.array([each.error + each.rounding for each in contacts]).reshape(-1, 1) * np.ones(2)
+    family, part, guessed = _families(placed, contacts, turns)
+    return PitchPoints(tuple(placed), np.array(turns).reshape(-1, 2), slack, family, part, guessed, tuple(omitted))
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
@@ -237,10 +232,16 @@ def _half_digit(length: Quantity) -> float:
 
 # ------------------------------------------------------------------------------------------------------------ contacts
 
-_Contact = tuple[IntegerVector, IntegerVector, float, float]
-"""Contact of a pair: vectors from both axes to the pitch point, normal to the axes; errors of declared positions and of
-rounding [turn].
-"""
+
+class _Contact(NamedTuple):
+    """Pitch point of a pair as seen from both axes."""
+
+    ways: tuple[IntegerVector, IntegerVector]
+    """Vectors from both axes to the pitch point, normal to the axes."""
+    error: float
+    """Maximum error of the azimuths from the rounding of declared numbers [turn]."""
+    rounding: float
+    """Maximum rounding error of the computed azimuths [turn]."""
 
 
 def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Contact | str:
@@ -272,7 +273,7 @@ def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> 
     rounded = _turns(float((first.error + second.error) / length))
     back = minus((0, 0, 0), way)
     # four roundings in the arctangent of exact integers
-    return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
+    return _Contact((back if internal[1] else way, way if internal[0] else back), rounded, 4 * EPS)
 
 
 def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
@@ -287,15 +288,17 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
             return "its axes do not intersect"
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
     sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
+    # an error of one direction turns the common plane of both axes by at most error/sine
     rounded = _turns((first.unsure + second.unsure) / sine)
     # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
-    return across_whole(m, first.way), across_whole(n, second.way), rounded, 16 * EPS / sine
+    return _Contact((across_whole(m, first.way), across_whole(n, second.way)), rounded, 16 * EPS / sine)
 
 
 def _norm(vector: IntegerVector) -> Fraction:
     """Return the length of an integer vector as a Fraction, to at least 64 bits; its components may have hundreds of
     digits.
     """
+    # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
 
@@ -305,36 +308,13 @@ def _turns(sine: float) -> float:
     )  # rounding as large as the distance: the direction is unknown
 
 
-def _azimuths(
-    ways: Sequence[tuple[IntegerVector, IntegerVector]], senses: Sequence[tuple[IntegerVector, IntegerVector]]
-) -> Floats:
-    """Return azimuths about the axes [turn], counterclockwise from the projection of x (of y for an axis nearly
-    parallel to x).
+def _azimuth(way: IntegerVector, sense: IntegerVector) -> float:
+    """Return the azimuth of a vector about an axis [turn], counterclockwise from the projection of x (of y for an axis
+    nearly parallel to x).
     """
-    if not ways:
-        return np.zeros((0, 2))
-    frames: dict[IntegerVector, tuple[list[float], list[float]]] = {}
-    for pair in senses:
-        for sense in pair:
-            if sense not in frames:
-                frames[sense] = _frame(sense)
-    # azimuth from the components along two perpendicular directions of each axis
-    vectors = np.array([[_floats(way) for way in pair] for pair in ways])
-    first = np.array([[frames[sense][0] for sense in pair] for pair in senses])
-    second = np.array([[frames[sense][1] for sense in pair] for pair in senses])
-    angles = np.arctan2((vectors * second).sum(axis=2), (vectors * first).sum(axis=2)) / math.tau
-    turns: Floats = np.mod(angles, 1.0)
-    return turns
-
-
-def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
-    n = np.array(_floats(sense))
-    n /= np.linalg.norm(n)
-    # x, unless its component normal to n would be mostly rounding error
-    start = np.array([1.0, 0.0, 0.0]) if abs(n[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
-    first = start - (start @ n) * n
-    first /= np.linalg.norm(first)
-    return first.tolist(), np.cross(n, first).tolist()
+    axis = unit(_floats(sense))
+    turn = azimuth(_floats(way), axis, frame(axis)[0]) / math.tau % 1.0
+    return 0.0 if turn == 1.0 else turn  # a tiny negative angle is rounded up
 
 
 def _floats(vector: IntegerVector) -> tuple[float, float, float]:
@@ -350,30 +330,25 @@ def _floats(vector: IntegerVector) -> tuple[float, float, float]:
 
 
 def _families(
-    circuits: Sequence[Circuit],
-    ways: Sequence[tuple[IntegerVector, IntegerVector]],
-    azimuth: Floats,
-    rounded: Sequence[float],
-    blurred: Sequence[float],
+    circuits: Sequence[Circuit], contacts: Sequence[_Contact], turns: Sequence[tuple[float, float]]
 ) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
-    """Return the family of each contact, its angle from the first contact of the family [turn], and the families with
-    guesses.
+    """Return the family of each contact, its angle from the first contact of the family [turn], and the families in
+    which angles were recognised as fractions from rounded positions.
     """
     heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
     guessed: set[int] = set()
     count = 0
     found: list[list[tuple[int, Fraction]]] = []
-    turns = azimuth.tolist()
     for at, circuit in enumerate(circuits):
         found.append([])
-        for link, way, turn in zip((circuit.i, circuit.j), ways[at], turns[at], strict=True):
+        for link, way, turn in zip((circuit.i, circuit.j), contacts[at].ways, turns[at], strict=True):
             known = heads.setdefault((link, circuit.carrier), [])
             for number, head, zero, other in known[
                 -_COMPARED:
             ]:  # keeps the cost linear for a hub with thousands of mates
                 part = rational_angle(head, way, (turn - zero) % 1)
-                if part is None and rounded[at] + rounded[other]:
-                    slack = rounded[at] + rounded[other] + blurred[at] + blurred[other]
+                if part is None and contacts[at].error + contacts[other].error:
+                    slack = sum(each.error + each.rounding for each in (contacts[at], contacts[other]))
                     part = recognised_angle((turn - zero) % 1, slack)
                     guessed.update([number] if part is not None else [])
                 if part is not None:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import find_components
@@ -249,7 +249,9 @@ class LoopPhase(Result):
     weights: tuple[int, ...]
     """Integer weight of each pair in the sum of the phase equations; 1 or -1 except for compound wheels."""
     residue: Fraction | float
-    """Deviation of the sum from the nearest integer [pitch], -1/2 to 1/2; a Fraction if it is exact."""
+    """Weighted sum of the phase constants of the pairs minus the nearest integer [pitch], -1/2 to 1/2; a Fraction if it
+    is exact.
+    """
     slack: float
     """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""
     how: ResidueKnowledge
@@ -287,7 +289,9 @@ class LoopPhase(Result):
             return f"{name} closes{self._accuracy_remark}"
         if self.kind == "unclear":
             return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
-        words = f"{name} misses by {_magnitude_text(self.miss)} pitch at {self.meshes[-1]}{self._accuracy_remark}"
+        miss = abs(self.miss)
+        size = fraction_text(miss) if isinstance(miss, Fraction) else f"{miss:.6g}"
+        words = f"{name} misses by {size} pitch at {self.meshes[-1]}{self._accuracy_remark}"
         if self.retime:
             # the wheel with the smallest rotation is suggested
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
@@ -302,7 +306,7 @@ class LoopPhase(Result):
 
 
 def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
-    """Return a phase condition with the names of its wheels and pairs."""
+    """Return a phase condition as a `LoopPhase`, with the names of its wheels and pairs."""
     gears: list[str] = []
     over: dict[str, int] = {}
     cycle = condition.cycle
@@ -358,10 +362,6 @@ def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str,
         found[gear] = found.get(gear, Fraction(0)) + part
         before = mesh
     return found
-
-
-def _magnitude_text(value: Fraction | float) -> str:
-    return fraction_text(abs(value)) if isinstance(value, Fraction) else f"{abs(value):.6g}"
 
 
 # --------------------------------------------------------------------------------------------------------- mesh phasing
@@ -428,7 +428,7 @@ class MeshPhasing(Result):
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
         """Phase conditions of a cycle basis of short loops, followed by conditions on several loops together."""
-        return _Loops(self.problem)
+        return tuple(describe_loop(self.problem, condition) for condition in self.problem.conditions)
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
@@ -575,7 +575,7 @@ class MeshPhasing(Result):
         else:
             yield f"phase closure: not all of {loops} can be decided, because positions are too inaccurate"
         shown = self.missing or [at for at, one in enumerate(self.problem.conditions) if one.kind == "unclear"]
-        yield from (f"  {self.loops[at].text}" for at in shown[:_SHOWN])
+        yield from (f"  {describe_loop(self.problem, self.problem.conditions[at]).text}" for at in shown[:_SHOWN])
         if len(shown) > _SHOWN:
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
@@ -604,21 +604,6 @@ class MeshPhasing(Result):
     def _errors(self, angles: Sequence[float] | Floats) -> dict[str, float]:
         found = self.problem.errors(angles).tolist()
         return {circuit.id: error for circuit, error in zip(self.problem.circuits, found, strict=True)}
-
-
-class _Loops(Sequence[LoopPhase]):
-    """Sequence of loop results, each of which is computed when it is accessed."""
-
-    def __init__(self, problem: PhaseSystem) -> None:
-        self.problem = problem
-
-    def __len__(self) -> int:
-        return len(self.problem.conditions)
-
-    def __getitem__(self, at: Any) -> Any:
-        if isinstance(at, slice):
-            return [self[one] for one in range(*at.indices(len(self)))]
-        return describe_loop(self.problem, self.problem.conditions[at])
 
 
 def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, str]) -> dict[str, Fraction] | None:

@@ -5,7 +5,7 @@ errors.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -17,7 +17,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, ReducedSystem, reduce_components
 from geartrain.kinematics.phasing.azimuths import PitchPoints, mesh_nodes
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
+from geartrain.numerics.elimination import Echelon, LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.integer_lattice import saturated_lattice
 from geartrain.numerics.rational_angles import centred_residue
@@ -36,7 +36,7 @@ class PhaseCycle(NamedTuple):
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Coprime integers; with them as weights, the left sides of the equations of the meshes add up to 0."""
+    """Coprime integer weight of each mesh; the weighted left sides of the meshes' equations add up to 0."""
 
     @property
     def row(self) -> dict[int, int]:
@@ -50,12 +50,9 @@ _PASSES = 8  # passes over the remaining chords: a chord that is taken shortens 
 _Edges = dict[int, list[tuple[int, int]]]
 
 
-@collector_paused()
-def find_cycle_basis(
-    parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
-) -> list[PhaseCycle]:
-    """Return a cycle basis: for each chord the shortest loop through it, the search tree, and chords that were used
-    before.
+def find_cycle_basis(parts: Components, ends: Sequence[tuple[int, int]]) -> Iterator[tuple[list[int], list[int]]]:
+    """Yield nodes and meshes of a cycle basis: for each chord the shortest loop through it, the search tree, and chords
+    that were used before.
 
     Each loop contains its own chord and no later chord, so the loops are independent and generate all loops.
     """
@@ -67,7 +64,6 @@ def find_cycle_basis(
     depth = node_depths(parts)
     # chords near the root first: their loops are short, and shorten others
     waiting = sorted(parts.closing, key=lambda at: depth[ends[at][0]] + depth[ends[at][1]])
-    found: list[PhaseCycle] = []
     for most in _LENGTHS:
         for _ in range(_PASSES):
             later = []
@@ -77,14 +73,12 @@ def find_cycle_basis(
                 if way is None:
                     later.append(chord)
                     continue
-                nodes, meshes = way[0], [*way[1], chord]
-                found.append(PhaseCycle(tuple(nodes), tuple(meshes), cycle_weights(circuits, ends, nodes, meshes)))
+                yield way[0], [*way[1], chord]
                 _join(edges, chord, i, j)
             progress = len(later) < len(waiting)
             waiting = later[::-1]  # reversed, because chords left over by one pass may be reachable from the other end
             if not progress or not waiting:
                 break
-    return found
 
 
 def node_depths(parts: Components) -> list[int]:
@@ -108,177 +102,36 @@ def _join(edges: _Edges, mesh: int, i: int, j: int) -> None:
 
 
 def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[int], list[int]] | None:
-    """Return nodes and meshes of a shortest path by bidirectional search; None if it has more than `most` meshes."""
-    came: tuple[dict[int, tuple[int, int]], ...] = ({start: (-1, -1)}, {goal: (-1, -1)})
-    fronts = [[start], [goal]]
-    length = 0
-    while (length := length + 1) <= most:
-        side = (
-            0 if len(fronts[0]) <= len(fronts[1]) else 1
-        )  # the smaller front is expanded, which visits far fewer nodes
-        fresh = []
-        own, other = came[side], came[1 - side]
-        for node in fronts[side]:
+    """Return nodes and meshes of a shortest path by breadth-first search; None if it has more than `most` meshes."""
+    came = {start: (-1, -1)}
+    front, length = [start], 0
+    while front and goal not in came:
+        length += 1
+        if length > most:
+            return None
+        reached = []
+        for node in front:
             for mesh, there in edges[node]:
-                if there in other:
-                    return _joined_path(came, (node, there) if side == 0 else (there, node), mesh)
-                if there not in own:
-                    own[there] = (mesh, node)
-                    fresh.append(there)
-        fronts[side] = fresh
-    return None
-
-
-def _joined_path(
-    came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], mesh: int
-) -> tuple[list[int], list[int]]:
-    halves: list[tuple[list[int], list[int]]] = []
-    for at, reached in zip(meet, came, strict=True):
-        nodes, meshes = [at], []
-        while reached[nodes[-1]][0] >= 0:
-            through, before = reached[nodes[-1]]
-            meshes.append(through)
-            nodes.append(before)
-        halves.append((nodes, meshes))
-    (left, first), (right, last) = halves
-    return left[::-1] + right, [*first[::-1], mesh, *last]
-
-
-def cycle_weights(
-    circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], nodes: Sequence[int], meshes: Sequence[int]
-) -> tuple[int, ...]:
-    """Return weights for which the coefficients cancel at every node; the weight of the last mesh is positive."""
-    weights: list[Fraction | int] = [1]
-    for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
-        came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
-        # one wheel in both meshes, the usual case: no Fraction is needed
-        if abs(came) == abs(goes):
-            weights.append(-weights[-1] if came == goes else weights[-1])
-        else:
-            weights.append(Fraction(-came, goes) * weights[-1])
-    sign = -1 if weights[-1] < 0 else 1
-    return tuple(sign * weight for weight in whole_multiple(weights))
-
-
-def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], mesh: int, node: int) -> int:
-    """Return the coefficient (a or b) of a node's angle in the equation of a mesh."""
-    return circuits[mesh].a if ends[mesh][0] == node else circuits[mesh].b
-
-
-# ----------------------------------------------------------------------------------------------------- carrier coupling
-
-
-_BUDGET = 10**7  # operations of elimination; beyond, trains of coupled planetaries are checked loop by loop
-
-Number = Fraction | float
-Left = Callable[[int, Sequence[Number]], Number]
-"""Function that returns the constant of a mesh minus its left side at given angles of the nodes [pitch]."""
-
-
-@dataclass(frozen=True)
-class CarrierCoupling:
-    """Coupling of components through shared links and carriers, which adds phase conditions and determines angles of
-    links.
-
-    rows       weights of meshes of several carriers, with which the left sides of their equations add up to 0
-    complete   False if the search for `rows` exceeded its budget
-    forms      unknowns of the components as linear forms of the angles at which they meet (symbol -1 - equation)
-    """
-
-    reduced: ReducedSystem
-    circuits: Sequence[Circuit]
-    ends: Sequence[tuple[int, int]]
-    rows: tuple[dict[int, int], ...] = ()
-    forms: Mapping[int, LinearForm] | None = None
-
-    @property
-    def complete(self) -> bool:
-        """False if elimination exceeded its budget, so only loops of one carrier are known."""
-        return self.forms is not None
-
-    def angles(self, nodes: Sequence[Number], left: Left) -> list[Number]:
-        """Return angles of links [turn] from angles of nodes, which are relative to carriers [turn].
-
-        Free unknowns are set to 0: carriers are in their declared pose.
-        """
-        parts, own = self.reduced.components, self.reduced.own
-        together = [self._angle_difference(at, nodes, left) for at in range(len(self.reduced.origin))]
-        values: dict[int, Number] = {}
-        for unknown, form in (self.forms or {}).items():
-            values[unknown] = sum(factor * together[-column - 1] for column, factor in form.items() if column < 0)
-        found: list[Number] = [0.0 for _ in parts.links]
-        for link, unknown in own.items():
-            found[link] = values.get(unknown, 0.0)
-        for link, (node, *_) in parts.nodes_of.items():
-            if link not in own and link != parts.frame:
-                turned = values.get(parts.node_group[node], 0)
-                found[link] = nodes[node] + found[parts.node_carrier[node]]
-                found[link] += parts.relative(node) * turned if turned else 0
-        return found
-
-    def _angle_difference(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
-        """Return the difference of a link's angles relative to two carriers, or the angle that a loop that cannot turn
-        requires [turn].
-        """
-        parts = self.reduced.components
-        kind, first, node = self.reduced.origin[at]
-        if kind == "share":
-            return nodes[node] - (0 if first in self.reduced.own else nodes[parts.nodes_of[first][0]])
-        rates = (
-            mesh_coefficient(self.circuits, self.ends, first, end) * parts.relative(end) for end in self.ends[first]
-        )
-        return left(first, nodes) / sum(rates, Fraction(0))
-
-
-def find_carrier_coupling(
-    parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
-) -> CarrierCoupling:
-    """Solve the equations that couple the components; the angles at which components meet are symbols."""
-    reduced = reduce_components(parts)
-    try:
-        equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(reduced.equations))
-        echelon = eliminate(equations, _BUDGET)
-        forms = echelon.forms(_BUDGET)
-    except TooDenseError:
-        return CarrierCoupling(reduced, circuits, ends)
-    rows = []
-    for condition in echelon.conditions:
-        origins = {-column - 1: reduced.origin[-column - 1] for column in condition}
-        if all(kind == "share" for kind, _, _ in origins.values()):  # rigid loops have no phase condition
-            total: dict[int, Fraction] = {}
-            for at, (_, link, node) in origins.items():
-                factor = condition[-at - 1]
-                _add_contributions(parts, circuits, ends, node, factor, total)
-                if link not in reduced.own:
-                    _add_contributions(parts, circuits, ends, parts.nodes_of[link][0], -factor, total)
-            weights = whole_multiple(total.values())
-            rows.append({mesh: weight for mesh, weight in zip(total, weights, strict=True) if weight})
-    return CarrierCoupling(reduced, circuits, ends, tuple(rows), forms)
-
-
-def _add_contributions(
-    parts: Components,
-    circuits: Sequence[Circuit],
-    ends: Sequence[tuple[int, int]],
-    node: int,
-    factor: Fraction,
-    total: dict[int, Fraction],
-) -> None:
-    """Add the weight of each mesh constant on the path from the root to a node in the node's angle, times `factor`."""
-    speed = parts.relative(node) * factor
-    while parts.node_parent[node] >= 0:
-        mesh = parts.node_circuit[node]
-        share = speed / (parts.relative(node) * mesh_coefficient(circuits, ends, mesh, node))
-        total[mesh] = total.get(mesh, Fraction(0)) + share
-        node = parts.node_parent[node]
+                if there not in came:
+                    came[there] = (mesh, node)
+                    reached.append(there)
+        front = reached
+    nodes, meshes = [goal], []
+    while nodes[-1] != start:
+        mesh, node = came[nodes[-1]]
+        nodes.append(node)
+        meshes.append(mesh)
+    return nodes[::-1], meshes[::-1]
 
 
 # --------------------------------------------------------------------------------------------------------- phase system
 
 
+Number = Fraction | float
 PhaseKind = Literal["closes", "misses", "unclear", "open"]
 ResidueKnowledge = Literal["exact", "recognised", "numeric"]
 
+_BUDGET = 10**7  # operations of elimination; beyond, trains of coupled planetaries are checked loop by loop
 _UNCLEAR = 0.05  # pitch: a residue within a larger error than this is undecided
 _MOST = 20_000  # maximum number of matrix entries for which loops with unequal weights are combined
 _ROUNDS = 20  # rounds of reassigning teeth, if a round is fast
@@ -310,14 +163,16 @@ class PhaseCondition:
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Basis of the residue: "exact", "recognised" or "numeric"."""
+        """Accuracy of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions) or
+        "numeric".
+        """
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"
 
     @property
     def miss(self) -> Fraction | float:
-        """Error of the last mesh if all other meshes mesh exactly [pitch]."""
+        """Phase error of the last mesh if all other meshes have none [pitch]."""
         return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
 
 
@@ -353,12 +208,75 @@ class PhaseSystem:
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
         """Loops of a cycle basis, which are as short as possible."""
-        return find_cycle_basis(self.parts, self.circuits, self.ends)
+        with collector_paused():
+            return [self._cycle(*loop) for loop in find_cycle_basis(self.parts, self.ends)]
+
+    def _cycle(self, nodes: Sequence[int], meshes: Sequence[int]) -> PhaseCycle:
+        """Return a loop with weights for which the coefficients cancel at every node; the weight of the last mesh is
+        positive.
+        """
+        weights: list[Fraction | int] = [1]
+        for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
+            came, goes = self.coefficient(before, node), self.coefficient(mesh, node)
+            # one wheel in both meshes, the usual case: no Fraction is needed
+            if abs(came) == abs(goes):
+                weights.append(-weights[-1] if came == goes else weights[-1])
+            else:
+                weights.append(Fraction(-came, goes) * weights[-1])
+        sign = -1 if weights[-1] < 0 else 1
+        return PhaseCycle(tuple(nodes), tuple(meshes), tuple(sign * weight for weight in whole_multiple(weights)))
+
+    def coefficient(self, mesh: int, node: int) -> int:
+        """Return the coefficient (a or b) of a node's angle in the equation of a mesh."""
+        return self.circuits[mesh].a if self.ends[mesh][0] == node else self.circuits[mesh].b
+
+    # ------------------------------------------------------------------------------------ coupling through shared links
 
     @cached_property
-    def coupling(self) -> CarrierCoupling:
-        """Coupling of components through links that turn relative to several carriers."""
-        return find_carrier_coupling(self.parts, self.circuits, self.ends)
+    def _reduced(self) -> ReducedSystem:
+        """Equations that couple the components through links that turn relative to several carriers."""
+        return reduce_components(self.parts)
+
+    @cached_property
+    def _echelon(self) -> tuple[Echelon, Mapping[int, LinearForm]] | None:
+        """Reduced equations in echelon form, and the unknowns of the components as linear forms of the angles at which
+        the components meet (symbol -1 - equation); None if elimination exceeds its budget.
+        """
+        equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(self._reduced.equations))
+        try:
+            echelon = eliminate(equations, _BUDGET)
+            return echelon, echelon.forms(_BUDGET)
+        except TooDenseError:
+            return None
+
+    @cached_property
+    def coupled_rows(self) -> list[dict[int, int]]:
+        """Weights of meshes of several carriers, with which the left sides of their equations add up to 0."""
+        rows = []
+        for condition in self._echelon[0].conditions if self._echelon else ():
+            causes = {-column - 1: self._reduced.origin[-column - 1] for column in condition}
+            if all(kind == "share" for kind, _, _ in causes.values()):  # rigid loops have no phase condition
+                total: dict[int, Fraction] = {}
+                for at, (_, link, node) in causes.items():
+                    factor = condition[-at - 1]
+                    self._add_contributions(node, factor, total)
+                    if link not in self._reduced.own:
+                        self._add_contributions(self.parts.nodes_of[link][0], -factor, total)
+                weights = whole_multiple(total.values())
+                rows.append({mesh: weight for mesh, weight in zip(total, weights, strict=True) if weight})
+        return rows
+
+    def _add_contributions(self, node: int, factor: Fraction, total: dict[int, Fraction]) -> None:
+        """Add the weight of each mesh constant on the path from the root to a node in the node's angle, times
+        `factor`.
+        """
+        parts = self.parts
+        speed = parts.relative(node) * factor
+        while parts.node_parent[node] >= 0:
+            mesh = parts.node_circuit[node]
+            share = speed / (parts.relative(node) * self.coefficient(mesh, node))
+            total[mesh] = total.get(mesh, Fraction(0)) + share
+            node = parts.node_parent[node]
 
     @cached_property
     def carriers(self) -> frozenset[int]:
@@ -374,7 +292,7 @@ class PhaseSystem:
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
         basis, _, index = self._saturated
-        if index != 1 or self.coupling.rows:
+        if index != 1 or self.coupled_rows:
             alone = {tuple(sorted(cycle.row.items())) for cycle in self.cycles}
             found += [self._condition(None, row) for row in basis if tuple(sorted(row.items())) not in alone]
         return found
@@ -382,7 +300,7 @@ class PhaseSystem:
     @cached_property
     def complete(self) -> bool:
         """False if loops were checked only one by one, without conditions on several loops together."""
-        return self.coupling.complete and (self._unequal_size <= _MOST)
+        return self._echelon is not None and self._unequal_size <= _MOST
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
@@ -390,11 +308,11 @@ class PhaseSystem:
         1 and -1.
         """
         if not self.cycles:
-            return list(self.coupling.rows)
+            return self.coupled_rows
         group = self.parts.node_group
         uneven = {group[cycle.nodes[0]] for cycle in self.cycles if any(abs(w) != 1 for w in cycle.weights)}
-        uneven |= {group[self.ends[mesh][0]] for row in self.coupling.rows for mesh in row}
-        return [cycle.row for cycle in self.cycles if group[cycle.nodes[0]] in uneven] + list(self.coupling.rows)
+        uneven |= {group[self.ends[mesh][0]] for row in self.coupled_rows for mesh in row}
+        return [cycle.row for cycle in self.cycles if group[cycle.nodes[0]] in uneven] + self.coupled_rows
 
     @cached_property
     def _unequal_size(self) -> int:
@@ -503,11 +421,35 @@ class PhaseSystem:
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
-        return [float(angle % 1) for angle in self.coupling.angles(nodes, self._remaining_constant)]
+        """Return angles of links from angles of nodes, which are relative to carriers [turn].
 
-    def _remaining_constant(self, mesh: int, nodes: Sequence[Number]) -> Number:
-        (i, j), circuit = self.ends[mesh], self.circuits[mesh]
-        return self._constant[mesh] - circuit.a * nodes[i] - circuit.b * nodes[j]
+        Free unknowns are set to 0: carriers are in their declared pose.
+        """
+        parts, own = self.parts, self._reduced.own
+        together = [self._angle_difference(*origin, nodes) for origin in self._reduced.origin]
+        values: dict[int, Number] = {}
+        for unknown, form in (self._echelon[1] if self._echelon else {}).items():
+            values[unknown] = sum(factor * together[-column - 1] for column, factor in form.items() if column < 0)
+        found: list[Number] = [0.0 for _ in parts.links]
+        for link, unknown in own.items():
+            found[link] = values.get(unknown, 0.0)
+        for link, (node, *_) in parts.nodes_of.items():
+            if link not in own and link != parts.frame:
+                turned = values.get(parts.node_group[node], 0)
+                found[link] = nodes[node] + found[parts.node_carrier[node]]
+                found[link] += parts.relative(node) * turned if turned else 0
+        return [float(angle % 1) for angle in found]
+
+    def _angle_difference(self, kind: str, first: int, node: int, nodes: Sequence[Number]) -> Number:
+        """Return the difference of a link's angles relative to two carriers, or the angle that a loop that cannot turn
+        requires [turn].
+        """
+        parts = self.parts
+        if kind == "share":
+            return nodes[node] - (0 if first in self._reduced.own else nodes[parts.nodes_of[first][0]])
+        (i, j), circuit = self.ends[first], self.circuits[first]
+        left = self._constant[first] - circuit.a * nodes[i] - circuit.b * nodes[j]
+        return left / (circuit.a * parts.relative(i) + circuit.b * parts.relative(j))
 
     @cached_property
     def _link_rows(self) -> SparseRows:
@@ -573,7 +515,7 @@ class PhaseSystem:
         """Return angles of links with distributed errors [turn]; carriers keep their angles unless gears connect
         them.
         """
-        if self.coupling.rows:
+        if self.coupled_rows:
             together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
             return [float(angle) for angle in together]
         start = self._tree_nodes

@@ -1,18 +1,18 @@
 """Exact speeds by propagation or elimination, and the verdict.
 
-Propagation is tried first: if two of a circuit's three links are known, the third follows. It solves ordinary trains,
-and every train whose links are driven one after another, in integers and in linear time. If it stops (a planetary set
-with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved by Gaussian
-elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes and locks that
-cause this.
+Propagation is tried first: if the speeds of two of a circuit's three links are known, the third follows. It solves
+ordinary trains, and every train whose links are driven one after another, in integers and in linear time. If it stops
+(a planetary set with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved
+by Gaussian elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes
+and locks that cause this.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, partial
 from math import gcd, lcm
 from typing import NamedTuple
 
@@ -20,7 +20,7 @@ from geartrain.kinematics.answer import Loop, Verdict, abridged_names
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import ReducedSystem, SolvedPart
 from geartrain.kinematics.willis_system import relative_speed
-from geartrain.numerics.containers import collector_paused
+from geartrain.numerics.containers import ItemwiseMapping, collector_paused
 from geartrain.numerics.elimination import (
     PRIME,
     Echelon,
@@ -266,30 +266,10 @@ Terms = tuple[tuple[int, int], ...]
 """Equation as pairs of link index and integer coefficient; the sum of coefficient times speed is 0."""
 
 
-class PropagatedSpeeds(Mapping[str, Fraction]):
-    """Exact speeds by link, stored as factors; the product of ratios is multiplied out when a speed is read."""
-
-    def __init__(self, index: Mapping[str, int], products: FactoredRatios, signs: Mapping[str, int]) -> None:
-        self._index, self._products, self._signs = index, products, signs
-
-    def __getitem__(self, link: str) -> Fraction:
-        speed = self._products.value(self._index[link])
-        return -speed if link in self._signs else speed
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._index)
-
-    def __len__(self) -> int:
-        return len(self._index)
-
-    def __contains__(self, link: object) -> bool:
-        return link in self._index
-
-
 @collector_paused()
 def propagate(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase, signs: Mapping[str, int]
-) -> PropagatedSpeeds | None:
+) -> Mapping[str, Fraction] | None:
     """Return every link's exact speed; None if propagation does not reach all links, or finds a contradiction.
 
     signs   -1 for links whose axis is opposite to the reference direction of its parallel axes
@@ -305,7 +285,8 @@ def propagate(
     bottom = speeds.bottom  # denominators; 0 means unknown
     speeds.set_root(index[frame], 0)
     known = []
-    for name, speed in _prescribed(case, signs):
+    inputs = [(link, speed * signs.get(link, 1)) for link, speed in case.inputs.items()]
+    for name, speed in [*((link, Fraction(0)) for link in case.fixed), *inputs]:
         at = index[name]
         if bottom[at]:
             return None  # prescribed twice, or the frame; the diagnosis decides whether that is consistent
@@ -328,7 +309,8 @@ def propagate(
                 return None
     if not all(bottom):
         return None
-    return PropagatedSpeeds(index, speeds, signs)
+    # the product of ratios along the train is multiplied out when a speed is read
+    return ItemwiseMapping(links, lambda link: speeds.value(index[link]) * signs.get(link, 1))
 
 
 def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
@@ -339,11 +321,6 @@ def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], cas
         if first != second:
             rows.append(tuple([(index[link], factor) for link, factor in ((first, 1), (second, -1)) if link != frame]))
     return rows
-
-
-def _prescribed(case: StateCase, signs: Mapping[str, int]) -> list[tuple[str, Fraction]]:
-    given = [(link, Fraction(0)) for link in case.fixed]
-    return given + [(link, speed * signs.get(link, 1)) for link, speed in case.inputs.items()]
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
@@ -386,23 +363,6 @@ _FEW = 100  # for fewer equations the prediction costs as much as it saves
 
 
 @dataclass(frozen=True, slots=True)
-class FreeForms:
-    """Unknowns of a train with free links as linear forms of the unknowns that remain free."""
-
-    reduced: ReducedSystem
-    forms: Mapping[int, LinearForm]
-
-    def difference(self, of: str, base: str) -> Fraction | None:
-        """Return the difference of two links' speeds before axis signs are applied; None if it depends on free
-        unknowns.
-        """
-        index = self.reduced.components.index
-        row = dict(self.reduced.form(index[of]))
-        add_into(row, self.reduced.form(index[base]), -1)
-        return _value(resolve_form(row, self.forms))
-
-
-@dataclass(frozen=True, slots=True)
 class Solution:
     """Exact speeds of the determined links of a train in one case, with the verdict and the speed ratios."""
 
@@ -413,8 +373,10 @@ class Solution:
     """Link -> input -> speed of the link per unit speed of the input, with the other inputs at rest."""
     signs: Mapping[str, int]
     """Link -> -1, for each link whose axis points against the reference direction of the axes parallel to it."""
-    loose: FreeForms | None = None
-    """Speeds of all links as linear forms of the free unknowns, if the train is free; otherwise None."""
+    difference: Callable[[str, str], Fraction | None] | None = None
+    """Function that returns the difference of two links' speeds before axis signs are applied, or None if it depends on
+    free unknowns; given only if the train is free.
+    """
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
@@ -423,9 +385,9 @@ class Solution:
         space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
-        if found is not None or self.loose is None:
+        if found is not None or self.difference is None:
             return found
-        value = self.loose.difference(of, base)
+        value = self.difference(of, base)
         return None if value is None else value * self.signs.get(of, 1)
 
     def __getitem__(self, link: str) -> Fraction:
@@ -435,35 +397,24 @@ class Solution:
         return iter(self.speeds)
 
 
-class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """Exact ratios as a mapping link -> input -> ratio; the equations are solved at the first access."""
+def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> Mapping[str, Mapping[str, Fraction]]:
+    """Return the exact ratios as a mapping link -> input -> ratio; the equations are solved at the first access."""
 
-    def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
-        self._part, self._case, self._signs = part, case, signs
-
-    @cached_property
-    def _forms(self) -> dict[int, LinearForm]:
-        """Every unknown as a linear form of the inputs; input number i has the symbol -1 - i."""
-        reduced = self._part.reduced
+    @cache
+    def forms() -> dict[int, LinearForm]:
+        reduced = part.reduced
         index = reduced.components.index
-        rows = [*reduced.equations, *held_rows(reduced, self._case)]
-        rows += [{**reduced.form(index[link]), -1 - at: Fraction(-1)} for at, link in enumerate(self._case.inputs)]
+        rows = [*reduced.equations, *held_rows(reduced, case)]
+        # input number i has the symbol -1 - i
+        rows += [{**reduced.form(index[link]), -1 - at: Fraction(-1)} for at, link in enumerate(case.inputs)]
         return eliminate(rows).forms()
 
-    def __getitem__(self, link: str) -> Mapping[str, Fraction]:
-        reduced = self._part.reduced
-        form = resolve_form(reduced.form(reduced.components.index[link]), self._forms)
-        own = self._signs.get(link, 1)
-        return {
-            name: own * form.get(-1 - at, Fraction(0)) * self._signs.get(name, 1)
-            for at, name in enumerate(self._case.inputs)
-        }
+    def ratios(link: str) -> Mapping[str, Fraction]:
+        form = resolve_form(part.reduced.form(part.reduced.components.index[link]), forms())
+        own = signs.get(link, 1)
+        return {name: own * form.get(-1 - at, _ZERO) * signs.get(name, 1) for at, name in enumerate(case.inputs)}
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._part.links)
-
-    def __len__(self) -> int:
-        return len(self._part.links)
+    return ItemwiseMapping(part.links, ratios)
 
 
 @collector_paused()
@@ -473,32 +424,32 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     signs    -1 for links whose axis is opposite to the reference direction; results refer to the declared directions
     budget   maximum number of operations beyond linear work; `TooDenseError` if exceeded, None for no limit
     """
-    ratios = _Ratios(part, case, signs)
+    ratios = _speed_ratios(part, case, signs)
     # if all inputs are 0, only the rank shows whether a link can move
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
     if walked is not None:
         return Solution(determined_verdict(case), walked, ratios, signs)
     reduced = part.reduced
     budget = elimination_budget(reduced, budget)
-    rows = [*reduced.equations, *held_rows(reduced, case), *_input_rows(reduced, case, signs)]
-    echelon = eliminate_within(rows, budget)
+    held = [*reduced.equations, *held_rows(reduced, case)]
+    echelon = eliminate_within([*held, *_input_rows(reduced, case, signs)], budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
     # all inputs 0: speeds are 0 also for a locked train, so the rank decides
-    if not any(case.inputs.values()) and _is_immobile(reduced, case, budget):
+    if not any(case.inputs.values()) and eliminate(held, budget).rank == reduced.unknowns:
         return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)
     speeds, undetermined = _determined_speeds(reduced, forms, signs)
     if undetermined:
         freedom = reduced.unknowns - echelon.rank
         verdict = free_verdict(reduced, case, forms, undetermined, freedom)
-        return Solution(verdict, speeds, ratios, signs, FreeForms(reduced, forms))
+        return Solution(verdict, speeds, ratios, signs, partial(_free_difference, reduced, forms))
     return Solution(determined_verdict(case, reduced), speeds, ratios, signs)
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """Return the operation budget for one system: 30 operations for each equation are added, for equations that are not
-    coupled.
+    """Return the operation budget for one system: `budget` plus 30 operations for each equation, which equations need
+    even if they are not coupled. None stays None.
     """
     return None if budget is None else budget + 30 * len(reduced.equations)
 
@@ -548,78 +499,31 @@ def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int
         yield row
 
 
-def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """Return True if no link can move. The speeds of a case whose inputs are all 0 do not show this."""
-    return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
-
-
-class _LazySpeeds(Mapping[str, Fraction]):
-    """Speeds by link, computed when they are read: speed of the carrier plus ratio times unknown of the component."""
-
-    def __init__(self, reduced: ReducedSystem, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
-        self._reduced, self._known, self._signs = reduced, known, signs
-        self._cancelled: dict[str, Fraction] = {}
-        self._links: dict[str, None] = {}
-
-    def take(self, link: str, speed: Fraction | None = None) -> None:
-        """Add a link to the determined links; `speed` is given if free unknowns cancel in its linear form."""
-        self._links[link] = None
-        if speed is not None:
-            self._cancelled[link] = speed
-
-    def __getitem__(self, link: str) -> Fraction:
-        if link not in self._links:
-            raise KeyError(link)
-        speed = self._cancelled.get(link)
-        if speed is None:
-            speed = self._composed(self._reduced.components.index[link])
-        return -speed if link in self._signs else speed
-
-    def _composed(self, link: int) -> Fraction:
-        parts, zero = self._reduced.components, Fraction(0)
-        if link == parts.frame:
-            return zero
-        if link in self._reduced.own:
-            return self._known[self._reduced.own[link]] or zero
-        node = parts.nodes_of[link][0]
-        carrier = parts.node_carrier[node]
-        unknown = self._known[parts.node_group[node]] or zero
-        # usually 1 or 0: trivial products are avoided, because fractions may be long
-        speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown if unknown else zero
-        carried = zero if carrier == parts.frame else self._known[self._reduced.own[carrier]]
-        return speed + carried if carried else speed
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._links)
-
-    def __len__(self) -> int:
-        return len(self._links)
-
-    def __contains__(self, link: object) -> bool:
-        return link in self._links
+def _free_difference(reduced: ReducedSystem, forms: Mapping[int, LinearForm], of: str, base: str) -> Fraction | None:
+    index = reduced.components.index
+    row = dict(reduced.form(index[of]))
+    add_into(row, reduced.form(index[base]), -1)
+    return _value(resolve_form(row, forms))
 
 
 def _determined_speeds(
     reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
 ) -> tuple[Mapping[str, Fraction], list[str]]:
-    parts = reduced.components
-    known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
-    speeds = _LazySpeeds(reduced, known, signs)
-    undetermined: list[str] = []
-    for at, name in enumerate(parts.links):
-        if at == parts.frame or all(known[unknown] is not None for unknown in reduced.unknowns_of(at)):
-            speeds.take(name)
-            continue
-        speed = _value(resolve_form(reduced.form(at), forms))  # free unknowns may cancel
-        if speed is None:
-            undetermined.append(name)
-        else:
-            speeds.take(name, speed)
-    return speeds, undetermined
+    """Return the speeds of the determined links, each computed when it is read, and the names of the other links."""
+    index = reduced.components.index
+
+    def speed(link: str) -> Fraction | None:
+        return _value(resolve_form(reduced.form(index[link]), forms))
+
+    known = {unknown for unknown, form in forms.items() if _value(form) is not None}
+    # free unknowns may cancel, which only the form shows
+    determined = [
+        link for link in index if known.issuperset(reduced.unknowns_of(index[link])) or speed(link) is not None
+    ]
+    speeds = ItemwiseMapping(determined, lambda link: (speed(link) or _ZERO) * signs.get(link, 1))
+    return speeds, [link for link in index if link not in speeds]
 
 
-def _value(form: LinearForm | None) -> Fraction | None:
+def _value(form: LinearForm) -> Fraction | None:
     """Return the value of a linear form; None if it contains a free unknown."""
-    if form is None or any(column >= 0 for column in form):
-        return None
-    return form.get(_GIVEN, Fraction(0))
+    return None if any(column >= 0 for column in form) else form.get(_GIVEN, _ZERO)

@@ -12,18 +12,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
-from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_equation import WillisEquation
-from geartrain.kinematics.willis_matrix import independent_rows
+from geartrain.kinematics.circuits.fundamental import WillisEquation
+from geartrain.kinematics.willis_matrix import PaddedRows, independent_rows
 from geartrain.kinematics.willis_system import WillisSystem
-from geartrain.numerics.containers import FrozenFields, LazyMapping
+from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
 from geartrain.numerics.results import Shown
@@ -76,8 +74,8 @@ class FloatSpeeds(FrozenFields, Shown):
     working precision [1].
     """
     condition: Mapping[str, float]
-    """Link -> component-wise condition number cond(A, x) of the first case, equation (25), for the requested links. It
-    is at least 1, and infinite for a link at rest. Computed at the first access.
+    """Link -> component-wise condition number cond(A, x) of the first case, equation (25). It is at least 1, and
+    infinite for a link at rest, whose relative error is not defined. Empty for trains of more than 400 links.
     """
 
     def _summary(self) -> str:
@@ -88,15 +86,10 @@ class FloatSpeeds(FrozenFields, Shown):
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # overflow is refused below
-def solve_floats(
-    system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None, condition_of: Sequence[str] = ()
-) -> FloatSpeeds:
+def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs        input link -> speeds, one for each case, for every input of the system; all cases share one
-                  factorisation
-    condition_of  links whose component-wise condition number is requested; each costs one transposed solve when it is
-                  read
+    inputs   input link -> speeds, one for each case, for every input of the system; all cases share one factorisation
 
     Raises `RangeError` if the system is not square and regular, or if a speed is not between 1e-120 and 1e120.
     """
@@ -116,15 +109,23 @@ def solve_floats(
     hidden = 16 * UNIT_ROUNDOFF**2 * terms + 16 * UNIT_ROUNDOFF * matrix.size(more)
     reach, spread = np.hsplit(_error_bound(lu, np.hstack([hidden, terms])), 2)
     _check_digits(lu, matrix, np.abs(x), spread)
+    # equation (24) with A^-1 r' refined once; the factor 2 covers the rounding errors of that solution
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + reach
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
     return FloatSpeeds(
         _with_frame(system, matrix, x),
         _with_frame(system, matrix, estimate),
         labelled_array(residual, row=[row.label for row in rows], case=[str(case) for case in range(x.shape[1])]),
-        # the factors are kept in memory until the condition numbers are read, and only if these were requested
-        LazyMapping(partial(matrix.condition, lu, condition_of, x[:, 0])) if condition_of else {},
+        _condition_numbers(system, matrix, x[:, 0], spread[:, 0]),
     )
+
+
+def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
+    """Return |A^-1| |A| |x| / |x| of each link; `spread` is its numerator, exact if the inverse was computed."""
+    if len(x) > _INVERTED:
+        return {}
+    numbers = np.divide(spread, np.abs(x), out=np.full_like(x, np.inf), where=x != 0).tolist()
+    return {link: numbers[matrix.at[link]] if link in matrix.at else float("inf") for link in system.links}
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
@@ -230,6 +231,7 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
     small.
     """
     far = ((x != 0) & (np.abs(np.frexp(x)[1]) > _LARGEST_EXPONENT)).any(axis=1)
+    # a row whose links are all nearly at rest is compared with the fastest link of the train
     limit = np.maximum(matrix.size(x), np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
     # breakdown of the factors; negated `<=`, so that nan counts as wrong
     wrong = (~(np.abs(rest) <= 1e-6 * limit)).any(axis=1)

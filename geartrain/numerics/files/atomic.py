@@ -82,9 +82,8 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
-        os.fsync(
-            file.fileno()
-        )  # before renaming: a power failure could otherwise leave the new name with an empty file
+        # before renaming: a power failure could otherwise leave the new name with an empty file
+        os.fsync(file.fileno())
     if real.exists():
         _copy_permissions(real, temporary)
     if force or not _link(temporary, real, path):
@@ -110,15 +109,11 @@ def umask() -> int:
 
 
 def _target(path: Path) -> tuple[Path, int | None]:
-    """Return the target of a path after resolving symbolic links, and its mode; None as mode if the file does not
-    exist.
-    """
+    """Return the target of a path after resolving symbolic links, and its mode; None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
-    except FileNotFoundError:
-        mode = None  # also a link to a file that does not exist yet
-    except NotADirectoryError:
-        mode = None  # `_folder` reports this
+    except (FileNotFoundError, NotADirectoryError):
+        mode = None  # also a link to a file that does not exist yet; `_folder` reports a path through a file
     return Path(os.path.realpath(path)), mode
 
 
@@ -142,17 +137,16 @@ def _name(path: Path) -> Problem | None:
 def _folder(path: Path, real: Path) -> Problem | None:
     folder = real.parent
     if not folder.is_dir():
-        return Problem(
-            "the folder does not exist", f"the file would be in {folder}", "create the folder first", str(path)
-        )
+        what = "the folder does not exist"
+        return Problem(what, f"the file would be in {folder}", "create the folder first", str(path))
     if not os.access(folder, os.W_OK | os.X_OK):
-        return Problem(
-            "the folder cannot be written to",
-            "its permissions do not allow writing",
-            "give another folder",
-            str(folder),
-        )
+        return _unwritable(folder)
     return None
+
+
+def _unwritable(folder: Path) -> Problem:
+    why = "its permissions do not allow writing"
+    return Problem("the folder cannot be written to", why, "give another folder", str(folder))
 
 
 def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
@@ -166,12 +160,8 @@ def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | Non
 
 
 def _exists(path: Path) -> Problem:
-    return Problem(
-        "the file exists",
-        "existing files are overwritten only with --force",
-        "give --force, or another name",
-        str(path),
-    )
+    what = "the file exists"
+    return Problem(what, "existing files are overwritten only with --force", "give --force, or another name", str(path))
 
 
 def _invalid_name(path: Path, why: str) -> Problem:
@@ -222,21 +212,11 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
-        raise GearTrainError(
-            Problem(
-                "this is not a folder",
-                "several files are written to one folder",
-                "give the path of a folder",
-                place,
-            )
-        )
+        why = "several files are written to one folder"
+        raise GearTrainError(Problem("this is not a folder", why, "give the path of a folder", place))
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     if not os.access(nearest, os.W_OK | os.X_OK):
-        raise GearTrainError(
-            Problem(
-                "the folder cannot be written to", "its permissions do not allow writing", "give another folder", place
-            )
-        )
+        raise GearTrainError(_unwritable(folder))
     there = [name for name in names if os.path.lexists(folder / name)]
     for name in there:
         destination(folder / name, force=True)  # raises the error for a file that is not regular or is read-only
@@ -244,9 +224,8 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
         others = len(there) - 1
         more = f" and {plural(others, 'other file')} are" if others else " is"
         what = f"'{there[0]}'{more} already in the folder"
-        raise GearTrainError(
-            Problem(what, "existing files are overwritten only with --force", "give --force, or an empty folder", place)
-        )
+        why = "existing files are overwritten only with --force"
+        raise GearTrainError(Problem(what, why, "give --force, or an empty folder", place))
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
@@ -271,9 +250,8 @@ def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool =
             shutil.rmtree(beside, ignore_errors=True)
     except OSError as error:
         why = error.strerror or str(error)
-        raise GearTrainError(
-            Problem("the files cannot be written", why, "check the folder and its permissions", str(folder))
-        ) from None
+        what = "the files cannot be written"
+        raise GearTrainError(Problem(what, why, "check the folder and its permissions", str(folder))) from None
     return len(made)
 
 

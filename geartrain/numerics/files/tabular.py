@@ -10,14 +10,16 @@ import csv
 import io
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
 from geartrain.numerics.files.atomic import destination, place, unfinished_file
+
+T = TypeVar("T")
 
 PARTIAL_SUFFIX = "# partial: "
 
@@ -36,15 +38,12 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
     found = partial_name(destination(path, force))
     if found.is_symlink():
         fix = "remove it, or give another name"
-        raise GearTrainError(
-            Problem("this is a symbolic link", "a partial file must be a regular file", fix, str(found))
-        )
+        what = "this is a symbolic link"
+        raise GearTrainError(Problem(what, "a partial file must be a regular file", fix, str(found)))
     if found.exists() and not (force or resume):
         destination(found, force=True)  # raises the error for a file that is not regular
-        why, fix = (
-            "it contains the rows of an interrupted run",
-            "give --resume to continue it, or --force to begin again",
-        )
+        why = "it contains the rows of an interrupted run"
+        fix = "give --resume to continue it, or --force to begin again"
         raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
     return destination(found, force=True)
 
@@ -84,14 +83,10 @@ class LongTable:
                 if not line.endswith(b"\n") or line.startswith(PARTIAL_SUFFIX.encode()):
                     break
                 if rows < 0 and line.decode("utf-8").rstrip("\n") != self.header:
-                    raise GearTrainError(
-                        Problem(
-                            "the partial file belongs to another run",
-                            f"a resumed table must have the same columns as the file: {line.decode('utf-8').rstrip()}",
-                            "request the same outputs, or omit --resume to begin again",
-                            str(self.partial),
-                        )
-                    )
+                    what = "the partial file belongs to another run"
+                    why = f"a resumed table must have the same columns as the file: {line.decode('utf-8').rstrip()}"
+                    fix = "request the same outputs, or omit --resume to begin again"
+                    raise GearTrainError(Problem(what, why, fix, str(self.partial)))
                 rows, end = rows + 1, end + len(line)
         # the resumed run writes the incomplete row again
         os.truncate(self.partial, end)
@@ -211,6 +206,7 @@ def _cell(cell: object) -> object:
     if not isinstance(cell, str):
         return cell
     text = printable(cell).replace("\n", "\\n").replace("\t", "\\t")
+    # an apostrophe prevents a spreadsheet from evaluating the text
     return f"'{text}" if cell.startswith(_FORMULA) and not _NUMBER.fullmatch(cell) else text
 
 
@@ -219,19 +215,12 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
     `#` begins a comment. Raises `GearTrainError` with the invalid lines.
     """
-    points: list[tuple[float, float, float]] = []
-    problems = []
-    for at, words in _rows(path):
-        try:
-            x, y, z = map(float, words)
-        except ValueError:
-            text = f"'{' '.join(words)}' is not a point"
-            problems.append(Problem(text, "a point consists of three numbers", "write x y z", f"{path}:{at}"))
-        else:
-            points.append((x, y, z))
-    if problems:
-        raise GearTrainError(problems)
-    return points
+
+    def point(words: list[str]) -> tuple[float, float, float]:
+        x, y, z = map(float, words)
+        return x, y, z
+
+    return _parsed_rows(path, point, "is not a point", "a point consists of three numbers", "write x y z")
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
@@ -239,19 +228,25 @@ def read_edges(path: Path) -> list[tuple[str, str]]:
 
     `#` begins a comment. Raises `GearTrainError` with the invalid lines.
     """
-    edges: list[tuple[str, str]] = []
-    problems = []
+
+    def edge(words: list[str]) -> tuple[str, str]:
+        first, second = words
+        return first, second
+
+    return _parsed_rows(path, edge, "is not a mesh", "a mesh consists of two names", "write the names of two gears")
+
+
+def _parsed_rows(path: Path, parse: Callable[[list[str]], T], what: str, why: str, fix: str) -> list[T]:
+    """Return the parsed lines of a file; `parse` raises `ValueError` for invalid words."""
+    found, problems = [], []
     for at, words in _rows(path):
-        if len(words) == 2:
-            edges.append((words[0], words[1]))
-        else:
-            text = f"'{' '.join(words)}' is not a mesh"
-            problems.append(
-                Problem(text, "a mesh consists of two names", "write the names of two gears", f"{path}:{at}")
-            )
+        try:
+            found.append(parse(words))
+        except ValueError:
+            problems.append(Problem(f"'{' '.join(words)}' {what}", why, fix, f"{path}:{at}"))
     if problems:
         raise GearTrainError(problems)
-    return edges
+    return found
 
 
 def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
@@ -259,9 +254,8 @@ def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise GearTrainError(
-            Problem("the file cannot be read", str(why), "check its name and contents", str(path))
-        ) from None
+        what = "the file cannot be read"
+        raise GearTrainError(Problem(what, str(why), "check its name and contents", str(path))) from None
     for at, line in enumerate(text.splitlines(), 1):
         if words := line.partition("#")[0].replace(",", " ").split():
             yield at, words

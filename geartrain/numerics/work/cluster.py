@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from importlib import import_module
 from importlib.metadata import version
@@ -16,7 +16,7 @@ from time import monotonic
 from typing import Any
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem
-from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
+from geartrain.numerics.work.worker_pool import WorkerPool
 
 try:
     dask: Any = import_module("dask")  # it has no type annotations
@@ -54,13 +54,8 @@ class DaskPool(WorkerPool):
             self.dismiss()
             fix = f"install geartrain {ours} with the extra 'dask' for the scheduler and all workers"
             found = ", ".join(sorted(map(str, theirs)))
-            raise GearTrainError(
-                Problem(
-                    f"the cluster at {address} runs another version of geartrain than {ours}",
-                    f"its workers run {found}",
-                    fix,
-                )
-            )
+            what = f"the cluster at {address} runs another version of geartrain than {ours}"
+            raise GearTrainError(Problem(what, f"its workers run {found}", fix))
         self._threads: int = sum(self._client.nthreads().values())
         self._executor = self._client.get_executor(pure=False)  # results must not be taken from a cache
 
@@ -71,7 +66,15 @@ class DaskPool(WorkerPool):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Submit a call, as `Executor.submit` does."""
-        return follow(self._executor.submit(fn, *args, **kwargs), _translate)
+        future: Future[Any] = self._executor.submit(fn, *args, **kwargs)
+        return future
+
+    def deaths(self, error: Exception) -> int:
+        """Return the number of workers that died when a task failed with this error.
+
+        Exceptions of the work itself are returned as results, so any error of a future is one of the cluster.
+        """
+        return _DEATHS if isinstance(error, distributed.scheduler.KilledWorker) else 1
 
     def check(self) -> None:
         """Raise `GearTrainError` if the scheduler does not respond, or has had no workers for a minute."""
@@ -103,14 +106,3 @@ async def _check_scheduler(address: str, answer: float) -> None:
     """
     secured = distributed.Security().get_connection_args("client")
     await (await distributed.core.connect(address, timeout=answer, **secured)).close()
-
-
-def _translate(error: BaseException) -> BaseException:
-    """Convert an exception of the cluster to `WorkerDiedError`, after which the task is repeated.
-
-    Exceptions of the work itself are returned as results. Futures are cancelled if the connection to the scheduler is
-    lost, which ends the run.
-    """
-    if isinstance(error, CancelledError):
-        return error
-    return WorkerDiedError(str(error), _DEATHS if isinstance(error, distributed.scheduler.KilledWorker) else 1)

@@ -77,9 +77,8 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
         why = "the number of workers of a cluster is set when it is started"
         raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give only one of them"))
     if workers is not None and workers < 1:
-        raise QuestionError(
-            Problem(f"the number of workers is {workers}", "at least one worker is needed", "give 1 or more")
-        )
+        what = f"the number of workers is {workers}"
+        raise QuestionError(Problem(what, "at least one worker is needed", "give 1 or more"))
     if dask is not None:
         from geartrain.numerics.work.cluster import DaskPool
 

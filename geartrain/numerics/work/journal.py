@@ -90,16 +90,13 @@ class Journal:
                 self._file = opened.enter_context(self.path.open("a+b", buffering=0))
                 self._reader = opened.enter_context(self.path.open("rb"))
                 opened.enter_context(_only_writer(self.path))
-                self._open(header, plain, resume)
+                end = self._resumable_length(plain, resume)
+                self._file.truncate(end)
+                if not end:
+                    self._write(header)
                 self._shut = opened.pop_all().close
         except OSError as error:
             raise _trouble(self.path, error) from None
-
-    def _open(self, header: bytes, question: Any, resume: bool) -> None:
-        end = self._resumable_length(question, resume)
-        self._file.truncate(end)
-        if not end:
-            self._write(header)
 
     def _resumable_length(self, question: Any, resume: bool) -> int:
         """Return the number of bytes of the file that can be resumed, 0 for none, and index the tasks in them."""
@@ -108,7 +105,7 @@ class Journal:
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _MOST_HEADER_BYTES:
-            why = "its first line is not the first line of a journal"
+            why = f"its first line does not begin with {_START.decode()}"
             raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
             return 0
@@ -117,7 +114,8 @@ class Journal:
         except (ValueError, KeyError):
             why = "its first line, which identifies the run, is damaged"
             raise _refused("the journal cannot be resumed", why, "remove it to begin again", self.path) from None
-        self._compare(theirs, question)
+        if difference := first_difference(theirs, question):
+            raise QuestionError(_another(difference, self.path))
         end = len(first)
         for line in self._reader:
             found = _valid_line(line)
@@ -126,11 +124,6 @@ class Journal:
             self._enter(int(found[3]), end)
             end += len(line)
         return end
-
-    def _compare(self, theirs: Any, ours: Any) -> None:
-        difference = first_difference(theirs, ours)
-        if difference:
-            raise QuestionError(_another(difference, self.path))
 
     def _enter(self, task: int, at: int) -> None:
         if task >= len(self._at):
@@ -195,6 +188,7 @@ class Journal:
         """
         try:
             at = self._file.seek(0, os.SEEK_END)
+            # an unbuffered write may write only a part of the line
             left = memoryview(line)
             while left:
                 left = left[self._file.write(left) or 0 :]
@@ -259,14 +253,12 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem to report if an existing journal contains a different `question` and therefore belongs to
-    another run.
-    """
+    """Return the problem to report if the data in a journal differ from `question`: it belongs to another run."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]
     except (OSError, ValueError, KeyError, TypeError):
-        return _another("its first line, the question, cannot be read", path)
+        return _another("its first line, which identifies the run, cannot be read", path)
     return _another(first_difference(theirs, json.loads(json.dumps(question))), path)
 
 
@@ -293,11 +285,9 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
         for number, (left, right) in enumerate(zip(theirs, ours, strict=False)):
             if said := first_difference(left, right, f"{place}[{number}]"):
                 return said
-        return (
-            ""
-            if len(theirs) == len(ours)
-            else f"{place} has {len(theirs)} entries in the journal and {len(ours)} in this run"
-        )
+        if len(theirs) != len(ours):
+            return f"{place} has {len(theirs)} entries in the journal and {len(ours)} in this run"
+        return ""
     if type(theirs) is type(ours) and theirs == ours:
         return ""
     return f"{place or 'it'} is {json.dumps(theirs)} in the journal and {json.dumps(ours)} in this run"

@@ -19,7 +19,7 @@ from multiprocessing.connection import Connection
 from threading import Thread
 from typing import Any
 
-from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
+from geartrain.numerics.work.worker_pool import WorkerPool
 
 _MOST = 61 if sys.platform == "win32" else 10_000  # processes: Windows cannot wait for more
 
@@ -37,7 +37,7 @@ class ProcessPool(WorkerPool):
         self._context = get_context("spawn")
         self._leash, self._hand = self._context.Pipe(duplex=False)
         self._pool: ProcessPoolExecutor | None = None
-        self._open: dict[Future[Any], Future[Any]] = {}  # the pool's future -> the future given to the caller
+        self._open: set[Future[Any]] = set()
         self._shut = False
 
     @property
@@ -58,38 +58,30 @@ class ProcessPool(WorkerPool):
         if self._shut:
             raise RuntimeError("cannot schedule new futures after shutdown")
         try:
-            theirs = self._submit_to_pool(fn, *args, **kwargs)
+            future = self._submit_to_pool(fn, *args, **kwargs)
         except BrokenExecutor:
             self._discard_pool()
-            theirs = self._submit_to_pool(fn, *args, **kwargs)
-        ours = follow(theirs, _translate)
-        self._open[theirs] = ours
-        theirs.add_done_callback(self._forget)
-        return ours
-
-    def _forget(self, theirs: Future[Any]) -> None:
-        self._open.pop(theirs, None)
+            future = self._submit_to_pool(fn, *args, **kwargs)
+        self._open.add(future)
+        future.add_done_callback(self._open.discard)
+        return future
 
     def _submit_to_pool(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         # not within `_interrupts_blocked`, because creating a pool starts a resource tracker, which unblocks signals
         if self._pool is None:
             self._pool = ProcessPoolExecutor(self._workers, self._context, _start_worker, (self._leash,))
         with _interrupts_blocked():
-            theirs = self._pool.submit(fn, *args, **kwargs)
-        _ignore_late_failure(theirs)
-        return theirs
+            future = self._pool.submit(fn, *args, **kwargs)
+        _ignore_late_failure(future)
+        return future
 
     def _discard_pool(self) -> None:
-        """Discard a broken pool and fail its futures, because a future submitted at that moment would never
-        complete.
-        """
+        """Discard a broken pool and fail its futures: one that was submitted at that moment would never complete."""
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.shutdown(wait=False, cancel_futures=True)
-        for future in list(self._open.values()):
-            with suppress(InvalidStateError):
-                future.set_exception(WorkerDiedError("a worker process died"))
-        self._open.clear()
+        for future in list(self._open):
+            future.set_exception(BrokenExecutor("a worker process died"))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Stop the pool, as `Executor.shutdown` does; with `wait` all workers have ended on return."""
@@ -108,10 +100,10 @@ class ProcessPool(WorkerPool):
 
 
 def _ignore_late_failure(future: Future[Any]) -> None:
-    """Make a cancelled future ignore a later exception.
+    """Make a future that has ended ignore a later exception.
 
-    When workers end just after a future was cancelled, the pool's thread still tries to set an exception on it. Before
-    Python 3.12 that ends the thread with a traceback, and the other futures never complete.
+    When workers die, the pool's thread sets an exception on all of its futures. If one was cancelled or has failed just
+    before, that would end the thread with a traceback, and the other futures would never complete.
     """
     fail = future.set_exception
 
@@ -120,10 +112,6 @@ def _ignore_late_failure(future: Future[Any]) -> None:
             fail(error)
 
     future.set_exception = set_exception  # type: ignore[method-assign, assignment]
-
-
-def _translate(error: BaseException) -> BaseException:
-    return WorkerDiedError("a worker process died") if isinstance(error, BrokenExecutor) else error
 
 
 @contextmanager

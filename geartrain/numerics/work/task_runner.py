@@ -29,7 +29,6 @@ from geartrain.numerics.work.worker_pool import WorkerPool
 TaskFunction = Callable[[Any], Any]
 ProgressReport = Callable[[int, int], None]
 
-_DEATHS_ALONE = 2  # deaths of workers after which a task runs without others, so that the faulty task is identified
 _MOST_DEATHS = 4  # deaths of workers after which the run fails
 _PENDING_PER_WORKER = 4  # tasks submitted per worker, so that no worker waits for this process
 _RESULTS_AHEAD = 64  # results per worker that may be ahead of the first missing one, which limits memory
@@ -181,7 +180,6 @@ class _Run:
         self.again: deque[_Submission] = deque()
         self.ready: dict[int, str] = {}
         self.next = self.issued = 0
-        self.suspects = 0  # submitted tasks that saw a worker die
         self.exhausted = False
         self.checked = monotonic()
 
@@ -227,18 +225,17 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Submit as many tasks as the limits allow; tasks during which workers died are first, a few at a time."""
+        """Submit as many tasks as the limits allow; a task during which a worker died runs without others, so that the
+        faulty task is identified.
+        """
+        if any(each.deaths for each in self.pending.values()):
+            return
+        if self.again:
+            if not self.pending:
+                self._submit(self.again.popleft())
+            return
         width = self._width
-        while self.again:
-            careful = self.again[0].deaths >= _DEATHS_ALONE
-            if len(self.pending) >= (1 if careful else width):
-                return
-            self._submit(self.again.popleft())
-        while (
-            not self.suspects
-            and len(self.pending) < _PENDING_PER_WORKER * width
-            and self.issued < self.next + _RESULTS_AHEAD * width
-        ):
+        while len(self.pending) < _PENDING_PER_WORKER * width and self.issued < self.next + _RESULTS_AHEAD * width:
             submission = self._next_task()
             if submission is None:
                 return
@@ -254,6 +251,7 @@ class _Run:
                 return _Submission(index, task, mark)
             self.ready[index] = text
             self.pace.step()
+            # results of a journal are limited like others, so that they do not fill the memory
             if self.issued >= self.next + _RESULTS_AHEAD * self._width:
                 return None
         self.exhausted = True
@@ -265,15 +263,10 @@ class _Run:
         try:
             future = self.executor.submit(carry, self.work, submission.task)
         except BrokenExecutor:
-            raise GearTrainError(
-                Problem(
-                    "the executor is broken",
-                    "one of its workers died, and it does not start new workers",
-                    "use the executor of open_executor, which survives the death of workers",
-                )
-            ) from None
+            why = "one of its workers died, and it does not start new workers"
+            fix = "use the executor of open_executor, which survives the death of workers"
+            raise GearTrainError(Problem("the executor is broken", why, fix)) from None
         self.pending[future] = submission
-        self.suspects += bool(submission.deaths)
         future.add_done_callback(self.ended.put)
 
     def _wait(self) -> Future[Any]:
@@ -287,39 +280,35 @@ class _Run:
 
     def _process(self, future: Future[Any]) -> None:
         submission = self.pending.pop(future)
-        self.suspects -= bool(submission.deaths)
         try:
             outcome = future.result()
-        except BrokenExecutor as error:
-            self._repeat(submission, getattr(error, "times", 1))
         except CancelledError:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
-            raise GearTrainError(
-                Problem(
-                    "the work was interrupted", why, "run it again; finished tasks are in the journal, if there is one"
-                )
-            ) from None
+            fix = "run it again; finished tasks are in the journal, if there is one"
+            raise GearTrainError(Problem("the work was interrupted", why, fix)) from None
+        except Exception as error:
+            pool = self.executor
+            deaths = pool.deaths(error) if isinstance(pool, WorkerPool) else int(isinstance(error, BrokenExecutor))
+            if not deaths:
+                raise
+            self._repeat(submission, deaths)
         else:
             if isinstance(outcome, RemoteFailure):
                 raise outcome.error()
             self._finished(submission, outcome)
 
     def _finished(self, submission: _Submission, text: str) -> None:
-        self._keep(submission, text)
+        if self.journal is not None:
+            self.journal.keep(submission.index, submission.mark, text)
         self.ready[submission.index] = text
         self.pace.step()
 
-    def _keep(self, submission: _Submission, text: str) -> None:
-        if self.journal is not None:
-            self.journal.keep(submission.index, submission.mark, text)
-
     def _repeat(self, submission: _Submission, times: int) -> None:
-        """Put a task back into the queue after a worker died; after repeated deaths it runs without other tasks."""
+        """Put a task back into the queue after a worker died."""
         submission.deaths += times
         if submission.deaths >= _MOST_DEATHS:
             raise _killer_error(submission)
-        # fewest deaths first, so that innocent tasks finish before a suspect runs by itself
-        self.again = deque(sorted([*self.again, submission], key=lambda each: (each.deaths, each.index)))
+        self.again.append(submission)
 
     def _cancel(self) -> None:
         """Cancel all pending tasks and store results that finished in the meantime."""
@@ -330,7 +319,7 @@ class _Run:
                 outcome = future.result()
                 if isinstance(outcome, str) and self.journal is not None and not self.journal.closed:
                     with suppress(GearTrainError):  # it would hide the error that ends the run
-                        self._keep(submission, outcome)
+                        self.journal.keep(submission.index, submission.mark, outcome)
         self.pending.clear()
 
 

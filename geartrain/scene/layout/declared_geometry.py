@@ -37,7 +37,6 @@ class AxisLine:
 
     label: str
     direction: Vector
-    """Unit vector along the axis."""
     group: int
     """Number of the axis's group of parallel axes."""
     bearers: tuple[str, ...]
@@ -171,7 +170,6 @@ class DeclaredGeometry:
     contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
-    """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
     """Declared thickness by wheel [mm], for wheels with a declared thickness."""
     strays: tuple[tuple[str, str, str], ...]
@@ -282,10 +280,7 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield lantern wheels with the extent of their discs beyond the pitch circle [modules].
-
-    The extent is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
-    """
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle, 1.5 pins [modules]."""
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
@@ -296,9 +291,7 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return by pair the centre distance of real teeth divided by the distance at which pitch circles touch, if the
-    ratio is not 1.
-    """
+    """Return by pair the real centre distance over that of touching pitch circles, if the ratio is not 1."""
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:

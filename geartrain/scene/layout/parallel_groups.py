@@ -15,12 +15,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 from math import hypot, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.graphs import DisjointSets
+from geartrain.numerics.graphs import DisjointSets, joined_groups
 from geartrain.numerics.vectors import Vector, dot, plus
 from geartrain.scene.layout.declared_geometry import AxisLine, Parallels, PinSlotTie, Point, upwards
 from geartrain.scene.layout.plan_problem import plan_problem
@@ -185,40 +186,28 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan, relative to the height at its reference point
-        [mm].
-        """
+        """Return the height of a crossing axis at a point in plan, relative to that at its reference point [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Fix the heights of crossing axes that mesh with each other and with one axis: they intersect this axis at one
-        point.
-        """
+        """Fix the heights of crossing axes that mesh with each other and one axis, which they meet at one point."""
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
-        tied: dict[str, set[str]] = {}
-        for each in self.all_crossing:
-            tied.setdefault(each.side.axis, set()).add(each.side.mate_axis)
         for label, others in met.items():
-            for other in dict.fromkeys(others):
-                reached, waiting = {label, other}, [other]
-                while waiting:
-                    for next_ in sorted(tied[waiting.pop()] - reached):
-                        reached.add(next_)
-                        waiting.append(next_)
-                for mate in others:
-                    if mate in reached and mate != other:
-                        self.heights.join(("axis", mate), ("axis", other), 0.0)
+            tied: DisjointSets[str] = DisjointSets()
+            for each in self.all_crossing:
+                if label not in (ends := (each.side.axis, each.side.mate_axis)):
+                    tied.join(*ends)
+            for one, other in combinations(dict.fromkeys(others), 2):
+                if not tied.are_apart(one, other):
+                    self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of the crossing mate of an upright wheel: a strip in plan.
-
-        If a carrier moves the mate relative to the wheel, the block is the whole space that the mate sweeps.
-        """
+        """Return a crossing mate's block: a strip in plan, or all that it sweeps if a carrier moves it."""
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -264,8 +253,8 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
     overlap  function that returns True if two wheels at one height would collide
     """
     found: dict[str, AxialSlots] = {}
-    for group in _groups(meshes):
-        wheels = list(dict.fromkeys(wheel for mesh in group for wheel in mesh))
+    for wheels in joined_groups([wheel for mesh in meshes for wheel in mesh], meshes):
+        group = [mesh for mesh in meshes if mesh[0] in wheels]
         mates = {frozenset(mesh) for mesh in group}
         clashes: dict[str, list[str]] = {}
         for at, wheel in enumerate(wheels):
@@ -276,17 +265,6 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
         if clashes:
             found |= _find_spans(group, clashes)
     return found
-
-
-def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
-    """Return the meshes grouped by connected wheels."""
-    wheels: DisjointSets[str] = DisjointSets()
-    for first, second in meshes:
-        wheels.join(first, second)
-    groups: dict[str, list[tuple[str, str]]] = {}
-    for mesh in meshes:
-        groups.setdefault(wheels.find(mesh[0]), []).append(mesh)
-    return list(groups.values())
 
 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
@@ -345,10 +323,7 @@ class Arrangement:
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the positions of the axes and wheels of all groups of parallel axes.
-
-    The group with the most wheels is placed first, then repeatedly the largest group that meshes with a placed group.
-    """
+    """Return all axes and wheels, placing first the largest group, then the largest that meshes with a placed one."""
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)
@@ -406,9 +381,7 @@ class _Placing:
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
     def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
-        """Yield new axes that mesh with a placed axis: the pair from the side of the new axis, and a point of the new
-        axis [mm].
-        """
+        """Yield each new axis that meshes with a placed axis: the pair from its side, and a point on it [mm]."""
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -420,9 +393,7 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return points in plan of the axes that cannot move [mm]; if no axis is fixed, points of axes that are
-        chosen.
-        """
+        """Return points in plan of the axes that cannot move [mm], or if there are none, of chosen axes."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))

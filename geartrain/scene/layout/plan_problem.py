@@ -33,11 +33,9 @@ class PlanProblem:
     distances: Mapping[tuple[str, str], float]
     """Required distances between pairs of axes [mm]."""
     discs: Mapping[str, Mapping[str, WheelSize]]
-    """Upright wheels of each axis, by name."""
     cluster: Mapping[str, int]
     """Cluster of each wheel. Wheels of one cluster share a level."""
     mates: frozenset[frozenset[str]]
-    """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
     """Pairs of axes that must lie on a line, with the direction of the line as a unit vector."""
     sides: Mapping[str, Point] = field(default_factory=dict)
@@ -53,11 +51,7 @@ class PlanProblem:
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """Return the conditions on the plan of a group of parallel axes.
-
-    fixed      given points in plan by axis
-    standing   points of axes that are already placed
-    """
+    """Return the conditions on parallel axes' plan, with `fixed` points in plan and points of `standing` axes."""
     declared, labels = geometry.declared, list(parallels.index)
     discs: dict[str, dict[str, WheelSize]] = {label: {} for label in labels}
     for wheel, axis in declared.axis.items():
@@ -90,9 +84,7 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return chosen distances [mm] for pins without dimensions, and for carried axes that no distance connects to the
-    axis of their carrier.
-    """
+    """Return chosen distances [mm] for pins without dimensions, and for carried axes not tied to their pivot."""
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -116,10 +108,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect the same crossing axis, each with the direction of the line on which they lie.
-
-    A worm does not intersect its wheel's axis.
-    """
+    """Yield pairs of axes that cross a common axis (worms do not), with the direction of the line through both."""
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":
@@ -141,9 +130,7 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield the axes of planets between a sun and a ring, each with its number of assembly positions, z_sun +
-    z_ring.
-    """
+    """Yield axes of planets between sun and ring, each with its number of assembly positions, z_sun + z_ring."""
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

@@ -107,12 +107,8 @@ def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanPr
 _NEAR = 60  # maximum number of axes on closed chains for which bounds are found: time grows with its square
 
 
-class Bar(NamedTuple):
-    """Required distance between two axes [mm], which are given by index."""
-
-    first: int
-    second: int
-    length: float
+Bar = tuple[int, int, float]
+"""Required distance: indices of two axes, and the distance [mm]."""
 
 
 class DistanceBound(NamedTuple):
@@ -129,7 +125,6 @@ class PlanStep:
 
     axis: int
     placed: Indices
-    """Indices of the axes that are already placed."""
     tied: tuple[DistanceBound, ...]
     """Placed axes at a required distance from the axis."""
     bounds: tuple[DistanceBound, ...]
@@ -150,7 +145,7 @@ class PlanOrder:
     def __init__(self, problem: PlanProblem) -> None:
         self.index = {label: at for at, label in enumerate(problem.labels)}
         self.radius = np.array([problem.radius(label) for label in problem.labels])
-        self.bars = [Bar(self.index[a], self.index[b], length) for (a, b), length in problem.distances.items()]
+        self.bars = [(self.index[a], self.index[b], length) for (a, b), length in problem.distances.items()]
         self._joined: list[dict[int, float]] = [{} for _ in problem.labels]
         for a, b, length in self.bars:
             self._joined[a][b] = self._joined[b][a] = length
@@ -196,19 +191,10 @@ class PlanOrder:
         return late, -tied, -round(weight, 9)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
-        """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it has more than 60
-        axes.
-        """
+        """Return the 2-core of the graph of bars, with placed axes as one node; empty for more than 60 axes."""
         left = set(range(len(self._joined)))
-        count = [len(joined) for joined in self._joined]
-        ends = [at for at in left if at not in placed and count[at] < 2]
-        while ends:
-            at = ends.pop()
-            left.discard(at)
-            for other in self._joined[at]:
-                count[other] -= 1
-                if count[other] == 1 and other in left and other not in placed:
-                    ends.append(other)
+        while ends := {at for at in left - placed if len(self._joined[at].keys() & left) < 2}:
+            left -= ends
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
@@ -272,10 +258,7 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the two intersections of a line, given by a point and a unit vector, with a circle.
-
-    Without an intersection both points are the point of the line nearest to the centre.
-    """
+    """Return the crossings of a line (point, unit vector) with a circle, or twice its point nearest the centre."""
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
     square = radius * radius - (u * u + v * v - middle * middle)
@@ -315,10 +298,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points in plan of all axes [mm], at the required distances or fitted to them by least squares.
-
-    The result is deterministic.
-    """
+    """Return deterministic points in plan of all axes [mm], at the required distances or fitted to them."""
     return _BeamSearch(problem).found()
 
 
@@ -379,10 +359,7 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on a line with a placed axis, at the required distance from another axis, or at free distances.
-
-        The result is empty for an axis without such a line.
-        """
+        """Return points on a line with a placed axis, at required or free distances; empty without such a line."""
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:

@@ -49,9 +49,7 @@ class SweptDistances:
 
 
 class _Swept(NamedTuple):
-    """Position of an axis relative to a link that carries it: at a distance from `low` to `high` [mm] from the axis
-    `centre`.
-    """
+    """Position of an axis relative to a link that carries it: `low` to `high` [mm] from the axis `centre`."""
 
     at: int
     centre: str

@@ -78,7 +78,6 @@ def notices(
     gaps     gaps of pairs whose pitch circles do not touch [mm]
     misses   phase errors of pairs whose teeth do not mesh [pitches]
     """
-    # what cannot be built at all comes first
     yield from (each.problem for each in train.build_findings)
     declared = found.geometry.declared
     place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}
@@ -250,9 +249,7 @@ class AxisPlace(Shown):
     direction: Vector
     """Declared unit vector, about which the speeds of the links on the axis are positive."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from wheels that mesh or from the offset of a pin, or
-    `free` (placed without overlap).
-    """
+    """Origin: `given` in the declaration, `found` from meshing wheels or a pin's offset, or `free` (chosen)."""
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
 
@@ -287,13 +284,9 @@ class WheelPlace(Shown):
     facing: int = 0
     """Side of the axis, along its direction, towards which the pitch cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of the level, from 0 for the lowest level along the main axes; None for wheels that are not on the main
-    axes.
-    """
+    """Number of the level, from 0 for the lowest along the main axes; None for wheels that are not on them."""
     turn: float = 0.0
-    """Angle of the wheel's first tooth about the direction of the axis, measured from `reference` [rad]. At this
-    angle the teeth mesh.
-    """
+    """Angle of the first tooth about the axis direction, from `reference` [rad], at which the teeth mesh."""
     reference: Vector = (1.0, 0.0, 0.0)
     """Unit vector perpendicular to the axis, from which `turn` is measured."""
 
@@ -317,14 +310,11 @@ class Layout(Shown):
     wheels: Mapping[str, WheelPlace]
     """Wheels by name."""
     notices: tuple[Problem, ...] = ()
-    """Problems with wheels and axes that could not be placed as declared, or that collide, with reasons and remedies.
-    """
+    """Problems with wheels and axes that collide or could not be placed as declared, with reasons and remedies."""
     front: int = 1
     """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
-    """Gap between the pitch circles [mm] of gear pairs whose wheels do not touch in the layout; negative for an
-    overlap.
-    """
+    """Gap between pitch circles [mm] of pairs whose wheels do not touch in the layout; negative for an overlap."""
 
     def _summary(self) -> str:
         notices = f", {len(self.notices)} notices" if self.notices else ""
@@ -440,9 +430,7 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seat of each wheel in a pair with non-parallel axes, except wheels that also mesh about a parallel
-    axis.
-    """
+    """Return the seats of wheels in pairs with non-parallel axes, except wheels that also mesh with parallel ones."""
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}

@@ -19,7 +19,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from heapq import heappop, heappush
 from itertools import pairwise
 from math import atan2, tan
 from statistics import median
@@ -56,10 +55,7 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return modules of roots, with the modules in `free` multiplied by simple factors until all chains can close.
-
-    At most 12 passes are made. With more than 300 distances the modules are unchanged.
-    """
+    """Return roots' modules with those in `free` multiplied by simple factors until all chains can close."""
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -71,10 +67,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the path round it, or lengthen the path, by changing `modules` in place.
-
-    Return True if a module was changed, False if not.
-    """
+    """Shorten a distance longer than the path round it, or lengthen the path, in place; return True if changed."""
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -105,34 +98,18 @@ def _simple(factor: float) -> Fraction:
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without using this distance (Dijkstra); empty if there is
-    no path.
-    """
-    joined: dict[str, list[tuple[str, int]]] = {}
-    for number, one in enumerate(distances):
-        if number != at:
-            first, second = one.axes
-            joined.setdefault(first, []).append((second, number))
-            joined.setdefault(second, []).append((first, number))
-    start, goal = distances[at].axes
-    waiting: list[tuple[float, str, int, str]] = [(0.0, start, -1, "")]
-    came: dict[str, tuple[int, str]] = {}  # axis -> distance on its shortest path, and the axis before it
-    while waiting:
-        length, here, by, before = heappop(waiting)
-        if here in came:
-            continue
-        came[here] = by, before
-        if here == goal:
-            break
-        for other, number in joined.get(here, ()):
-            if other not in came:
-                heappush(waiting, (length + distances[number].length(modules), other, number, here))
-    way = []
-    here = goal
-    while here in came and here != start:
-        by, here = came[here]
-        way.append(distances[by])
-    return way
+    """Return the shortest path between the axes of a distance without using it (Dijkstra); empty without a path."""
+    import networkx as nx
+
+    graph: nx.Graph[str] = nx.Graph()
+    # the longest first, so that the shortest of several distances between two axes replaces the others
+    for one in sorted((*distances[:at], *distances[at + 1 :]), key=lambda one: -one.length(modules)):
+        graph.add_edge(*one.axes, distance=one, weight=one.length(modules))
+    try:
+        way = nx.dijkstra_path(graph, *distances[at].axes)
+    except (nx.NodeNotFound, nx.NetworkXNoPath):
+        return []
+    return [graph.edges[step]["distance"] for step in pairwise(way)]
 
 
 # -------------------------------------------------------------------------------------------------------- wheel modules
@@ -150,11 +127,8 @@ class WheelModules:
     module: Mapping[str, float]
     """Wheel -> module [mm]."""
     declared: frozenset[str]
-    """Wheels of clusters whose module is declared."""
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: the declared offset of a pin, otherwise the mean distance of its gear
-    pairs.
-    """
+    """Pair of axes -> required distance [mm]: a pin's declared offset, else the mean distance of its gear pairs."""
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
@@ -261,10 +235,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance between two axes [mm] from their declared points, otherwise from the offset of a pin.
-
-        It is None if neither is declared.
-        """
+        """Return the distance of two axes [mm] from their declared points, else from a pin's offset, else None."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -314,9 +285,7 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the axis from the point where the axes intersect, or are nearest, to the centre of the
-    wheel [mm].
-    """
+    """Distance along the axis from where the axes intersect, or are nearest, to the wheel's centre [mm]."""
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
     out: Vector
@@ -360,10 +329,7 @@ def opposite(v: Vector) -> Vector:
 
 
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Return the unit vector from the axis of a worm to the axis of its wheel, along their common perpendicular.
-
-    Without declared positions it is the cross product of the directions of wheel and worm.
-    """
+    """Return the unit vector from a worm's axis to its wheel's; without positions, wheel cross worm direction."""
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
     if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), way) < 0:
@@ -376,7 +342,6 @@ class WheelSize:
     """Sizes of a wheel in a layout [mm]."""
 
     radius: float
-    """Pitch radius."""
     module: float
     """Transverse module: pitch diameter divided by the tooth count; axial module of a worm."""
     thickness: float

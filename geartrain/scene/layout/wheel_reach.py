@@ -19,21 +19,11 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the size of a bevel wheel's teeth at the narrow end divided by their size at the wide end.
+    """Return the size of a bevel wheel's teeth at the narrow end over that at the wide end, from 0.55 to 1.
 
-    Parameters
-    ----------
-    cone : float
-        Half angle of its pitch cone [rad], above 0; a right angle for a crown wheel.
-    radius : float
-        Pitch radius at the wide end [mm].
-    thickness : float
-        Face width along the cone [mm].
-
-    Returns
-    -------
-    float
-        Ratio from 0.55 to 1; 1 for a face width of 0.
+    cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
+    radius      pitch radius at the wide end [mm]
+    thickness   face width along the cone [mm]
     """
     # the cone distance is radius / sin(cone)
     return 1 - min(_MOST_FACE, thickness * sin(cone) / radius)
@@ -50,18 +40,13 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 
 
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
-    """Return the position of the back of a bevel wheel's body [mm], in the coordinate of `height_on_cone`.
-
-    root   height of the roots above the pitch cone [mm]
-    """
+    """Return the position of a bevel wheel's back, as `height_on_cone` [mm]; `root` is the roots' height [mm]."""
     ends = 1.0, taper(cone, radius, thickness)
     return min(height_on_cone(cone, radius, root - LAND * radius, scale) for scale in ends) - _BACK * thickness
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of `reach` [mm] for a wheel whose teeth are not known, with standard tooth heights for its
-    module.
-    """
+    """Return the extents of `reach` [mm] with the standard tooth heights of a module, for wheels of unknown teeth."""
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 

@@ -111,9 +111,7 @@ class _OrderSearch:
 
     @cached_property
     def order(self) -> list[int]:
-        """Order of the stacks: first the stack with the most arbors, then repeatedly the stack that shares the most
-        arbors with earlier stacks.
-        """
+        """Order of the stacks: the one with most arbors first, then those that share most arbors with earlier ones."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
@@ -128,9 +126,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Return the key of each stack: all stacks are placed, then each stack and runs of levels are moved until no
-        move improves the order.
-        """
+        """Return the key of each stack, moving stacks and runs of levels until no move improves the order."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
@@ -158,9 +154,7 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to its position of minimum cost, in a level (integer key) or between two levels (half-integer
-        key).
-        """
+        """Move one stack to its cheapest position, in a level (integer key) or between levels (half-integer key)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -177,10 +171,7 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return the costs of several orders of the same stacks, one per row; stacks that are not placed yet are NaN.
-
-        fixed_cost   cost of an arbor that interleaves with fixed wheels
-        """
+        """Return the costs of several orders, one per row, with NaN for stacks that are not placed yet."""
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
         low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
         for stacks in self._stack_table[1:]:
@@ -225,17 +216,14 @@ class _OrderSearch:
                 ]
                 heights = np.concatenate(rows)
                 order = np.argsort(heights, axis=0)  # nan is sorted last
-                tooth_phase, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
-                turns = ((tooth_phase[1:] != tooth_phase[:-1]) & put[1:]).sum(axis=0)
+                is_fixed, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
+                turns = ((is_fixed[1:] != is_fixed[:-1]) & put[1:]).sum(axis=0)
                 found += np.maximum(turns - 1, 0) / 2
         return found
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) of each arbor with each stack of another arbor on its axis, as three arrays.
-
-        The arrays are the arbors, the stacks, and the first row of each ordered pair of arbors.
-        """
+        """Rows (arbor, stack) of coaxial arbors' stacks: arbors, stacks, and the first row of each ordered pair."""
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):
@@ -268,9 +256,7 @@ class _OrderSearch:
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, the stacks whose wheels they would pierce at the same height, and the number of such wheels in each
-        stack.
-        """
+        """Arbors, stacks whose wheels they would pierce at equal height, and the number of these wheels in each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -289,9 +275,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Return keys with each stack in the free level nearest to other stacks on its arbors, or in a new
-        top level.
-        """
+        """Return keys with each stack in the free level nearest to its arbors' other stacks, or in a new top level."""
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -343,10 +327,7 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return heights of levels from the lowest [mm].
-
-    Each level is above all blocks that clash with it, and above the previous level.
-    """
+    """Return heights of levels [mm], each above the previous level and all blocks that clash with its own."""
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])
@@ -374,21 +355,15 @@ class WheelStack:
     """Wheels of a group of parallel axes, with the problem that determines their heights."""
 
     up: Vector
-    """Direction of increasing heights."""
     problem: StackProblem
     gap: float
     """Gap between levels [mm]."""
     swept: SweptDistances
-    """Distances between the axes while carriers turn."""
     given: Mapping[int, float]
     """Stack -> height [mm] that is determined by parts that are already placed."""
 
     def heights(self) -> dict[str, float]:
-        """Return heights of upright wheels [mm].
-
-        Given heights are kept, and all other stacks are shifted by the same amount as the first stack with a given
-        height.
-        """
+        """Return heights of upright wheels [mm]: given heights, and others shifted as the first given stack."""
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)
         found = {stack: self.given.get(stack, height + shift) for stack, height in found.items()}
@@ -417,9 +392,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except the arbors of a pin and its slot, whose axes
-        share one stud.
-        """
+        """Yield arbors with the wheels they pass through, except those of a pin and its slot, which share a stud."""
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

@@ -82,10 +82,7 @@ class AxisColumn:
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other; None if all links can be nested."""
     on: str = ""
-    """Axis of the stud on whose end this stud is turned; empty for other columns.
-
-    `topped` marks the lower stud of such a pair.
-    """
+    """Axis of the stud on whose end this stud is turned, else empty; `topped` marks the lower of the two."""
     topped: bool = False
 
     @property
@@ -106,10 +103,7 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Problem of one axis: its discs, the discs of other axes, and the links that extend to dials.
-
-    Its solution is an `AxisColumn` for given positions of the plates.
-    """
+    """Problem of one axis, solved by an `AxisColumn` for given plates: its discs, other discs, ends at dials."""
 
     axis: str
     at: Point
@@ -146,10 +140,7 @@ class ColumnProblem:
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core, or with the thickest standard core that has clearance to all wheels.
-
-        If no thinner core has clearance either, the column has the default core.
-        """
+        """Return the column with the given or thickest clear standard core, or with the default if none is clear."""
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -180,9 +171,7 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return pieces from the innermost, and two links of which neither can be inside the other; None if all can be
-        nested.
-        """
+        """Return pieces from the innermost, and two links of which neither fits into the other; None if all nest."""
         if not self._fixed_discs:
             return self._turning_order
         tangled = None
@@ -221,9 +210,7 @@ class ColumnProblem:
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
     def _single_piece(self, places: FramePlaces) -> CoaxialLink:
-        """Return fixed wheels as one piece without a hub in its plate, the nearer plate, so that it has no obstacle
-        there.
-        """
+        """Return fixed wheels as one piece without a hub in the nearer plate, so that it has no obstacle there."""
         held = self._fixed_piece(self._fixed_discs, self._nearer(places)[0])
         return replace(held, hubs=held.hubs[:-1])
 
@@ -249,10 +236,7 @@ class ColumnProblem:
                 )
 
     def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """Return a fixed piece that extends from its discs into a plate.
-
-        Its hubs are the middles of the discs and of the plate.
-        """
+        """Return a fixed piece from its discs into a plate, with hubs at the middles of discs and plate."""
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
@@ -308,9 +292,7 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Return the ends of each piece [mm]. Of pieces that carry hands, an inner piece extends farther than an outer
-    piece.
-    """
+    """Return the ends of each piece [mm]; of pieces that carry hands, inner pieces extend farther than outer ones."""
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends
@@ -330,9 +312,7 @@ def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[Stack
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """Return the column with its obstacles: discs of other axes that are at its heights and nearer than the
-    clearance.
-    """
+    """Return the column with its obstacles: discs of other axes at its heights, nearer than the clearance."""
     # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
@@ -349,9 +329,7 @@ class CoaxialLink:
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which the piece carries discs or is held [mm]: the heights of its discs, and for fixed wheels the
-    height of the plate.
-    """
+    """Heights at which the piece carries discs [mm], and for fixed wheels the height of the plate that holds it."""
     low: float
     high: float
     fixed: bool = False
@@ -365,10 +343,7 @@ class CoaxialLink:
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return links from the innermost, each outside all earlier links, and two links that conflict, or None.
-
-    The order is a topological sort. If the graph has a cycle, the links are returned as given.
-    """
+    """Return links from the innermost (topological order), or as given and two that conflict if they form a cycle."""
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()
     while left:

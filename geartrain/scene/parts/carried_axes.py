@@ -45,17 +45,13 @@ class CarrierSeat:
 
     @property
     def is_bearing(self) -> bool:
-        """True if the link carries axes or pins here; False for the disc of a ring, for an arm, and for the flange of a
-        shaft.
-        """
+        """True if the link carries axes or pins here; False for discs of rings, for arms, and for flanges of shafts."""
         return not any(plate.ring or plate.disc.apart or plate.flange for plate in self.plates)
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """Axis that a link carries, with its discs; `through` are wheels of other links with holes for the parts on its
-    arbor.
-    """
+    """Axis that a link carries, with its discs; `through` are other links' wheels with holes for its arbor."""
 
     label: str
     carrier: str
@@ -72,10 +68,7 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return the seat on a plate at a height in a gap of the stack.
-
-    The faces of the plate are only a nominal distance apart until the heights of all plates are known.
-    """
+    """Return the seat on a plate at a height in a gap of the stack, with nominal faces until heights are known."""
     disc = replace(disc, low=height - _THIN, high=height + _THIN)
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
 
@@ -88,9 +81,7 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return the possible seats of the axes that a link carries: on its wheels, then on a plate on either side of the
-    wheels of these axes.
-    """
+    """Return possible seats of a link's axes: on its wheels, then on a plate at either side of these axes' wheels."""
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
@@ -145,9 +136,7 @@ def carried_columns(
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """Return the stud of the nearer axis without a head, and the stud of the other axis, which starts at the end of the
-    first stud.
-    """
+    """Return the nearer axis' stud without a head, and the other axis' stud, which starts at the end of the first."""
     up = max(each.high for each in far.members) > max(each.high for each in near.members)
     if up:
         end = max(each.high for each in near.members) + SHAKE / 2
@@ -164,12 +153,7 @@ def _away(axis: CarriedAxis, seat: StackDisc) -> float:
 
 
 def _carried_column(
-    axis: CarriedAxis,
-    seat: StackDisc,
-    seen: Sequence[StackDisc],
-    process: Process,
-    core: float | None,
-    head: float,
+    axis: CarriedAxis, seat: StackDisc, seen: Sequence[StackDisc], process: Process, core: float | None, head: float
 ) -> AxisColumn:
     """Return the preferred column of a carried axis, which has only one plate: its seat."""
     ends: Mapping[str, tuple[bool, bool]] = {}
@@ -184,8 +168,6 @@ def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc relative to a turning carrier, for which the parts that it carries are fixed and all other parts
-    revolve.
-    """
+    """Return a disc as seen from a turning carrier: its own and carried parts are fixed, all others revolve."""
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

@@ -42,7 +42,6 @@ class FlexibleCup:
     """Link with the bottom of the cup; `slot` is the link with the wheel."""
     slot: str
     wheel: str
-    """Name of the flexible wheel."""
     at: Point
     """Position of the cup's axis in the stack [mm]."""
     reach: float
@@ -95,11 +94,8 @@ class Eccentric:
     """Eccentric disc on the arbor of a link, on which wheels turn, or the wave generator of a strain wave."""
 
     name: str
-    """Name of the eccentric."""
     link: str
-    """Link of the arbor."""
     axis: str
-    """Label of the arbor's axis."""
     at: Point
     """Position of the arbor in the stack [mm]."""
     centre: Point
@@ -107,7 +103,6 @@ class Eccentric:
     radius: float
     """Radius of the disc [mm]."""
     wheels: tuple[str, ...]
-    """Wheels that turn on the eccentric."""
     carried: str
     """Label of the axis about which the wheels in `wheels` turn."""
     middle: float = 0.0
@@ -157,9 +152,7 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on each side of the wheels, on the same arbor; none for a flexible wheel, which its wall
-        holds.
-        """
+        """Yield a washer on each side of the wheels, on the same arbor; none for a flexible wheel, held by its wall."""
         if self.wave is not None:
             return
         radius = max(self.radius, self.wall + _OVER)
@@ -168,9 +161,7 @@ class Eccentric:
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
     def faces(self, disc: StackDisc) -> tuple[float, float]:
-        """Return the faces of the eccentric [mm]: between its washers, or in a flexible wheel below the wall of the
-        cup.
-        """
+        """Return the faces of the eccentric [mm]: between its washers, or below the cup's wall in a flexible wheel."""
         if self.wave is not None:
             return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD
@@ -249,9 +240,7 @@ class StandingPins:
     """Pins fixed in a plate, at their positions, which extend into a wheel."""
 
     name: str
-    """Name of the pins."""
     link: str
-    """Link that carries the pins."""
     seat: str
     """Turning plate in which the pins are fixed; empty for the nearer plate of the frame."""
     wheel: str
@@ -278,10 +267,7 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the plate of pins next to the disc in which they move, or the bottom of a cup next to its wheel.
-
-    The plate is above the disc, or on the side of the axes that its link carries.
-    """
+    """Return the plate of pins beside their disc, above or towards axes that it carries, or a cup's bottom."""
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]
     below = bool(others) and sum(others) / len(others) < (low + high) / 2

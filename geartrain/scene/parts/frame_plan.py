@@ -55,9 +55,7 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Choice of the heights of both frame plates, of the seats of carriers, and of the columns of all axes, with its
-    cost.
-    """
+    """Choice of the heights of the frame plates, the seats of carriers and all columns, with its cost."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
@@ -65,9 +63,7 @@ class PlateChoice:
     outside: int
     """1 if the train extends above the front plate, -1 if below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Cost of the choice: obstacles on all axes, including crossing wheels that a plate would cut; then studs and
-    arbors through a plate.
-    """
+    """Obstacles on all axes, including crossing wheels that a plate would cut; then studs and arbors through one."""
 
 
 def best_places(
@@ -83,7 +79,7 @@ def best_places(
     At most 64 combinations of seats are tried. One plate is at an end of the stack; only if obstacles remain, both
     plates may be inside the stack.
 
-    blocked   number of obstacles on axes that carriers bear
+    blocked   number of obstacles on axes of carriers
     cut       number of crossing wheels that a plate at some height would cut
     """
     count = len(slab_gaps)
@@ -138,9 +134,7 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """Return the number of obstacles of a set of columns; a pair of links that cannot be nested counts as one
-    obstacle.
-    """
+    """Return the number of obstacles of columns; a pair of links that cannot be nested counts as one."""
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
@@ -152,9 +146,7 @@ def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle, or the first column; the iterable is read only as far as
-    necessary.
-    """
+    """Return the first column without an obstacle, else the first; the iterable is read no further than needed."""
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -178,7 +170,6 @@ class FramePlan:
     """Wheels at their positions in the layout."""
     process: Process
     thickness: float
-    """Thickness of plates."""
     core: float | None
     """Diameter of all arbors; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[bool, bool]]
@@ -215,23 +206,12 @@ class FramePlan:
         span = taken[0][0] - _DIAL, taken[-1][1] + _DIAL
         for label, axis in self.stack.axes.items():
             if any(disc.axis == label for disc in self.stack.discs):
-                problem = ColumnProblem(
-                    label,
-                    self.stack.flat(axis.point),
-                    (),
-                    (),
-                    self.ends,
-                    span,
-                    self.stack.frame,
-                    self.process,
-                    *self._arbor(label),
-                )
+                at, sizes = self.stack.flat(axis.point), self._arbor(label)
+                problem = ColumnProblem(label, at, (), (), self.ends, span, self.stack.frame, self.process, *sizes)
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Return the diameters of the arbor on an axis and of its pivots [mm], as requested, or as declared for its
-        link.
-        """
+        """Return the diameters of an axis' arbor and pivots [mm], as requested or as declared for its link."""
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
@@ -242,9 +222,7 @@ class FramePlan:
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Yield the possible seats of each carrier, of each circle of pins or cup, of each turning ring and of each
-        flange.
-        """
+        """Yield the possible seats of each carrier, circle of pins, cup, turning ring and flange."""
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -295,16 +273,12 @@ class FramePlan:
         return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
 
     def _borne_by(self, seat: CarrierSeat) -> list[CarriedAxis]:
-        return (
-            [] if not seat.is_bearing else [each for each in self.stack.carried.values() if each.carrier == seat.link]
-        )
+        return [each for each in self.stack.carried.values() if seat.is_bearing and each.carrier == seat.link]
 
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Return the number of obstacles on the axes that a carrier carries; space for the heads of studs is added
-        later.
-        """
+        """Return the number of obstacles on a carrier's axes, before space is added for the heads of studs."""
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0
@@ -331,14 +305,10 @@ class FramePlan:
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
         """Wheels and turning plates at heights as built."""
-        found = []
-        for disc in self.stack.discs:
-            rise = self.heights.shift(disc.middle)
-            found.append(replace(disc, low=disc.low + rise, high=disc.high + rise))
-        for plate in self.turning:
-            low, high = self.heights.plates[plate.disc.name]
-            found.append(replace(plate.disc, low=low, high=high))
-        return tuple(found)
+        rises = [(disc, self.heights.shift(disc.middle)) for disc in self.stack.discs]
+        faces = [(plate.disc, *self.heights.plates[plate.disc.name]) for plate in self.turning]
+        faces = [*((disc, disc.low + rise, disc.high + rise) for disc, rise in rises), *faces]
+        return tuple(replace(disc, low=low, high=high) for disc, low, high in faces)
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
@@ -419,9 +389,7 @@ class FramePlan:
 
     @cached_property
     def cut(self) -> frozenset[str]:
-        """Pinions that are cut from the solid arbor, because there is too little material between their roots and the
-        arbor.
-        """
+        """Pinions cut from the solid arbor, because too little material is between their roots and the arbor."""
         wheels = self.stack.layout.wheels
         return frozenset(
             disc.name
@@ -433,10 +401,7 @@ class FramePlan:
 
     @cached_property
     def bores(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel and turning plate [mm].
-
-        A pinion that is cut from its arbor has the hole of that arbor, which is 0 for a solid arbor.
-        """
+        """Diameter of each wheel's and turning plate's hole [mm], 0 for a pinion cut from a solid arbor."""
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
@@ -506,10 +471,7 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield arms for links that cannot be nested on an axis and extend to a dial on one side.
-
-    An arm turns beyond all wheels; an eccentric bar connects it to the widest disc of its link.
-    """
+    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested, each joined by a bar."""
     for link in column.tangled or ():
         below, above = ends.get(link, (False, False))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]
@@ -552,20 +514,17 @@ class StackHeights:
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
-    """Faces of the turning plates, by name."""
 
     def shift(self, height: float) -> float:
         """Return the distance by which a part at a given height moves up [mm]."""
+        # a part on the lower face of a slab moves with the slab, despite rounding errors
         return self.shifts[max(bisect_right(self.starts, height + 1e-6) - 1, 0)]
 
 
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return heights as built, with plates inserted between the slabs of wheels.
-
-    The lowest slab keeps its height, and plates below it are placed under it.
-    """
+    """Return heights as built, with plates inserted between slabs of wheels and the lowest slab in its place."""
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

@@ -41,13 +41,10 @@ class FlatPlate:
     """Plate perpendicular to the axis of the stack, with its edge, its holes and its heights."""
 
     link: str
-    """Link to which the plate belongs."""
     name: str
-    """Name of the plate."""
     outline: Contour
     """Edge of the plate, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
-    """Round holes of the plate."""
     low: float
     """Height of the plate's lower face along the normal [mm]."""
     high: float
@@ -66,9 +63,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield holes that lighten a wide wave generator, at least six, between its lobes; `bore` is the diameter of its
-    hole [mm].
-    """
+    """Yield at least six holes between the lobes of a wide wave generator with a hole of diameter `bore` [mm]."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -92,7 +87,6 @@ class FramePlates:
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
     """Mortises of brackets within the outline of a plate, by the side of the plate."""
     standing: tuple[StandingPins, ...] = ()
-    """Groups of pins that are fixed in plates."""
     barrel: Barrel | None = None
     """Barrel from which a weight hangs; None for a train without a weight."""
 
@@ -202,9 +196,7 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """Return the hole in which a plate supports an axis, or through which the axis passes; None if the plate has no
-        such hole.
-        """
+        """Return the hole in a plate that supports an axis or lets it pass; None if the plate has no such hole."""
         process = self.plan.process
         middle = sum(faces) / 2
         passing = [
@@ -224,9 +216,7 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes next to the hub of a wheel or plate: for studs of the axes that it carries, for posts and
-        pins, and for eccentrics.
-        """
+        """Return the holes beside a seat's hub: for studs of carried axes, posts, pins and eccentrics."""
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
@@ -261,9 +251,7 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """Yield all turned parts: parts of every axis, sleeves, a barrel, washers, walls of cups, pillars, posts, pins
-        and feet.
-        """
+        """Yield all turned parts: parts of axes, sleeves, barrel, washers, cup walls, pillars, posts, pins and feet."""
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None

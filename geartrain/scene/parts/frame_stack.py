@@ -70,9 +70,7 @@ class AcrossWheel:
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return the passage of the wheel through a plate; None if it does not intersect the plate or has no
-        section.
-        """
+        """Return the wheel's passage through a plate; None if it does not meet the plate or has no section."""
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -86,6 +84,17 @@ class AcrossWheel:
         return self.low < high and low < self.high
 
 
+def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
+    """Return the axis direction of most wheels that the frame carries; None if it carries no wheel."""
+    count: Counter[Vector] = Counter()
+    for place in layout.wheels.values():
+        axis = layout.axes[place.axis]
+        if axis.carrier == train.declaration.frame:
+            x, y, z = (round(each, 12) for each in upwards(axis.direction))
+            count[x + 0.0, y + 0.0, z + 0.0] += 1  # both senses of a direction count as one; + 0.0 removes -0.0
+    return count.most_common(1)[0][0] if count else None
+
+
 @dataclass(frozen=True)
 class FrameStack:
     """Train as placed, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is given."""
@@ -93,6 +102,8 @@ class FrameStack:
     train: GearTrain
     layout: Layout
     blanks: Mapping[str, Blank]
+    normal: Vector
+    """Unit vector perpendicular to the plates, along which heights increase."""
     core: float | None = None
 
     @property
@@ -101,20 +112,8 @@ class FrameStack:
         return self.train.declaration.frame
 
     @cached_property
-    def normal(self) -> Vector | None:
-        """Axis direction of most wheels that the frame carries; None if it carries no wheel."""
-        count: Counter[Vector] = Counter()
-        for place in self.layout.wheels.values():
-            axis = self.layout.axes[place.axis]
-            if axis.carrier == self.frame:
-                x, y, z = (round(each, 12) for each in upwards(axis.direction))
-                count[x + 0.0, y + 0.0, z + 0.0] += 1  # both senses of a direction count as one; + 0.0 removes -0.0
-        return count.most_common(1)[0][0] if count else None
-
-    @cached_property
     def turn(self) -> Floats:
         """Rotation matrix with right, up and normal of the stack as columns. Shape (3, 3)."""
-        assert self.normal is not None
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
@@ -133,11 +132,10 @@ class FrameStack:
 
     def is_upright(self, axis: AxisPlace) -> bool:
         """Return True if an axis is perpendicular to the plates."""
-        return self.normal is not None and abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
+        return abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
 
     def flat(self, point: Vector) -> Point:
         """Return the coordinates of a point in space in plan view of the plates [mm]."""
-        assert self.normal is not None
         right, up = basis(self.normal)
         return dot(point, right), dot(point, up)
 
@@ -178,7 +176,6 @@ class FrameStack:
         return tuple(self._discs())
 
     def _discs(self) -> Iterator[StackDisc]:
-        assert self.normal is not None
         for name, place in self.layout.wheels.items():
             axis = self.layout.axes[place.axis]
             about = None if place.axis in self.axes else self.carrier_axis(axis)
@@ -210,7 +207,7 @@ class FrameStack:
     @cached_property
     def eccentrics(self) -> tuple[Eccentric, ...]:
         """All eccentrics of the stack."""
-        return tuple(StackEccentrics(self).found())
+        return tuple(find_eccentrics(self))
 
     @cached_property
     def on_eccentrics(self) -> frozenset[str]:
@@ -219,9 +216,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by name of the coupling, for which no wheel of the pins' link is wide
-        enough.
-        """
+        """Circles of pins in round holes by coupling, for which no wheel of the pins' link is wide enough."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -231,11 +226,7 @@ class FrameStack:
 
     @property
     def ends(self) -> dict[str, tuple[bool, bool]]:
-        """Links of a reducer that extend beyond the stack, below and above.
-
-        The shaft of an eccentric extends below, the link of pins above. A carrier of cranks extends below, its sun
-        above.
-        """
+        """Links that extend below and above: eccentric shaft and pins, or a carrier of cranks and its sun."""
         # eccentrics on the main axis: a cycloidal or strain wave drive; on carried axes: parallel cranks
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
         if inner:
@@ -248,10 +239,7 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights between which no plate may be inserted, by axis of the wheels that are not upright.
-
-        A plate between such a wheel and its mates would change their distance.
-        """
+        """Heights between which a plate would part wheels from their mates, by axis of wheels that are not upright."""
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
         for gear in self.train.declaration.gears:
@@ -268,7 +256,6 @@ class FrameStack:
         return tuple(self._across(place) for name, place in self.layout.wheels.items() if name not in upright)
 
     def _across(self, place: WheelPlace) -> AcrossWheel:
-        assert self.normal is not None
         axis, outer = self.layout.axes[place.axis], place.radius + place.module
         below, above = place.span
         along, thick = dot(axis.direction, self.normal), (above - below) / 2 + place.module
@@ -297,7 +284,6 @@ class FrameStack:
         shift   function of the height [mm] that returns the shift [mm]
         """
         normal, old = self.normal, self.layout
-        assert normal is not None
         rise = {disc.name: shift(disc.middle) for disc in self.discs}
         across = {label: shift(sum(ends) / 2) for label, ends in self.tied.items()}
         wheels = {
@@ -311,9 +297,7 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """Return the stack with space for the heads of studs next to the wheels that carriers carry, and for
-        washers.
-        """
+        """Return the stack with space for heads of studs beside the wheels of carriers, and for washers."""
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
@@ -361,92 +345,86 @@ def _moved(point: Vector, normal: Vector, by: float) -> Vector:
 _BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbor in it
 
 
-@dataclass(frozen=True)
-class StackEccentrics:
-    """Search for the eccentrics of one stack.
+def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
+    """Yield the eccentrics of a stack; those of the same name are numbered from the second.
 
     A wheel whose carried axis is close to the axis of its carrier turns on an eccentric of the carrier. If the carrier
     represents parallel cranks, each crank has an eccentric.
     """
-
-    stack: FrameStack
-
-    def found(self) -> Iterator[Eccentric]:
-        """Yield all eccentrics. If several have the same name, they are numbered from the second."""
-        count: Counter[str] = Counter()
-        for each in self._each():
+    count: Counter[str] = Counter()
+    waves = {each.wheel: each for each in bent_wheels(stack.train, stack.layout)}
+    for label, axis in stack.layout.axes.items():
+        own = stack.carrier_axis(axis)
+        discs = [disc for disc in stack.wheel_discs if disc.axis == label]
+        if own is None or len(slabs(discs)) != 1:  # wheels at different heights are connected by a pipe
+            continue
+        at = _place(stack, own)
+        if dist(at, discs[0].at) >= ON_ECCENTRIC * min(disc.root for disc in discs):
+            continue
+        if bent := next((waves[disc.name] for disc in discs if disc.name in waves), None):
+            found = [_wave(stack, bent, label, at)]
+        elif cranks := list(_cranks(stack, axis.carrier, own)):
+            found = list(_on_cranks(stack, cranks, at, label, discs))
+        else:
+            found = [_on_arbor(stack, axis.carrier, own, label, discs)]
+        for each in found:
             count[each.name] += 1
-            number = count[each.name]
-            yield each if number == 1 else replace(each, name=f"{each.name} {number}")
+            yield each if count[each.name] == 1 else replace(each, name=f"{each.name} {count[each.name]}")
 
-    def _each(self) -> Iterator[Eccentric]:
-        waves = {each.wheel: each for each in bent_wheels(self.stack.train, self.stack.layout)}
-        for label, axis in self.stack.layout.axes.items():
-            own = self.stack.carrier_axis(axis)
-            discs = [disc for disc in self.stack.wheel_discs if disc.axis == label]
-            if own is None or len(slabs(discs)) != 1:  # wheels at different heights are connected by a pipe
-                continue
-            at = self._place(own)
-            if dist(at, discs[0].at) < ON_ECCENTRIC * min(disc.root for disc in discs):
-                if bent := next((waves[disc.name] for disc in discs if disc.name in waves), None):
-                    yield self._wave(bent, label, at)
-                elif cranks := list(self._cranks(axis.carrier, own)):
-                    yield from self._on_cranks(cranks, at, label, discs)
-                else:
-                    yield from self._on_arbor(axis.carrier, own, label, discs)
 
-    def _wave(self, bent: BentWheel, label: str, at: Point) -> Eccentric:
-        """Return the generator of a strain wave, as an eccentric."""
-        (x, y), blank = self._place(label), self.stack.blanks[bent.wheel]
-        thin = wall(blank.pitch_radius)
-        wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
-        name, radius = f"{bent.link} wave", blank.root_radius - thin
-        return Eccentric(name, bent.link, bent.axis, at, at, radius, (bent.wheel,), label, wave=wave)
+def _wave(stack: FrameStack, bent: BentWheel, label: str, at: Point) -> Eccentric:
+    """Return the generator of a strain wave, as an eccentric."""
+    (x, y), blank = _place(stack, label), stack.blanks[bent.wheel]
+    thin = wall(blank.pitch_radius)
+    wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
+    name, radius = f"{bent.link} wave", blank.root_radius - thin
+    return Eccentric(name, bent.link, bent.axis, at, at, radius, (bent.wheel,), label, wave=wave)
 
-    def _place(self, label: str) -> Point:
-        return self.stack.flat(self.stack.layout.axes[label].point)
 
-    def _on_arbor(self, link: str, own: str, label: str, discs: Sequence[StackDisc]) -> Iterator[Eccentric]:
-        at, centre, links = self._place(own), discs[0].at, {disc.link for disc in discs}
-        free = min((circle.free for circle in self.stack.pin_circles.values() if circle.slot in links), default=inf)
-        free = min([free, *(disc.root for disc in discs)])
-        radius = eccentric_radius(dist(at, centre), self._arbor(link), free)
-        yield Eccentric(f"{link} eccentric", link, own, at, centre, radius, tuple(d.name for d in discs), label)
+def _place(stack: FrameStack, label: str) -> Point:
+    return stack.flat(stack.layout.axes[label].point)
 
-    def _arbor(self, link: str) -> float | None:
-        """Return the diameter of the arbor of a link [mm], as requested or as declared; None if it may be chosen."""
-        declared = self.stack.train.declaration.links[link].arbor
-        return self.stack.core if self.stack.core is not None or declared is None else 1000 * declared.diameter.si
 
-    # ---------------------------------------------------------------------------------------------- cranks side by side
+def _on_arbor(stack: FrameStack, link: str, own: str, label: str, discs: Sequence[StackDisc]) -> Eccentric:
+    at, centre, links = _place(stack, own), discs[0].at, {disc.link for disc in discs}
+    free = min((circle.free for circle in stack.pin_circles.values() if circle.slot in links), default=inf)
+    free = min([free, *(disc.root for disc in discs)])
+    radius = eccentric_radius(dist(at, centre), _arbor(stack, link), free)
+    return Eccentric(f"{link} eccentric", link, own, at, centre, radius, tuple(d.name for d in discs), label)
 
-    def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-        """Yield the parallel cranks that a link represents, each carried about the link's axis, as link, axis and
-        coupling.
-        """
-        tree = self.stack.train.kinematics.tree
-        for coupling in self.stack.train.declaration.couplings:
-            pair = coupling.pin, coupling.slot
-            if isinstance(coupling, Parallel) and link in pair:
-                crank = pair[1 - pair.index(link)]
-                label = tree.axis(crank) or ""
-                place = self.stack.layout.axes.get(label)
-                if place is not None and self.stack.carrier_axis(place) == own:
-                    yield crank, label, coupling.name
 
-    def _on_cranks(
-        self, cranks: Sequence[tuple[str, str, str]], at: Point, label: str, discs: Sequence[StackDisc]
-    ) -> Iterator[Eccentric]:
-        centre = discs[0].at
-        offset, places = dist(at, centre), [self._place(own) for _, own, _ in cranks]
-        middle = round(offset + (USUAL_ARBOR if self.stack.core is None else self.stack.core) / 2 + _BESIDE, 2)
-        wheels, root = tuple(disc.name for disc in discs), min(disc.root for disc in discs)
-        for (link, own, name), place in zip(cranks, places, strict=True):
-            away = dist(place, at)
-            free = min([root - away, away - middle, *(dist(place, other) / 2 for other in places if other != place)])
-            moved = place[0] + centre[0] - at[0], place[1] + centre[1] - at[1]
-            radius = eccentric_radius(offset, self._arbor(link), free)
-            yield Eccentric(f"{link} eccentric", link, own, place, moved, radius, wheels, label, middle, name)
+def _arbor(stack: FrameStack, link: str) -> float | None:
+    """Return the diameter of the arbor of a link [mm], as requested or as declared; None if it may be chosen."""
+    declared = stack.train.declaration.links[link].arbor
+    return stack.core if stack.core is not None or declared is None else 1000 * declared.diameter.si
+
+
+def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, str]]:
+    """Yield the parallel cranks that a link represents, carried about its axis, as link, axis and coupling."""
+    tree = stack.train.kinematics.tree
+    for coupling in stack.train.declaration.couplings:
+        pair = coupling.pin, coupling.slot
+        if isinstance(coupling, Parallel) and link in pair:
+            crank = pair[1 - pair.index(link)]
+            label = tree.axis(crank) or ""
+            place = stack.layout.axes.get(label)
+            if place is not None and stack.carrier_axis(place) == own:
+                yield crank, label, coupling.name
+
+
+def _on_cranks(
+    stack: FrameStack, cranks: Sequence[tuple[str, str, str]], at: Point, label: str, discs: Sequence[StackDisc]
+) -> Iterator[Eccentric]:
+    centre = discs[0].at
+    offset, places = dist(at, centre), [_place(stack, own) for _, own, _ in cranks]
+    middle = round(offset + (USUAL_ARBOR if stack.core is None else stack.core) / 2 + _BESIDE, 2)
+    wheels, root = tuple(disc.name for disc in discs), min(disc.root for disc in discs)
+    for (link, own, name), place in zip(cranks, places, strict=True):
+        away = dist(place, at)
+        free = min([root - away, away - middle, *(dist(place, other) / 2 for other in places if other != place)])
+        moved = place[0] + centre[0] - at[0], place[1] + centre[1] - at[1]
+        radius = eccentric_radius(offset, _arbor(stack, link), free)
+        yield Eccentric(f"{link} eccentric", link, own, place, moved, radius, wheels, label, middle, name)
 
 
 def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:

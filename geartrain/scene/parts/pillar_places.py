@@ -64,9 +64,7 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return the first position, then repeatedly the position farthest from the chosen positions (greedy
-    dispersion).
-    """
+    """Return the first position, then repeatedly the one farthest from those chosen (greedy dispersion)."""
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
@@ -86,11 +84,7 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon of `count` candidates that contains all axes, shape (count, 2); None if there is
-    none.
-
-    Candidates and axes are relative to the middle of the axes.
-    """
+    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle, or None."""
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
@@ -111,9 +105,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance between a point and a set of circles [mm], negative inside a circle; infinite without
-    circles.
-    """
+    """Return the minimum distance of a point from circles [mm], negative inside one; infinite without circles."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -154,7 +146,7 @@ def _posts(
     radius = min(_RIM_PART * wide, _POST_WIDEST)
     away = (ring.outer + ring.root) / 2
     free = ring.link == plan.stack.frame
-    spots = _spots(plan, ring, plate, away, radius) if free else _evenly(ring.at, away, 2 * _POSTS)
+    spots = _spots(plan, ring, plate, away, radius) if free else evenly(ring.at, away, 2 * _POSTS)
     low, high = min(plate[0], ring.low), max(plate[1], ring.high)
     inner = (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
     for number, at in enumerate(spots, 1):
@@ -163,16 +155,13 @@ def _posts(
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced positions on a rim with the maximum clearance, up to 0.5 mm.
-
-    The clearance is that to arbors, and to parts between the ring and the plate.
-    """
+    """Return three equally spaced positions on a rim with maximum clearance to arbors and parts, up to 0.5 mm."""
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]
     reach = min(plate[0], ring.low), max(plate[1], ring.high)
     circles += [(column.at, column.radius(*reach)) for column in plan.columns]
-    tried = [_evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+    tried = [evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
     # more than 0.5 mm does not matter: the first such rotation is used, so that the result is stable
     return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
@@ -190,6 +179,7 @@ def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Prob
                 )
 
 
-def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:
+def evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:
+    """Return equally spaced points on a circle of radius `away` [mm], from the angle `start` [rad]."""
     turns: Sequence[float] = [start + 2 * pi * k / count for k in range(count)]
     return [(at[0] + away * cos(turn), at[1] + away * sin(turn)) for turn in turns]

@@ -13,14 +13,13 @@ from geartrain.errors import Problem, QuestionError, suggest
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """Manufacturing process of flat parts and of the parts that turn in them; lengths in mm."""
+    """Manufacturing process of flat parts and of those that turn in them [mm]; `web` and `wall` are minima."""
 
     name: str
     """Name of the process: laser, cnc, fdm or hand."""
     kerf: float
     """Width of the cut; half of it is added to every outline."""
     web: float
-    """Minimum thickness of a wall or land."""
     running: float
     """Diametral clearance of a running fit."""
     press: float
@@ -28,7 +27,6 @@ class Process:
     backlash: float
     """Circumferential backlash at the pitch circle [modules]."""
     wall: float
-    """Minimum wall thickness of a pipe."""
     joint: str
     """Method by which wheels are fixed on arbors."""
 
@@ -49,13 +47,9 @@ USUAL = "hand"
 
 
 def process_named(name: str | None) -> Process:
-    """Return the process with a given name, or the default process for None. Raise `QuestionError` for an
-    unknown name.
-    """
+    """Return the process of a name, or the default process for None; raise `QuestionError` if it is unknown."""
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
-        fix = suggest(wanted, PROCESSES)
-        raise QuestionError(
-            Problem(f"'{wanted}' is not a manufacturing process", "the processes are predefined", fix, "--process")
-        )
+        what, fix = f"'{wanted}' is not a manufacturing process", suggest(wanted, PROCESSES)
+        raise QuestionError(Problem(what, "the processes are predefined", fix, "--process"))
     return PROCESSES[wanted]

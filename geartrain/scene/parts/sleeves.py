@@ -57,9 +57,7 @@ def free_beside(
 def _beside(
     disc: StackDisc, longest: float, shortest: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Yield the ends of rings on either side of a wheel from the longest ring, each with the ends of the space that the
-    ring needs.
-    """
+    """Yield the ends of rings on either side of a wheel, longest first, each with the ends of the space it needs."""
     for part in (1.0, 0.75, 0.5, 0.25):
         length = max(part * longest, shortest)
         yield (disc.high, disc.high + length), (disc.high, disc.high + length + _FREE)
@@ -155,9 +153,7 @@ class _MemberSleeves:
         return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
 
     def _collet(self, disc: StackDisc) -> Band | None:
-        """Return the longest collet that fits on either side of a wheel with clearance to turning parts; None if none
-        fits.
-        """
+        """Return the longest collet on either side of a wheel with clearance to turning parts; None if none fits."""
         for faces, room in _beside(disc, _LONGEST * self.member.outer, _SHORTEST):
             if (band := self._ring(*room)) is not None:
                 return Band(*faces, band.radius, band.bore)
@@ -182,10 +178,7 @@ class Barrel:
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters.
-
-    It is None if a weight or a drum is not declared, and if the barrel has no space.
-    """
+    """Return the barrel of the link at which power enters; None if weight or drum is undeclared or space lacks."""
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None

@@ -23,20 +23,15 @@ _SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """Cylinder that contains a wheel or a turning plate; lengths in mm."""
+    """Cylinder that contains a wheel or turning plate of a link, from `low` to `high` along its axis; lengths in mm."""
 
     name: str
-    """Name of the wheel or plate."""
     link: str
-    """Link to which the wheel or plate belongs."""
     axis: str
-    """Label of the disc's axis."""
     at: Point
     """Position of the disc's axis in plan view of the stack."""
     low: float
-    """Height of the lower face of the disc."""
     high: float
-    """Height of the upper face of the disc."""
     outer: float
     """Outer radius of the teeth or of the rim."""
     inner: float = 0.0
@@ -70,10 +65,7 @@ class StackDisc:
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Return occupied intervals of height [mm], from the lowest.
-
-    Discs that overlap in height are merged, and so are all discs between the ends of a `tied` interval.
-    """
+    """Return occupied intervals of height [mm] from the lowest, merging overlapping discs and `tied` intervals."""
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
         if found and low < found[-1][1] - _SAME:
@@ -154,9 +146,7 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a convex edge with notches, and the windows within it. Passages that would divide the plate are
-    omitted.
-    """
+    """Return a convex edge with notches, and its windows; passages that would divide the plate are omitted."""
     windows = []
     for each in passages:
         x, y = each.way

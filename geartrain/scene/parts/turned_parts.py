@@ -41,15 +41,9 @@ class TurnedPart:
     """Turned part of a link, such as an arbor or a pillar: a body of revolution about an axis of the stack."""
 
     link: str
-    """Link to which the part belongs."""
     name: str
-    """Name of the part."""
     kind: str
-    """Kind of part.
-
-    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, wall, rod, bob or
-    weight.
-    """
+    """Kind of part, such as arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, pin, barrel or bob."""
     at: Point
     """Position of the part's axis in the stack [mm]."""
     bands: tuple[Band, ...]
@@ -116,10 +110,7 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield the arbor or stud, the pipes and the collars of an axis.
-
-    cut   names of pinions that are cut from the same piece as their arbor or pipe
-    """
+    """Yield an axis' arbor or stud, pipes and collars; the pinions `cut` are one piece with their arbor or pipe."""
     members = column.members
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:
@@ -166,9 +157,7 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor from shoulder to shoulder. It has a pivot in each plate, or a collar where it passes through the
-    plate.
-    """
+    """Yield an arbor from shoulder to shoulder, with a pivot or, where it passes through, a collar at each plate."""
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)
@@ -209,10 +198,7 @@ def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """Return a pin that is held in one plate.
-
-    A head retains the turning parts, unless another stud is on the end of the pin.
-    """
+    """Return a pin held in one plate, with a head for the turning parts unless another stud is on its end."""
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high

@@ -11,6 +11,7 @@ from math import asin, atan2, cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from geartrain.errors import Problem
 from geartrain.numerics.vectors import Vector
@@ -52,7 +53,6 @@ class FlatDrawing:
     pitch: tuple[Contour, ...] = ()
     """Curves that are not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
-    """Letters to be engraved."""
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
     """Polylines to be engraved, shape (n, 2) each."""
@@ -65,9 +65,7 @@ class FlatDrawing:
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour within the margin of a drawing: many vertices, or chords of a contour with
-    few.
-    """
+    """Return points that bound a contour: its vertices if they are many, otherwise vertices of its chords."""
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
@@ -160,32 +158,19 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    """Return the corners of the convex hull, counter-clockwise from the leftmost; the ends of collinear points."""
     # rounded, so that coincident axes are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
-    if len(ordered) < 3:
-        return ordered
-
-    def chain(row: Sequence[Point]) -> list[Point]:
-        kept: list[Point] = []
-        for x, y in row:
-            while len(kept) > 1:
-                (ax, ay), (bx, by) = kept[-2:]
-                # mm2: a collinear point is not a corner
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9:
-                    break
-                kept.pop()
-            kept.append((x, y))
-        return kept[:-1]
-
-    return chain(ordered) + chain(ordered[::-1])
+    apart = np.subtract(ordered, ordered[0])
+    if np.linalg.matrix_rank(apart, tol=1e-6) < 2:  # mm: a collinear point is not a corner
+        return list(dict.fromkeys((ordered[0], ordered[-1])))
+    corners = [int(at) for at in ConvexHull(apart).vertices]
+    first = corners.index(0)
+    return [ordered[at] for at in corners[first:] + corners[:first]]
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors perpendicular to a normal, right and up for a viewer who looks against the normal.
-
-    They are x and y for a normal along +z.
-    """
+    """Return unit vectors right and up for a viewer who looks against a normal; x and y for a normal along +z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)
@@ -198,16 +183,12 @@ def basis(normal: Vector) -> tuple[Vector, Vector]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of the distance, at most 2
-    mm.
-    """
+    """Return a pin's default diameter [mm] at a distance from its axis [mm]: a quarter of it, at most 2 mm."""
     return min(2.0, _PIN * radius)
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the slot of a bar from its axis at the origin along x, for a pin from |r - e| to r + e
-    [mm].
-    """
+    """Return edge and slot of a bar from its axis at the origin along x, for a pin at |r - e| to r + e [mm]."""
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 

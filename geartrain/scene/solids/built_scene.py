@@ -32,8 +32,8 @@ _FIT = 0.01  # mm: tolerance of chords of holes, less than the 0.04 mm of a runn
 _DIGITS = 4  # decimals of lengths in mm
 _HAND = 1.0  # mm of an arbor's end inside a hand
 _LAID = 0.2  # mm from a bracket to the face of a dial on it
-_CLEAR = 1.0  # mm from the edge of such a dial to other arbors
-_EDGE = 1.08  # radius of its edge divided by that of the engraving
+_CLEAR = 1.0  # mm from the edge of a dial on a bracket to other arbors
+_EDGE = 1.08  # radius of the edge of such a dial divided by that of its engraving
 _SAME = 1e-6
 
 
@@ -109,7 +109,8 @@ def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
     # with backlash the wheels of the model have other angles
     turn = next(each.turn for each in model.scene.wheels if each.id == wheel.id) - wheel.turn
     way = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
-    return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FIT) @ way)) for each in blank.contours[1:]))
+    turned = ((each.flattened(_FIT) @ way).round(_DIGITS) for each in blank.contours[1:])
+    return replace(wheel, holes=tuple(tuple(each.ravel().tolist()) for each in turned))
 
 
 def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
@@ -133,7 +134,7 @@ def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
         _vector(part.turn[:, 2]),
         _vector(part.turn[:, 0]),
         tuple((_round(each.low), _round(each.high), _round(each.radius), _round(each.bore)) for each in bands),
-        tuple(tuple(_numbers(each.flattened(_FINE))) for each in part.contours),
+        tuple(tuple(each.flattened(_FINE).round(_DIGITS).ravel().tolist()) for each in part.contours),
         part.height,
     )
 
@@ -145,12 +146,6 @@ def _round(value: float) -> float:
 def _vector(values: Floats) -> Vector:
     x, y, z = values.round(9).tolist()
     return x, y, z
-
-
-def _numbers(points: Floats) -> Iterator[float]:
-    for x, y in points.tolist():
-        yield _round(x)
-        yield _round(y)
 
 
 def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
@@ -165,13 +160,8 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
                 radius = circle.radii.get(face.id)
                 if radius is None or np.hypot(*np.subtract(stack.flat(face.centre), circle.at)) > _SAME:
                     continue
-                height = plate.high if dot(face.normal, stack.normal or face.normal) > 0 else plate.low
-                faces[at] = replace(
-                    face,
-                    centre=stack.in_space(circle.at, height),
-                    radius=radius,
-                    plate=circle.radius,
-                )
+                height = plate.high if dot(face.normal, stack.normal) > 0 else plate.low
+                faces[at] = replace(face, centre=stack.in_space(circle.at, height), radius=radius, plate=circle.radius)
     return tuple(faces)
 
 

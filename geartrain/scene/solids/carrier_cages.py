@@ -45,15 +45,10 @@ if TYPE_CHECKING:
 # -------------------------------------------------------------------------------------------------- pendulum and weight
 
 
-_BOB, _THICK = (
-    0.05,
-    0.25,
-)  # radius of a bob divided by the pendulum's length, and half its thickness divided by its radius
+_BOB, _THICK = 0.05, 0.25  # radius of a bob over the pendulum's length, and half its thickness over its radius
 _ROD = 0.04  # radius of a pendulum's rod divided by that of the bob
 _TALL = 4.0  # height of a weight divided by its radius
-_ANCHOR = sqrt(
-    2
-)  # distance of the anchor's axis divided by the escape wheel's radius, for pallets a quarter turn apart
+_ANCHOR = sqrt(2)  # distance of the anchor's axis over the escape wheel's radius, for pallets a quarter turn apart
 _COCK = 2.0  # mm: radius of the stud of a pendulum
 _AWAY = 2.0  # mm between the frame and a bob
 _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
@@ -79,11 +74,8 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face, and downward direction; None without such a
-        dial.
-        """
+        """Direction towards the reader of the first dial on a face, and downward direction; None without one."""
         normal = self.plan.stack.normal
-        assert normal is not None
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
         face = next(faces, None)
         return None if face is None else (face.normal, scaled(face.zero, -1.0))
@@ -92,7 +84,6 @@ class HangingParts:
     def pendulum(self) -> SceneHanger | None:
         """Pendulum behind the frame, above the escape wheel; None if none is declared or it cannot be placed."""
         escapement, normal = self.declared.escapement, self.plan.stack.normal
-        assert normal is not None
         if self.front is None or escapement is None or escapement.pendulum is None:
             return None
         index = next(at for at, body in enumerate(self.scene.bodies) if body.id == escapement.link)
@@ -114,7 +105,6 @@ class HangingParts:
     def _side(self) -> float:
         """1 if the normal points away from the reader, so that the space behind the frame is above it; else -1."""
         assert self.front is not None
-        assert self.plan.stack.normal is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
     @property
@@ -129,7 +119,6 @@ class HangingParts:
         if self.pendulum is None:
             return
         stack, places, side = self.plan.stack, self.plan.places, self._side
-        assert stack.normal is not None
         plate = max((places.back, places.front), key=lambda faces: side * faces[0])
         end = dot(self.pendulum.point, stack.normal) + side * 2 * _COCK
         low, high = sorted((plate[1] if side > 0 else plate[0], end))
@@ -191,8 +180,7 @@ class Bracket:
     """Support of one end of an arbor that is parallel to the plates: a plate with a hole, fixed in a frame plate."""
 
     body: int
-    """Index of the arbor's body; `reach` is the position of the bracket's outer face along the arbor's direction [mm].
-    """
+    """Index of the arbor's body; `reach` is the outer face of the bracket along the arbor's direction [mm]."""
     reach: float
     side: str
     """Side of the frame plate to which the bracket is fixed, through the `mortise` there."""
@@ -201,25 +189,20 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of every arbor of the frame that is perpendicular to the plates' normal.
-
-    bores   diameters [mm] of arbors by axis
-    """
+    """Return the brackets of the frame's arbors across the normal; `bores` are diameters by axis [mm]."""
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
     for at, body in enumerate(scene.bodies):
         frame = body.parent is not None and scene.bodies[body.parent].id == plan.stack.frame
-        across = abs(float(np.dot(body.direction, plan.stack.normal or ()))) < _FLAT if frame else False
+        across = abs(float(np.dot(body.direction, plan.stack.normal))) < _FLAT if frame else False
         if across and body.axis not in borne and bores.get(body.axis):
             found += _brackets(scene, plan, sides, at, bores[body.axis] / 2)
     return tuple(found)
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point [mm]; None if it has no wheels besides
-    rings.
-    """
+    """Return the ends of a body's wheels along its direction, from its point [mm]; None without, besides rings."""
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -274,10 +257,7 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor.
-
-    It is fixed to the plate with the fewest wheels between plate and bracket; of equal plates, to the nearer plate.
-    """
+    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or the nearer one."""
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
@@ -313,9 +293,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of one body whose axis is inclined to its carrier's axis; `reach` is the position along the body's
-    direction to which its arbor extends [mm].
-    """
+    """Support of a body with an axis inclined to its carrier's; `reach` is its arbor's end along the body [mm]."""
 
     body: int
     reach: float
@@ -323,10 +301,7 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cage of every axis that is carried at an angle to its carrier's axis.
-
-    bores   diameters [mm] of arbors by axis
-    """
+    """Return the cages of axes carried at an angle to their carrier's axis; `bores` are diameters by axis [mm]."""
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
@@ -337,30 +312,15 @@ def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tup
     return tuple(found)
 
 
-@dataclass(frozen=True)
 class _CageBuilder:
-    scene: Scene
-    plan: FramePlan
-    at: int
-    bores: Mapping[str, float]
+    """Builder of the cage of the body with index `at`; `along` is the unit vector of its carrier's axis."""
 
-    @property
-    def body(self) -> SceneBody:
-        return self.scene.bodies[self.at]
-
-    @property
-    def index(self) -> int:
+    def __init__(self, scene: Scene, plan: FramePlan, at: int, bores: Mapping[str, float]) -> None:
+        self.scene, self.plan, self.at, self.bores = scene, plan, at, bores
+        self.body = scene.bodies[at]
         assert self.body.parent is not None
-        return self.body.parent
-
-    @property
-    def carrier(self) -> SceneBody:
-        return self.scene.bodies[self.index]
-
-    @property
-    def along(self) -> Floats:
-        """Unit vector of the carrier's axis."""
-        return np.array(self.carrier.direction)
+        self.index, self.carrier = self.body.parent, scene.bodies[self.body.parent]
+        self.along = np.array(self.carrier.direction)
 
     def height(self, point: object) -> float:
         """Return the position of a point along the carrier's axis [mm]."""
@@ -389,9 +349,7 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: its side of the carrier's axis, 1 or -1, and its position
-        [mm].
-        """
+        """Return the outer end of the wheels on their arbor: its side of the carrier's axis (1, -1) and place [mm]."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -415,9 +373,7 @@ class _CageBuilder:
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the nearest face of a wheel of the carrier whose tips are outside of a post; None without such a
-        wheel.
-        """
+        """Return the nearest face of a carrier's wheel whose tips are outside of a post; None if there is none."""
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)
@@ -425,16 +381,14 @@ class _CageBuilder:
     def _is_behind_a_plate(self, height: float, seat: float) -> bool:
         """Return True if a plate of the frame is between two heights."""
         stack, places = self.plan.stack, self.plan.places
-        if stack.normal is None or abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
+        if abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
             return False
         low, high = sorted((height, seat))
         plates = (self.height(stack.in_space((0.0, 0.0), sum(faces) / 2)) for faces in (places.back, places.front))
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the middle height of an arm next to the pinion, on the side with the fewest obstructing coaxial wheels
-        [mm].
-        """
+        """Return the middle height of an arm beside the pinion [mm], on the side with fewer obstructing wheels."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -453,17 +407,13 @@ class _CageBuilder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Return the heights of the `ends` of a wheel, which are given relative to its centre, along the carrier's axis
-        [mm].
-        """
+        """Return the heights of a wheel's `ends`, given relative to its centre, along the carrier's axis [mm]."""
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the middle height of an arm beyond all wheels [mm], on the side with the fewest wheels that obstruct
-        the post.
-        """
+        """Return the middle height of an arm beyond all wheels [mm], where fewer wheels obstruct the post."""
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:

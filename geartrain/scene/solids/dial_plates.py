@@ -51,7 +51,6 @@ class DialCircle:
     hole: float
     """Diameter of the hole for the arbors of the pointers [mm]."""
     scales: dict[str, DialScale]
-    """Scales by name of the dial."""
     radii: dict[str, float]
     """Radius of the scale of each dial [mm]."""
 
@@ -111,9 +110,7 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return the disc of a single dial if it contains all feet, otherwise the convex curve around all dials and
-        feet.
-        """
+        """Return a single dial's disc if it contains all feet, else the convex curve around all dials and feet."""
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
             return Contour.circle(first.radius, place(first.at))
@@ -126,10 +123,7 @@ class DialPlate:
         return around([place(point) for point in (*rims, *(foot.at for foot in self.feet))], wide)
 
     def drawing(self) -> FlatDrawing:
-        """Return the drawing of the plate as seen by the reader, with zero marks at the top.
-
-        Scales, numerals and names are engraved.
-        """
+        """Return the drawing of the engraved plate as seen by the reader, with zero marks at the top."""
         title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, front view; "
         scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
         title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in scales.items())
@@ -143,13 +137,8 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return a plate of dials for each side of the frame.
-
-    It has the dials on the frame that are perpendicular to the normal of the stack, and through which the arbor of a
-    pointer extends.
-    """
+    """Return a plate for each side with dials on the frame, across the normal, that a pointer's arbor passes."""
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
-    assert stack.normal is not None
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:
         side = dot(face.normal, stack.normal)

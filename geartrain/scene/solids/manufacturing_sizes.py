@@ -27,10 +27,7 @@ _STOCK = (
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Minimum and maximum sizes that can be made [mm].
-
-Curves are drawn to 0.001 mm, and arbors and plates are sized to match.
-"""
+"""Minimum and maximum sizes that can be made [mm]: curves are drawn to 0.001 mm, and other parts match."""
 _SHEET = (1, 1e5)  # mm: limits of the sides of sheets
 _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
@@ -51,9 +48,7 @@ class ManufacturingSizes(Shown):
     """
 
     module: float | None = None
-    """Module: pitch diameter divided by tooth count [mm], above 0. It may be given only for declarations without
-    sizes.
-    """
+    """Module: pitch diameter over tooth count [mm], above 0; only for declarations that give no sizes."""
     thickness: float | None = None
     """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
@@ -128,10 +123,7 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
-    """Return the factor by which the layout is enlarged for the requested module; 1 if no module is requested.
-
-    Raise `QuestionError` if the declaration gives sizes, which take precedence.
-    """
+    """Return the layout's enlargement for the requested module, 1 without; raise `QuestionError` if sizes are given."""
     if making.module is None or not layout.wheels:
         return 1.0
     given = [name for name, place in layout.wheels.items() if place.given]
@@ -160,10 +152,7 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """Return the declaration with the requested backlash for every pair whose form does not fix its backlash.
-
-    Raise `QuestionError` if a backlash is requested but every declared form fixes its own.
-    """
+    """Return the declaration with the backlash of pairs that allow it; raise `QuestionError` if none does."""
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
@@ -191,10 +180,7 @@ def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of the process, if a process is named and no backlash is given.
-
-    The sizes are unchanged if every declared tooth form fixes its backlash.
-    """
+    """Return the sizes with the backlash of a named process, unless one is given or every form fixes its own."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -232,10 +218,7 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the thicknesses of all wheels [mm], as requested.
-
-    Without a request, wheels without a declared thickness share the nearest stock size, if it is near enough.
-    """
+    """Return wheels' thicknesses [mm] as requested or declared; the rest share a stock size that is near enough."""
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
     own = {name: place.thickness for name, place in layout.wheels.items()}
@@ -249,19 +232,14 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a wheel is a spur wheel with the default thickness for its module, neither declared nor
-    broadened.
-    """
+    """Return True if a wheel is a spur wheel of its module's default thickness, not declared or broadened."""
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the diameter of the arbor on each axis [mm], which is used where no plate supports the axis.
-
-    It is as requested, or a third of the root diameter of the smallest wheel on the axis, at most 6 mm.
-    """
+    """Return arbor diameters by axis [mm] where no plate holds them: as given, or 1/3 of the root diameter, up to 6."""
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

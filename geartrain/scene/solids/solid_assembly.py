@@ -15,7 +15,7 @@ from geartrain.scene.layout import lay_out
 from geartrain.scene.layout.declared_geometry import read_geometry
 from geartrain.scene.parts.frame_plan import FramePlan
 from geartrain.scene.parts.frame_plates import FramePlates
-from geartrain.scene.parts.frame_stack import FrameStack
+from geartrain.scene.parts.frame_stack import FrameStack, find_normal
 from geartrain.scene.parts.processes import Process, process_named
 from geartrain.scene.parts.sleeves import find_barrel
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
@@ -100,11 +100,11 @@ class SolidModel(Shown):
     @cached_property
     def plan(self) -> FramePlan | None:
         """Positions of plates and arbors; None if the frame carries no wheel, or if a bore of 0 omits arbors."""
-        stack = FrameStack(self.sized, self._spread, self._toothed.wheels, self.making.bore)
+        normal = find_normal(self.sized, self._spread)
         # a bore of 0 requests wheels without arbors and plates
-        if self.making.bore == 0 or stack.normal is None:
+        if self.making.bore == 0 or normal is None:
             return None
-        stack = stack.with_head_room()
+        stack = FrameStack(self.sized, self._spread, self._toothed.wheels, normal, self.making.bore).with_head_room()
         ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
         # declared dials take precedence over the shafts of a reducer
         ends = {**stack.ends, **ends}
@@ -216,67 +216,50 @@ class SolidModel(Shown):
     @cached_property
     def parts(self) -> tuple[SolidPart, ...]:
         """All solids: wheels, structural parts, and parts that hang on the train."""
-        return *_Parts(self).wheels(), *self.structure, *_Parts(self).hanging()
+        wheels = map(self._wheel, self.scene.wheels)
+        if (hanging := self.hanging) is None:
+            return *wheels, *self.structure
+        hung = (part for each in hanging.found() for part in hanging_solids(each, hanging.frame))
+        return *wheels, *self.structure, *hung
 
     @cached_property
     def structure(self) -> tuple[SolidPart, ...]:
         """Structural parts: all solids except wheels and hanging parts."""
-        return tuple(_Parts(self).structure())
+        frame, couplings = self.frame, CouplingParts(self.scene, self.cut_couplings, self.process)
+        framed = () if frame is None else (*self._turned(frame), *self._plates(frame), *self._dials(frame))
+        caged = (part for each in self.cages for part in each.parts)
+        return *self._rods(), *(each.part for each in self.brackets), *caged, *framed, *couplings.parts()
 
     @cached_property
     def _laid(self) -> Layout:
         return lay_out(self.train)
 
+    @cached_property
+    def _bodies(self) -> dict[str, int]:
+        return {body.id: at for at, body in enumerate(self.scene.bodies)}
 
-class _Parts:
-    def __init__(self, work: SolidModel) -> None:
-        self.work, self.scene = work, work.scene
-        self.bodies = {body.id: at for at, body in enumerate(self.scene.bodies)}
-
-    def wheels(self) -> Iterator[SolidPart]:
-        for wheel in self.scene.wheels:
-            yield self.wheel(wheel)
-
-    def structure(self) -> Iterator[SolidPart]:
-        yield from self.rods()
-        yield from (each.part for each in self.work.brackets)
-        yield from (part for each in self.work.cages for part in each.parts)
-        if self.work.frame is not None:
-            yield from self.turned(self.work.frame)
-            yield from self.plates(self.work.frame)
-            yield from self.dials(self.work.frame)
-        work = self.work
-        yield from CouplingParts(self.scene, work.cut_couplings, work.process).parts()
-
-    def hanging(self) -> Iterator[SolidPart]:
-        if (hanging := self.work.hanging) is not None:
-            for each in hanging.found():
-                yield from hanging_solids(each, hanging.frame)
-
-    def wheel(self, wheel: SceneWheel) -> SolidPart:
+    def _wheel(self, wheel: SceneWheel) -> SolidPart:
         """Return the solid of a wheel, from its flat shape if there is one."""
         turn, place = wheel_frame(wheel)
-        blank = self.work.blanks.wheels.get(wheel.id)
+        blank = self.blanks.wheels.get(wheel.id)
         if blank is None:
-            drawn = approximation_solid(
-                wheel, self.scene.profiles[wheel.profile], self.work.bores_of_wheels.get(wheel.id, 0.0)
-            )
+            bore = self.bores_of_wheels.get(wheel.id, 0.0)
+            drawn = approximation_solid(wheel, self.scene.profiles[wheel.profile], bore)
             return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)
         flat = SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, blank.contours, blank.thickness)
         # one pitch repeated, with twisted helical teeth, instead of the plain extrusion of the contours
         return replace(flat, drawn=wheel_solid(blank))
 
-    def rods(self) -> Iterator[SolidPart]:
+    def _rods(self) -> Iterator[SolidPart]:
         """Yield an arbor without bearings for every body with wheels whose axis no plate supports.
 
         Each arbor is as long as its wheels and its brackets or cages require.
         """
-        frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
-        borne = set[str]()
-        if frame is not None:
-            borne = {column.axis for column in frame.plan.all_columns} | frame.plan.stack.on_eccentrics
-        reach = [(each.body, each.reach) for each in self.work.brackets]
-        reach += [(each.body, each.reach) for each in self.work.cages]
+        radii, borne = bores(self.layout, self.making), set[str]()
+        if self.plan is not None:
+            borne = {column.axis for column in self.plan.all_columns} | self.plan.stack.on_eccentrics
+        reach = [(each.body, each.reach) for each in self.brackets]
+        reach += [(each.body, each.reach) for each in self.cages]
         for at, body in enumerate(self.scene.bodies):
             wheels, radius = wheel_ends(self.scene, at), radii.get(body.axis, 0.0) / 2
             if body.parent is None or body.axis in borne or wheels is None or not radius:
@@ -286,27 +269,27 @@ class _Parts:
             part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), (band,))
             yield turned_about(at, part, body.direction, body.point)
 
-    def turned(self, frame: FramePlates) -> Iterator[SolidPart]:
+    def _turned(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Yield all turned parts of the frame and of its carriers, such as arbors, pipes, studs and pillars."""
+        stack = frame.plan.stack
         for part in frame.turned():
-            body = self.bodies[part.link]
-            turn, place = frame.plan.stack.turn, np.array(frame.plan.stack.in_space(part.at))
-            yield SolidPart(body, part.name, part.kind, turn, place, turned=part)
+            place = np.array(stack.in_space(part.at))
+            yield SolidPart(self._bodies[part.link], part.name, part.kind, stack.turn, place, turned=part)
 
-    def plates(self, frame: FramePlates) -> Iterator[SolidPart]:
+    def _plates(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Yield plates of the frame, turning plates and eccentrics."""
-        eccentrics = {each.name for each in frame.plan.stack.eccentrics}
+        stack = frame.plan.stack
+        eccentrics = {each.name for each in stack.eccentrics}
         for plate in frame.plates():
-            height = (plate.low + plate.high) / 2
+            place = np.array(stack.in_space(plate.at, (plate.low + plate.high) / 2))
             cut, thickness = plate.contours, plate.high - plate.low
-            place = np.array(frame.plan.stack.in_space(plate.at, height))
-            body, turn = self.bodies[plate.link], frame.plan.stack.turn
             kind = "eccentric" if plate.name in eccentrics else "plate"
-            yield SolidPart(body, plate.name, kind, turn, place, "", cut, thickness)
+            yield SolidPart(self._bodies[plate.link], plate.name, kind, stack.turn, place, "", cut, thickness)
 
-    def dials(self, frame: FramePlates) -> Iterator[SolidPart]:
+    def _dials(self, frame: FramePlates) -> Iterator[SolidPart]:
         """Yield plates of dials, which are fixed to the frame."""
-        body, turn = self.bodies[frame.plan.stack.frame], frame.plan.stack.turn
-        for dial in self.work.dials:
-            thickness, place = dial.high - dial.low, frame.plan.stack.in_space(dial.at, (dial.low + dial.high) / 2)
-            yield SolidPart(body, dial.name, "plate", turn, np.array(place), "", dial.contours, thickness)
+        stack = frame.plan.stack
+        for dial in self.dials:
+            place, thickness = np.array(stack.in_space(dial.at, (dial.low + dial.high) / 2)), dial.high - dial.low
+            body = self._bodies[stack.frame]
+            yield SolidPart(body, dial.name, "plate", stack.turn, place, "", dial.contours, thickness)

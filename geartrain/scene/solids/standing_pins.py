@@ -19,7 +19,7 @@ from geartrain.scene.elements import ToothProfile
 from geartrain.scene.parts.arbor_columns import APART
 from geartrain.scene.parts.carried_axes import seen_from_carrier
 from geartrain.scene.parts.eccentrics import StandingPins
-from geartrain.scene.parts.pillar_places import clear_of
+from geartrain.scene.parts.pillar_places import clear_of, evenly
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 from geartrain.scene.parts.turned_parts import Band, TurnedPart
 from geartrain.scene.solids.bearing_plates import around, holed_bar, pin_diameter, slotted_bar
@@ -45,10 +45,7 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """Coupling that is cut into wheels: a pin in one wheel, and its slot or holes in another wheel.
-
-    The pin's wheel is None if no wheel carries the pins of round holes.
-    """
+    """Coupling cut into wheels: pin in one (None if no wheel carries round holes' pins), slot or holes in another."""
 
     coupling: SceneCoupling
     pin: SceneWheel | None
@@ -56,10 +53,7 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return couplings that can be cut into flat wheels, by name; `bores` are diameters of holes for arbors [mm].
-
-    Without a wheel for pins of round holes, only the holes are cut.
-    """
+    """Return couplings that flat wheels with given bores [mm] can hold, by name; pins of round holes need no wheel."""
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
@@ -98,10 +92,7 @@ def _wide_wheels(
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return the edge and the hole of the bar with the slot.
-
-    If no sizes are declared, the slot is a round hole in which the pin moves uniformly.
-    """
+    """Return edge and hole of the slotted bar, or without declared sizes of a bar whose hole a pin circles."""
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
@@ -121,9 +112,7 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return the holes of a wheel for pins and for a slot, in the coordinates of the wheel with axes `turn` at
-    `place`.
-    """
+    """Return a wheel's holes for pins and for a slot, in the coordinates of the wheel, `turn` at `place`."""
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:
@@ -159,15 +148,10 @@ class CouplingParts:
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
-    """Couplings that are cut into wheels."""
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins, from their wheel to the slot's wheel, and arms and bars for couplings that are not cut into
-        wheels.
-
-        Pins that are fixed in plates are omitted.
-        """
+        """Yield pins from wheel to wheel, and arms and bars of couplings not cut into wheels; none fixed in plates."""
         for coupling in self.scene.couplings:
             direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
             along = np.array(direction)
@@ -191,9 +175,7 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the interval of height from the far face of the pin's wheel to the far face of the slot's wheel
-        [mm].
-        """
+        """Return the heights from the far face of the pin's wheel to the far face of the slot's wheel [mm]."""
         ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
         return min(ends), max(ends)
 
@@ -269,10 +251,7 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with rings of pins as rings without pins, because the pins are separate parts.
-
-    A tooth of such a ring is the space between two seats of pins.
-    """
+    """Return the scene with rings of separate pins, whose teeth are the parts between two seats of pins."""
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
@@ -326,10 +305,7 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost position of a bar with sufficient clearance relative to wheel and arm.
-
-    If no position has it, the position with the maximum clearance is returned.
-    """
+    """Return the outermost bar position with enough clearance to wheel and arm, or else that with the most."""
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]
@@ -342,26 +318,15 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
     best, minimum = wheel.at, -wheel.root
     away = wheel.root - _RADIUS - _EDGE
     while away > 0 and minimum < _ENOUGH - APART:
-        at = max(_round(wheel.at, away), key=clearance)
+        at = max(evenly(wheel.at, away, _WAYS), key=clearance)
         if clearance(at) > minimum:
             best, minimum = at, clearance(at)
         away -= _STEP
     return best
 
 
-def _round(centre: Point, radius: float) -> Iterator[Point]:
-    """Yield equally spaced points on a circle."""
-    for way in range(_WAYS):
-        turn = 2 * pi * way / _WAYS
-        yield centre[0] + radius * cos(turn), centre[1] + radius * sin(turn)
-
-
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of pin and
-    slot.
-
-    No circle is yielded unless that carrier is the link of `wheel`.
-    """
+    """Yield circles around a slotted bar at all positions of its pin, if `wheel` is of the pin's carrier."""
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack

@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
-from math import ceil, isnan, nan, pi, tan
+from math import ceil, dist, pi, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -97,84 +96,60 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
     """Return triangles by ear clipping; the ear with the best aspect ratio is clipped first."""
     corners = _Corners(points[loop])
     found: list[tuple[int, int, int]] = []
-    while len(corners.left) > 3:
+    while corners.left.sum() > 3:
         at = corners.find_ear()
         if corners.turn[at] != 0:
             found.append((loop[corners.before[at]], loop[at], loop[corners.after[at]]))
         corners.cut(at)
-    a, b, c = corners.left.tolist()
+    a, b, c = np.flatnonzero(corners.left).tolist()
     return [*found, (loop[a], loop[b], loop[c])]
 
 
 class _Corners:
-    """Remaining corners of a polygon. A cut changes its two neighbours; the other corners keep their position in a
-    heap.
-    """
+    """Corners of a polygon, of which those `left` are not cut off yet; a cut changes two neighbours."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
-        self.corners, self.left = corners, np.arange(count)
-        self.points = [(x, y) for x, y in corners.tolist()]
+        self.corners, self.left = corners, np.ones(count, bool)
         self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
-        self.turn, self.fatness = [0.0] * count, [0.0] * count
-        self.blocker = [-1] * count  # a corner known to be in the triangle of each; -1 if unknown
+        self.turn, self.fatness = np.zeros(count), np.zeros(count)
+        self.blocker = np.full(count, -1)  # a corner known to be in the triangle of each; -1 if unknown
         for at in range(count):
             self._measure(at)
-        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness)]
-        heapify(self.heap)
 
     def find_ear(self) -> int:
         """Return the ear with the best aspect ratio, or the flattest corner if no corner is an ear."""
-        passed, ear = [], -1
-        while self.heap:
-            fat, at = heappop(self.heap)
-            if -fat != self.fatness[at]:  # an outdated entry: cut off, or with changed neighbours
-                continue
-            if self.turn[at] > _FLAT and self._empty(at):
-                ear = at
-                break
-            passed.append((fat, at))
-            if self.turn[at] <= _FLAT:
-                break
-        for each in passed:
-            heappush(self.heap, each)
-        # without an ear only flat corners are left
-        return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
+        while True:
+            tried = self.left & (self.turn > _FLAT) & ~((self.blocker >= 0) & self.left[self.blocker])
+            if not tried.any():  # without an ear only flat corners are left
+                return int(np.argmin(np.where(self.left, abs(self.turn), np.inf)))
+            at = int(np.argmax(np.where(tried, self.fatness, -np.inf)))
+            if self._empty(at):
+                return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner."""
-        blocker = self.blocker[at]
-        if blocker >= 0 and not isnan(self.fatness[blocker]):  # not cut off yet
-            return False
-        here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
-        (ax, ay), (x, y) = own.T[..., None], here.T
+        """Return True if no other point is in the triangle of a convex corner; otherwise, note one as its blocker."""
+        own = self.corners[[self.before[at], at, self.after[at]]]
+        (ax, ay), (x, y) = own.T[..., None], self.corners.T
         side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
-        within = np.flatnonzero(side.min(axis=0) >= 0)
-        if len(within) == 3:
-            return True
-        others = within[~(here[within][:, None] == own).all(-1).any(-1)]
-        if len(others):
-            self.blocker[at] = int(self.left[others[0]])
+        within = np.flatnonzero(self.left & (side.min(axis=0) >= 0))
+        others = within[~(self.corners[within][:, None] == own).all(-1).any(-1)]
+        self.blocker[at] = others[0] if len(others) else -1
         return not len(others)
 
     def cut(self, at: int) -> None:
         """Cut off a corner and update its neighbours."""
         a, c = self.before[at], self.after[at]
-        self.left = np.delete(self.left, np.searchsorted(self.left, at))
-        self.after[a], self.before[c], self.fatness[at] = c, a, nan
-        for k in (a, c):
-            self._measure(k)
-            heappush(self.heap, (-self.fatness[k], k))
+        self.left[at], self.after[a], self.before[c] = False, c, a
+        self._measure(a)
+        self._measure(c)
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the square of the longest
-        side.
-        """
-        (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
-        turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
+        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the longest side squared."""
+        a, b, c = self.corners[[self.before[at], at, self.after[at]]].tolist()
+        turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         # the sum of two squares bounds the larger one, which is sufficient to rank corners
-        longest = max((cx - ax) * (cx - ax) + (cy - ay) * (cy - ay), first + second)
+        longest = max(dist(a, c) ** 2, dist(a, b) ** 2 + dist(b, c) ** 2)
         self.turn[at], self.fatness[at], self.blocker[at] = turn, turn / (longest or 1.0), -1
 
 
@@ -190,9 +165,7 @@ _SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Closed surface of triangles: vertices (n, 3) in mm, and faces (m, 3) of their indices, counter-clockwise from
-    outside.
-    """
+    """Closed surface: vertices (n, 3) in mm, and triangles (m, 3) as indices, counter-clockwise from outside."""
 
     vertices: Floats
     faces: Integers
@@ -276,10 +249,7 @@ def extruded(
 
 
 def lathed(rows: Sequence[Floats]) -> Solid:
-    """Return the closed surface through rows of counter-clockwise points (n, 3), also from the last row to the first.
-
-    A row of one point is a pole, in which the surface ends.
-    """
+    """Return the closed surface through rows of counter-clockwise points (n, 3); one point is a pole, its end."""
     starts = np.cumsum([0, *map(len, rows)])
     count = max(map(len, rows))
     rings = [start + np.arange(count) * (len(row) > 1) for start, row in zip(starts.tolist(), rows, strict=False)]
@@ -294,9 +264,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of one tooth with its sector of the web, closed along the bore, or at the centre without a
-    bore.
-    """
+    """Return the polygon of a tooth with its sector of the web, closed along the bore, or at the centre without."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -305,6 +273,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
     steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))), ceil(SIDES / teeth))
     radius = radius / float(np.cos(sweep / steps / 2))  # circumscribed about the bore, as in `round_about`
     turn = last - sweep * np.arange(steps + 1) / steps
+    # a tooth spans one pitch, so that the copies of tooth and bore join
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
     return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])
 
@@ -327,10 +296,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return an approximate solid of a wheel, centred at the origin, with its first tooth along x and its axis along z.
-
-    bore   diameter of its hole [mm]; a ring has none
-    """
+    """Return a wheel's approximate solid, first tooth along x and axis along z, with a hole of `bore` [mm]."""
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
@@ -342,10 +308,7 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return radius [mm] and angle [rad] of the whole outline, without duplicate points between teeth.
-
-    Above the maximum tooth count that is drawn, the outline is the pitch circle.
-    """
+    """Return radius [mm] and angle [rad] of a whole outline, or of the pitch circle above the maximum tooth count."""
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T
@@ -405,10 +368,7 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown wheel's flanks at a scale of the radius [rad].
-
-    Its mates have teeth of constant width that pass obliquely.
-    """
+    """Return the angles of a crown's flanks at a scale of the radius [rad], for oblique passage of mates' teeth."""
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)

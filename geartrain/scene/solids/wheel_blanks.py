@@ -46,18 +46,9 @@ def spoke_windows(
 
     A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
 
-    Parameters
-    ----------
-    root : float
-        Root radius [mm].
-    module : float
-        Module of the wheel [mm].
-    bore : float
-        Diameter of the hole for the arbor [mm].
-    spokes : int
-        Number of spokes, 3 or more; fewer give no windows.
-    corner : float, optional
-        Radius of inner corners [mm], at least that of the tool; by default half a module.
+    root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
+    spokes   number of spokes, 3 or more; fewer give no windows
+    corner   radius of inner corners [mm], at least that of the tool; by default half a module
     """
     if spokes < 3:
         return ()
@@ -100,8 +91,8 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
     for at, (start, about, end) in enumerate(corners):
         following = corners[(at + 1) % 4][0]
         round_ = at in (1, 3)  # arcs along the hub and the rim; the other two sides are straight edges of spokes
-        bulge = bulge_about(end, following, (0.0, 0.0)) if round_ else 0.0
-        vertices += [(*start, bulge_about(start, end, about)), (*end, bulge)]
+        bulge = bulge_about(complex(*end), complex(*following)) if round_ else 0.0
+        vertices += [(*start, bulge_about(complex(*start), complex(*end), complex(*about))), (*end, bulge)]
     return Contour.of(vertices)
 
 
@@ -145,7 +136,6 @@ class Blank:
     kind: str
     """Kind of wheel: external, ring or pins."""
     form: str
-    """Description of the wheel's tooth form."""
     contours: tuple[Contour, ...]
     """Contours: first the outer contour, then holes."""
     module: float
@@ -169,9 +159,7 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Flat shapes of the wheels of a train: wheels that can be cut flat by name, notices on wheels, and the backlash of
-    every pair that is cut.
-    """
+    """Flat shapes of wheels by name, with notices, and the backlash of every pair that is cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
@@ -218,10 +206,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return a wheel that has no mates, with a notice.
-
-    An escape wheel keeps its teeth, and any other wheel becomes a disc with the diameter of its pitch circle.
-    """
+    """Return a wheel without mates, as a disc unless it is an escape wheel, with a notice."""
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
         fix = "make an anchor to match it, or recut its teeth for another escapement"
@@ -254,10 +239,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return the blank with windows between its spokes, if there is space, and notices.
-
-    A wheel with holes for other parts keeps its web, and so do rings, lantern pinions and helical wheels.
-    """
+    """Return a blank with windows between spokes, if it is a plain spur wheel with enough space, and notices."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []

@@ -89,39 +89,23 @@ def read_constraint_options(
     *,
     planets: str | None = None,
     clearance: str | None = None,
-    undercut: str | None = None,
-    interference: str | None = None,
-    addendum: str | None = None,
-    ring_addendum: str | None = None,
     largest_radius: str | None = None,
     **others: Any,
 ) -> ConstraintOptions:
     """Parse the options from the strings of a command line; options that are None keep their defaults.
 
     planets         "3" on every carrier, or "arm=3,inner=4"
-    clearance, addendum, ring_addendum   numbers of modules: "0.5", "4/5"
-    undercut, interference               pressure angles: "20 deg"
-    largest_radius                       "60 mm", or "30" modules
-    others          as in `ConstraintOptions`: coaxial, shift, minimum, maximum_teeth, different, hunting, closure
+    clearance       number of modules: "0.5", "4/5"
+    largest_radius  "60 mm", or "30" modules
+    others          further fields of `ConstraintOptions`
 
     A `QuestionError` lists all strings that cannot be parsed, each with its option of `geartrain teeth train`.
     """
     problems: list[Problem] = []
 
-    def number(option: str, text: str | None) -> Fraction | None:
-        found = _read(problems, option, text, Figure.parse)
-        return None if found is None else found.value
-
-    def angle(option: str, text: str | None) -> Quantity | None:
-        return _read(problems, option, text, lambda raw: Quantity.parse(raw, "angle", plain=False))
-
     read: dict[str, Any] = {
         "planets": _read(problems, "planets", planets, _planets),
-        "clearance": number("clearance", clearance),
-        "undercut": angle("undercut", undercut),
-        "interference": angle("interference", interference),
-        "addendum": number("addendum", addendum),
-        "ring_addendum": number("ring-addendum", ring_addendum),
+        "clearance": _read(problems, "clearance", clearance, lambda raw: Figure.parse(raw).value),
         "largest_radius": _read(
             problems, "max-radius", largest_radius, lambda raw: Quantity.parse(raw, "length", plain=True)
         ),

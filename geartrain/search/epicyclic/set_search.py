@@ -154,6 +154,7 @@ def find_sets(
     # a float clearance becomes a simple fraction
     minimum = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
+    # an explicit sense takes precedence over the sign of a parsed ratio
     search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
     for number, columns in blocks(kind, bounds, planets, minimum if spaced else None, slack):
         search.considered += number * len(chosen)
@@ -272,8 +273,14 @@ class _Search:
         if not inside.any():
             return
         columns, errors = _select(columns, inside), errors[inside]
-        first = self._first(columns, errors)
-        for row in np.flatnonzero(first <= self._worst(first)):
+        stack = np.stack(list(columns.values()))
+        first = {"error": errors, "total": stack.sum(axis=0), "largest": stack.max(axis=0)}[self.by]
+        # the n-th best so far, and the n-th best of this block, are bounds of the n-th best of all
+        bounds = [float(self.found[-1][0][0])] if len(self.found) == self.best else []
+        if len(first) > self.best:
+            bounds.append(float(np.partition(first, self.best - 1)[self.best - 1]))
+        worst = min(bounds, default=np.inf)
+        for row in np.flatnonzero(first <= worst + _MARGIN * (1 + worst)):
             found = self._set(columns, int(row), mode)
             self.found.append((set_rank(found, self.by, at), found))
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
@@ -287,21 +294,6 @@ class _Search:
         for row in np.flatnonzero(np.abs(errors - limit) <= margin):
             inside[row] = abs(self._set(columns, int(row), mode).error) <= self.tolerance
         return inside
-
-    def _first(self, columns: Columns, errors: Floats) -> Floats:
-        """Return the primary sort criterion of each set: error, sum of counts, or largest count."""
-        if self.by == "error":
-            return errors
-        stack = np.stack(list(columns.values()))
-        return np.asarray(stack.sum(axis=0) if self.by == "total" else stack.max(axis=0), dtype=np.float64)
-
-    def _worst(self, first: Floats) -> float:
-        """Return an upper bound of the primary sort criterion of the best sets."""
-        worst = np.inf if len(self.found) < self.best else float(self.found[-1][0][0])
-        if len(first) > self.best:
-            # the n-th best of this block is a bound for the n-th best of all
-            worst = min(worst, float(np.partition(first, self.best - 1)[self.best - 1]))
-        return worst + _MARGIN * (1 + worst) if np.isfinite(worst) else np.inf
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
         """Build the result for one set with its exact ratio and error."""
@@ -335,12 +327,13 @@ class _Search:
             return "", "all sets turn in the opposite sense: request the other sense, either sense, or other modes"
         if self.nearest is None:
             reason = max(self.removed, key=lambda name: self.removed[name])
-            return (
-                "",
-                f"all sets were rejected before their ratio, most by: {reason}; widen the counts or change the planets",
-            )
-        error = decimal(abs(self.nearest.error), 3)
+            fix = "change the number of planets" if reason in (NO_SPACING, NO_ROOM) else "widen the range of counts"
+            return "", f"all sets were rejected before their ratio was computed, most by: {reason}; {fix}"
         nearest = f"{self.nearest}, error {decimal(self.nearest.error, 3)}"
+        if not Fraction(1, 2) < 1 + self.nearest.error < 2:
+            fix = "search other modes or another kind of set"
+            return nearest, f"this ratio is far from all ratios of these sets: {fix}, or request the reciprocal"
+        error = decimal(abs(self.nearest.error), 3)
         return nearest, f"a tolerance of {error} includes it; a wider range of counts may give a nearer one"
 
 

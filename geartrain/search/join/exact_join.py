@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,11 +13,7 @@ from geartrain.numerics.arrays import Bools, Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
-from geartrain.search.join.polynomial_constraints import (
-    PolynomialConstraint,
-    RelaxedInequality,
-    possible,
-)
+from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 from geartrain.search.join.wheel_monomials import extent
 
@@ -47,7 +43,7 @@ def find_item_monomials(
         for rule in constraints
         if not isinstance(rule, PolynomialConstraint)
         for item in items
-        if not set(lists[item].recipe.wheels).isdisjoint(rule.wheels)
+        if any(wheel in rule.wheels for wheel, _ in lists[item].wheels)
     }
     polynomials = [one for one in constraints if isinstance(one, PolynomialConstraint)]
     yield from (((item, 1),) for item in items if item in alone)
@@ -61,9 +57,8 @@ def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[It
     held: list[tuple[int, int]] = []
     largest = [1, 1]
     for item, power in group:
-        own = lists[item]
-        ends = int(own.tops.max()), 1 if own.bottoms is None else int(own.bottoms.max())
-        sizes = [end ** abs(power) for end in (ends if power > 0 else ends[::-1])]
+        size = int(lists[item].values[-1]) ** abs(power)
+        sizes = [size, 1] if power > 0 else [1, size]
         grown = [one * size for one, size in zip(largest, sizes, strict=True)]
         if held and max(grown) >= _LARGEST:
             yield tuple(held)
@@ -83,24 +78,12 @@ class BudgetSpentError(Exception):
     """Signal that a join has exceeded its maximum number of steps."""
 
 
-@dataclass
-class RefusalCounts:
-    """Number of assignments that each constraint rejects, for each row."""
-
-    size: int
-    dtype: Any
-    by: dict[int, Tallies] = field(default_factory=dict)
-
-    def charge(self, constraint: int, rows: Ints, numbers: Tallies) -> None:
-        """Add numbers of rejected assignments to the given rows of a constraint. Rows may be repeated."""
-        if constraint not in self.by:
-            self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
-        # `+=` would add only one number to a repeated row
-        np.add.at(self.by[constraint], rows, numbers)
+RefusalCounts = dict[int, Tallies]
+"""Number of assignments that each constraint rejects, for each row."""
 
 
 class ExactJoin:
-    """Exact join by bucket elimination (Dechter 1999), with the lists of a problem.
+    """Exact join of a problem by bucket elimination (Dechter 1999).
 
     slices   part of the work
     budget   maximum number of steps, beyond which `BudgetSpentError` is raised
@@ -116,11 +99,8 @@ class ExactJoin:
             *question.rules,
             *question.polynomial_constraints,
         ]
-        self.wheel_of = {
-            recipe.top[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe.wheels) == 1 and recipe.top
-        }
+        self.wheel_of = {recipe[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe) == 1}
         self._views: dict[int, tuple[ItemMonomial, ...]] = {}
-        self._reaches: dict[int, list[tuple[int, list[list[RelaxedInequality]]]]] = {}
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
@@ -142,19 +122,19 @@ class ExactJoin:
             self._full[id(node)] = total
         return self._full[id(node)]
 
-    def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
+    def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
         """Return the number of accepted assignments below each row, and the numbers that each constraint rejects."""
         total = np.zeros(rows.size, dtype=self.dtype)
-        removed = RefusalCounts(rows.size, self.dtype)
+        removed: RefusalCounts = defaultdict(lambda: np.zeros(rows.size, dtype=self.dtype))
         at, alive = self.pruned(node, rows, removed)
         # a last variable with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._count_windows(node, at, alive, removed)
-            return total, removed.by
+            return total, removed
         for parents, grown in self.grown(node, alive, at, removed):
             counts = self._count_below(node, parents, grown, removed)
             np.add.at(total, parents, counts)
-        return total, removed.by
+        return total, removed
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
         """Yield all assignments that extend the rows by the variables of some nodes and their subtrees, block
@@ -194,8 +174,8 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
-        """Return the distinct rows as seen by the constraints of a node and its subtree, and the index of each row
-        among them.
+        """Return the rows that the constraints of a node and its subtree can distinguish, and the index of each
+        original row among them; None if the rows are unchanged.
         """
         if id(node) not in self._views:
             reached = [self.constraints[number] for number in node.reach]
@@ -220,28 +200,17 @@ class ExactJoin:
         `removed`.
         """
         at = np.arange(rows.size)
-        for number, reaches in self._prunes(node):
-            hopeful = possible(reaches, rows)
+        for number in node.prunes:
+            constraint = self.constraints[number]
+            assert isinstance(constraint, PolynomialConstraint)
+            hopeful = constraint.possible(rows, self.extents)
             if hopeful.all():
                 continue
             if removed is not None:
                 gone = at[~hopeful]
-                removed.charge(number, gone, np.full(len(gone), self.full(node), dtype=self.dtype))
+                np.add.at(removed[number], gone, np.full(len(gone), self.full(node), dtype=self.dtype))
             at, rows = at[hopeful], rows.pick(hopeful)
         return at, rows
-
-    def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
-        """Return the constraints that can prune rows at a node, relaxed over the variables of its subtree."""
-        if id(node) not in self._reaches:
-            found = []
-            below = set(node.below())
-            for number in node.prunes:
-                constraint = self.constraints[number]
-                assert isinstance(constraint, PolynomialConstraint)
-                corners = {item: self.extents[item] for item in constraint.items if item in below}
-                found.append((number, constraint.reaches(corners)))
-            self._reaches[id(node)] = found
-        return self._reaches[id(node)]
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
         """Count the admissible values of a last variable with one constraint from its windows, without a row for each
@@ -255,29 +224,30 @@ class ExactJoin:
             start, end = (np.clip(one, *self._run(node.item)) for one in window)
             # cases exclude each other, so their windows do not overlap
             total += item.sums[end] - item.sums[start]
-        removed.charge(node.guide, at, self.full(node) - total)
+        np.add.at(removed[node.guide], at, self.full(node) - total)
         return total
 
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the rows extended by the variable of a node that satisfy its constraints, with the indices of their
-        original rows.
+        """Yield the extensions of the rows by values of the variable of a node that satisfy the constraints of the
+        node, block by block, each with the indices of its original rows.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
-        # all assignments are charged here; those that the guide accepts are subtracted below
+        # all assignments are charged here; those that the guide accepts are subtracted below. `np.add.at`, because `+=`
+        # would add only one number to a repeated row
         if node.guide >= 0 and removed is not None:
-            removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
+            np.add.at(removed[node.guide], at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
             grown = rows.plus(parents, node.item, indices)
             self.spend(grown.size)
             if node.guide >= 0 and removed is not None:
-                removed.charge(node.guide, at[parents], times[indices] * -below)
+                np.add.at(removed[node.guide], at[parents], times[indices] * -below)
             for number in node.checks:
                 met = self._holds(number, grown)
                 if removed is not None:
-                    removed.charge(number, at[parents[~met]], times[indices[~met]] * below)
+                    np.add.at(removed[number], at[parents[~met]], times[indices[~met]] * below)
                 parents, indices, grown = parents[met], indices[met], grown.pick(met)
             if grown.size:
                 yield at[parents], grown
@@ -304,17 +274,17 @@ class ExactJoin:
         """Return the rows for which an equation has an admissible solution for a variable, and the index of the
         solution in the values of the variable.
         """
-        counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
-        tops = self.items[item].tops
+        counts, whole = equation.solve_for(self.question.recipes[item][0][0], self._counts(equation, rows))
+        values = self.items[item].values
         # clipped; a solution above all values fails the comparison below
-        indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
-        found = np.flatnonzero(whole & (tops[indices] == counts) & (indices >= first) & (indices < last))
+        indices = np.minimum(np.searchsorted(values, counts), len(values) - 1)
+        found = np.flatnonzero(whole & (values[indices] == counts) & (indices >= first) & (indices < last))
         return found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
         """Return the tooth counts of those wheels of a constraint that are assigned."""
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
-        return {wheel: rows.top(item) for wheel, item in items.items() if item in rows.columns}
+        return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}
 
     def _holds(self, number: int, rows: PartialAssignments) -> Bools:
         constraint = self.constraints[number]
@@ -336,7 +306,7 @@ class ExactJoin:
             found, gone = self.count(child, distinct)
             for number, numbers in gone.items():
                 spread_out = numbers if which is None else numbers[which]
-                removed.charge(number, parents[alive], counts[alive] * spread_out * later)
+                np.add.at(removed[number], parents[alive], counts[alive] * spread_out * later)
             counts[alive] = counts[alive] * (found if which is None else found[which])
             # rows without solutions in one child need no other child
             alive = alive[counts[alive] > 0]

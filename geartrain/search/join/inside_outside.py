@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from geartrain.numerics.arrays import Floats, Ints
 from geartrain.search.join.exact_join import ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
-from geartrain.search.join.product_lists import Item, PartialAssignments, ProductStep, Tallies
+from geartrain.search.join.product_lists import PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
 # Recorded join: the values of each variable that are compatible with the assignments above, and the counts that produce
@@ -37,39 +36,10 @@ CountWeights = Mapping[str, Tallies]
 """Weights of the tooth counts of each wheel, arrays of one dtype."""
 
 
-class RecordedItem:
-    """Values of a variable, and the tooth counts that produce them.
-
-    size    number of values
-    sides   numerator, and denominator if there is one: the last product step, and the product of each value
-    """
-
-    def __init__(self, item: Item, indices: Ints) -> None:
-        self.size = len(indices)
-        self.sides: list[tuple[ProductStep, Ints]] = []
-        for products, places in item.sides(indices):
-            distinct, rows = np.unique(places, return_inverse=True)
-            last = products.last_step(distinct)
-            self.sides += [] if last is None else [(last, rows)]
-
-    @property
-    def transitions(self) -> int:
-        """Number of transitions in all product steps."""
-        return sum(len(step.choices) for last, _ in self.sides for step in last.chain())
-
-    def ways(self, value: int) -> Iterator[dict[str, int]]:
-        """Yield each assignment of tooth counts that produces a value, as the index of the count by wheel."""
-        for sides in product(*(list(_ways(last, int(rows[value]))) for last, rows in self.sides)):
-            yield {wheel: index for own in sides for wheel, index in own.items()}
-
-
-def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each sequence of counts that leads through the product steps to a product."""
-    if last is None:
-        yield {}
-        return
+def _ways(last: ProductStep, row: int) -> Iterator[dict[str, int]]:
+    """Yield each assignment of tooth counts that produces a product, as the index of the count by wheel."""
     for at in np.flatnonzero(last.children == row):
-        for before in _ways(last.before, int(last.parents[at])):
+        for before in _ways(last.before, int(last.parents[at])) if last.before is not None else ({},):
             yield before | {last.wheel: int(last.choices[at])}
 
 
@@ -83,12 +53,10 @@ class RecordedNode:
     """Row of each transition, ascending."""
     places: Ints
     """Index in `values` of the value that each transition assigns."""
-    values: RecordedItem
-    """Values of the variable that occur."""
-    misfit: Floats | None
-    """Misfit that each transition adds by graded constraints that are complete at this node; None without
-    such constraints.
-    """
+    values: ProductStep
+    """Values of the variable that occur, as the last step of their products."""
+    misfit: Floats
+    """Misfit that each transition adds by graded constraints that are complete at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]
     """Child nodes, each with the index of the row to which each transition leads."""
 
@@ -126,25 +94,22 @@ class _Recorder:
             leads = np.zeros(distinct.size, dtype=np.bool_)
             leads[below.parents] = True
             kept = leads[onward]
-            parents, grown, misfit = parents[kept], grown.pick(kept), None if misfit is None else misfit[kept]
+            parents, grown, misfit = parents[kept], grown.pick(kept), misfit[kept]
             children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
         live, places = np.unique(grown.columns[node.item], return_inverse=True)
-        values = RecordedItem(self.join.items[node.item], live)
-        self.join.spend(values.transitions)
+        values = self.join.items[node.item].last_step(live)
+        self.join.spend(sum(len(step.choices) for step in values.chain()))
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
-    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats | None:
-        """Return the misfit of the graded constraints that are complete at a node; None without such
-        constraints.
-        """
-        found: Floats | None = None
+    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats:
+        """Return the misfit of the graded constraints that are complete at a node."""
+        found = np.zeros(rows.size)
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)
             if number >= 0 and demand in self.misfits:
                 constraint = self.join.constraints[number]
                 assert isinstance(constraint, PolynomialConstraint)
-                own = self.misfits[demand](constraint.value(rows))
-                found = own if found is None else found + own
+                found = found + self.misfits[demand](constraint.value(rows))
         return found
 
 
@@ -154,7 +119,7 @@ def _joined(blocks: Sequence[PartialAssignments]) -> PartialAssignments:
     return PartialAssignments(first.items, columns, sum(block.size for block in blocks))
 
 
-_Table = RecordedNode | RecordedItem | ProductStep
+_Table = RecordedNode | ProductStep
 
 
 class AssignmentSums:
@@ -181,14 +146,11 @@ class AssignmentSums:
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
         """Return the rows of a table as alternatives.
 
-        A row of a node continues with a value of its variable and a row of each child; a value continues with its
-        products, and a product with its factors.
+        A row of a node continues with a value of its variable and a row of each child, and a value with its factors.
         """
         if isinstance(table, RecordedNode):
-            grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)
+            grade = np.exp(-table.misfit / 2) if self.graded else 1
             return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
-        if isinstance(table, RecordedItem):
-            return AlternativeRows(1, table.size, None, tuple(table.sides))
         own = weights[table.wheel]
         facts = ((table.wheel, len(own), table.choices),)
         before = () if table.before is None else ((table.before, table.parents),)
@@ -242,7 +204,7 @@ class BestFirst:
         self._ahead.append(np.full(node.size, np.inf))
         self._below.append(())
         self._below[at] = tuple(self._add(child) for child, _ in node.children)
-        minimum = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
+        minimum = node.misfit.copy()
         for number, (_, to) in zip(self._below[at], node.children, strict=True):
             # children are independent given the row, so the sum of their minima is exact
             minimum += self._ahead[number][to]
@@ -265,7 +227,7 @@ class BestFirst:
             node = self._nodes[number]
             first, last = np.searchsorted(node.parents, [row, row + 1])
             for at in range(int(first), int(last)):
-                so_far = spent + (0.0 if node.misfit is None else float(node.misfit[at]))
+                so_far = spent + float(node.misfit[at])
                 below = zip(self._below[number], node.children, strict=True)
                 then = (*((child, int(to[at])) for child, (_, to) in below), *later)
                 ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)
@@ -279,6 +241,6 @@ class BestFirst:
             yield {}
             return
         (number, value), *others = taken
-        for way in self._nodes[number].values.ways(value):
+        for way in _ways(self._nodes[number].values, value):
             named = {wheel: self._counts[wheel][index] for wheel, index in way.items()}
             yield from (named | more for more in self._teeth(others))

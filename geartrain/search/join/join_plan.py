@@ -17,12 +17,12 @@ from math import inf, isinf, log, prod
 import numpy as np
 
 from geartrain.numerics.arrays import Floats, Ints
-from geartrain.numerics.bounded_polynomials import BoundedQuotient, products_of
+from geartrain.numerics.bounded_polynomials import bounded_quotient, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
-from geartrain.search.join.product_lists import Domains, ItemRecipe, Weights, forecast
+from geartrain.search.join.product_lists import Domains, Factors, Weights, forecast
 from geartrain.search.join.wheel_monomials import (
     Function,
     Interval,
@@ -30,7 +30,6 @@ from geartrain.search.join.wheel_monomials import (
     find_polynomial_constraints,
     find_recipes,
     find_wheel_monomials,
-    quotients,
 )
 
 Items = frozenset[int]
@@ -81,11 +80,12 @@ class JoinProblem:
     domains: Domains
     """Admissible tooth counts of each wheel, ascending."""
     requested: tuple[IntervalConstraint, ...]
+    """Constraints on the values of functions of tooth counts."""
     rules: tuple[CountConstraint, ...]
     """Constraints on tooth counts. All constraints are numbered in the order `rules`, `requested`."""
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
-    recipes: tuple[ItemRecipe, ...]
+    recipes: tuple[Factors, ...]
     """Definitions of the variables."""
     plan: PlanNode
     """Root of the plan, which assigns the first variable."""
@@ -130,19 +130,12 @@ def find_join_problem(
 ) -> JoinProblem:
     """Return the join with the minimum expected cost.
 
-    Combinations of wheels, choices of late constraints and orders of variables are compared.
+    Choices of late constraints and orders of variables are compared.
 
     probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
     weights         weights of `JoinProblem`
     """
-    found = [
-        _planned(domains, requested, early, late, recipes, probabilities)
-        for early, late in _rule_partitions(rules)
-        for recipes in find_recipes(
-            find_wheel_monomials(tuple(domains), requested, frozenset(w for rule in early for w in rule.wheels)),
-            domains,
-        )
-    ]
+    found = [_planned(domains, requested, early, late, probabilities) for early, late in _rule_partitions(rules)]
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
@@ -167,14 +160,15 @@ def _planned(
     requested: Sequence[IntervalConstraint],
     early: tuple[CountConstraint, ...],
     late: tuple[CountConstraint, ...],
-    recipes: tuple[ItemRecipe, ...],
     probabilities: Mapping[str, float],
 ) -> JoinProblem:
+    alone = frozenset(wheel for rule in early for wheel in rule.wheels)
+    recipes = find_recipes(find_wheel_monomials(tuple(domains), requested, alone), domains)
     polynomials = find_polynomial_constraints(requested, recipes, domains)
     planner = _Planner(domains, recipes, early, polynomials, probabilities)
     node, steps = min((planner.plan(*way) for way in planner.ways()), key=lambda found: found[1])
     steps += sum(planner.sizes)
-    steps += sum(forecast(side, domains)[1] / 4 for recipe in recipes for side in (recipe.top, recipe.bottom))
+    steps += sum(forecast(recipe, domains)[1] / 4 for recipe in recipes)
     if late:
         left = prod(len(counts) for counts in domains.values())
         steps += 3 * left * prod(probabilities.get(one.name, 1.0) for one in (*early, *polynomials))
@@ -186,7 +180,7 @@ class _Planner:
     """Generator of plans with their expected cost, the number of partial assignments."""
 
     domains: Domains
-    recipes: Sequence[ItemRecipe]
+    recipes: Sequence[Factors]
     rules: Sequence[CountConstraint]
     polynomial_constraints: Sequence[PolynomialConstraint]
     probabilities: Mapping[str, float]
@@ -195,8 +189,8 @@ class _Planner:
     likely: list[float] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.sizes = [quotients(recipe.top, recipe.bottom, self.domains) for recipe in self.recipes]
-        at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel in recipe.wheels}
+        self.sizes = [forecast(recipe, self.domains)[0] for recipe in self.recipes]
+        at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel, _ in recipe}
         self.scopes = [frozenset(at[wheel] for wheel in rule.wheels) for rule in self.rules]
         self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
         self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
@@ -324,8 +318,8 @@ class SelectivitySample:
 
     def speeds(self, function: Function) -> Floats:
         """Return the finite values of a function over the sample."""
-        quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
-        values, _ = quotient(products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels]))
+        product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
+        values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)
         return np.asarray(values[np.isfinite(values)])
 

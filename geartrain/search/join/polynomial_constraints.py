@@ -10,11 +10,10 @@ Each term has its own extremes, whose sum bounds the polynomial.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
-from math import prod
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -64,13 +63,8 @@ class SignPolynomial:
     def rounding(self) -> float:
         """Upper bound of the rounding error of `values`, relative to the sum of the magnitudes of their terms."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
-        # a variable has at most three roundings and each product one; the factor of two covers squares and the bound
-        # itself
+        # each variable and each product has one rounding; the remaining terms cover squares and the bound itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
-
-    def degree(self, item: int) -> int:
-        """Return the highest power of a variable."""
-        return max((dict(monomial).get(item, 0) for _, monomial in self.terms), default=0)
 
     def powers(self, item: int) -> tuple[int, ...]:
         """Return the powers of a variable that occur, ascending."""
@@ -81,17 +75,6 @@ class SignPolynomial:
         """Common sign of all terms, 1 or -1; 0 if the terms have different signs."""
         signs = {coefficient > 0 for coefficient, _ in self.terms}
         return (1 if signs.pop() else -1) if len(signs) == 1 else 0
-
-    def split(self, item: int) -> Mapping[int, SignPolynomial]:
-        """Return the polynomial by powers of a variable: each power with its factor, a polynomial in the other
-        variables.
-        """
-        parts: dict[int, list[tuple[int, Monomial]]] = {}
-        for coefficient, monomial in self.terms:
-            power = dict(monomial).get(item, 0)
-            rest = tuple(pair for pair in monomial if pair[0] != item)
-            parts.setdefault(power, []).append((coefficient, rest))
-        return {power: SignPolynomial(tuple(terms)) for power, terms in sorted(parts.items())}
 
     def plus(self, other: SignPolynomial, factor: Fraction) -> SignPolynomial:
         """Return a positive multiple of `self` + `factor` * `other` with integer coefficients."""
@@ -120,13 +103,7 @@ class SignPolynomial:
 
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
         """Return the exact signs of values whose magnitude, relative to the scale, is at most twice `bounds`."""
-        # times all denominators: a bound of the integer computed below
         minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
-        for item in self.items:
-            bottom = rows.bottom(item)
-            if bottom is not None:
-                for _ in range(self.degree(item)):
-                    minimum = minimum * bottom
         found: Signs = np.zeros(rows.size, dtype=np.int8)
         # a factor of two below the range of int64, because the bound itself is rounded
         short = minimum < 2.0**62
@@ -135,18 +112,15 @@ class SignPolynomial:
         return found
 
     def _whole(self, rows: PartialAssignments, wide: bool) -> NDArray[Any]:
-        """Return the values times all denominators as Python integers if `wide`, otherwise modulo 2^64 as int64."""
+        """Return the values as Python integers if `wide`, otherwise modulo 2^64 as int64."""
         dtype: Any = object if wide else np.int64
         total = np.zeros(rows.size, dtype=dtype)
         for coefficient, monomial in self.terms:
             # int64 arrays wrap without a warning; the true magnitude is below 2^63, so the sign is correct
             first = coefficient if wide else (coefficient + (1 << 63)) % (1 << 64) - (1 << 63)
-            term, powers = np.full(rows.size, first, dtype=dtype), dict(monomial)
-            for item in self.items:
-                power, bottom = powers.get(item, 0), rows.bottom(item)
-                term = term * rows.top(item).astype(dtype) ** power
-                if bottom is not None:
-                    term = term * bottom.astype(dtype) ** (self.degree(item) - power)
+            term = np.full(rows.size, first, dtype=dtype)
+            for item, power in monomial:
+                term = term * rows.value(item).astype(dtype) ** power
             total = total + term
         return total
 
@@ -161,7 +135,11 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
 
 # The values of the free variable for which a polynomial keeps its sign are a ray of the sorted values. Divided by
 # the lowest power of the variable the polynomial is A y + B, where y is a power of the variable, and changes its sign
-# at -B/A. Floats guess the end of the ray, and exact signs at the values beside it decide.
+# at -B/A, which is found by bisection with exact signs.
+
+
+Extents = Sequence[tuple[float, float]]
+"""Minimum and maximum value of each variable."""
 
 
 @dataclass(frozen=True)
@@ -176,6 +154,23 @@ class PolynomialInequality:
         """Return whether each exact sign of the polynomial satisfies the inequality."""
         found: Bools = (signs * self.sense > 0) if self.strict else (signs * self.sense >= 0)
         return found
+
+    def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
+        """Return whether each row can satisfy the inequality for some values of its free variables within their
+        extents, which are bounded independently for each term.
+        """
+        polynomial = self.polynomial
+        # a common positive factor keeps the sign, but would widen the bounds
+        common = {item: polynomial.powers(item)[0] for item in polynomial.items if item not in rows.columns}
+        best, slack = np.zeros(rows.size), 2 * polynomial.rounding
+        for coefficient, monomial in polynomial.terms:
+            factor, powers = self.sense * float(Fraction(coefficient, polynomial.scale)), dict(monomial)
+            # all variables are positive: the largest value of a positive term, the smallest of a negative one
+            for item, least in common.items():
+                factor *= extents[item][factor > 0] ** (powers.pop(item, 0) - least)
+            # rounding errors must not exclude a row
+            best += _term(factor + slack * abs(factor), tuple(powers.items()), rows)
+        return np.asarray(best >= 0)
 
 
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
@@ -201,89 +196,14 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
         return inequality.met(polynomial.signs(rows.plus(at, item, values)))
 
     every = np.arange(rows.size)
-    # two neighbours, of which the first is before the end of the ray and the second behind it if the guess is correct
-    guess = _guess(polynomial, rows, item)
-    before, behind = np.clip(guess - 1, 0, most - 1), np.clip(guess, 0, most - 1)
+    before, behind = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, most - 1)
     first, last = met(every, before), met(every, behind)
-    # both values are on one side of the end, so the whole range is bisected
-    wrong = np.flatnonzero(first == last)
-    before[wrong], behind[wrong] = 0, most - 1
-    first[wrong], last[wrong] = met(wrong, before[wrong]), met(wrong, behind[wrong])
+    # bisection, because the sign changes at most once
     while len(apart := np.flatnonzero((first != last) & (behind - before > 1))):
         middle = (before[apart] + behind[apart]) // 2
         early = met(apart, middle) == first[apart]
         before[apart[early]], behind[apart[~early]] = middle[early], middle[~early]
     return np.where(first, 0, np.where(last, behind, most)), np.where(last, most, np.where(first, behind, most))
-
-
-def _guess(polynomial: SignPolynomial, rows: PartialAssignments, item: int) -> Ints:
-    """Return for each row the index of the first value behind -B/A, up to rounding; 0 if only one power of the
-    variable occurs.
-    """
-    parts = polynomial.split(item)
-    if len(parts) < 2:
-        return np.zeros(rows.size, dtype=np.int64)
-    (low, B), (high, A) = parts.items()
-    # A may be 0: infinite ends, and nan, are sorted behind or before all values
-    with np.errstate(divide="ignore", invalid="ignore"):
-        end = -B.values(rows, polynomial.scale)[0] / A.values(rows, polynomial.scale)[0]
-    return np.searchsorted(rows.items[item].powers(high - low), end)
-
-
-Corners = Mapping[int, tuple[float, float]]
-"""Minimum and maximum value of each free variable."""
-
-
-@dataclass(frozen=True, slots=True)
-class RelaxedInequality:
-    """Inequality with some free variables, relaxed over the box of their bounds."""
-
-    sense: int
-    """1 or -1, such that the inequality is sense * polynomial >= 0."""
-    rest: tuple[SignPolynomial, ...]
-    """Factor of each term that depends on the assigned variables."""
-    lows: Floats
-    """Minimum over the box of each term's factor in the free variables, shape (terms,)."""
-    highs: Floats
-    """Maximum over the box of each term's factor in the free variables, shape (terms,)."""
-    slack: float
-    """Upper bound of the rounding error, relative to the sum of the magnitudes of the terms."""
-    scale: int
-    """Number by which the coefficients of the polynomial are divided."""
-
-    def possible(self, rows: PartialAssignments) -> Bools:
-        """Return whether each row can satisfy the inequality; False only if it fails for all values of the free
-        variables.
-        """
-        best = np.zeros(rows.size)
-        for one, low, high in zip(self.rest, self.lows, self.highs, strict=True):
-            factor = self.sense * one.values(rows, self.scale)[0]
-            # rounding errors must not exclude a row
-            best += np.maximum(low * factor, high * factor) + self.slack * high * np.abs(factor)
-        return np.asarray(best >= 0)
-
-
-def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """Return an inequality relaxed over the variables in `corners`; all other variables are assigned."""
-    polynomial = inequality.polynomial
-    inside = [item for item in polynomial.items if item in corners]
-    lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
-    rest = tuple(
-        SignPolynomial(((coefficient, tuple(pair for pair in monomial if pair[0] not in inside)),))
-        for coefficient, monomial in polynomial.terms
-    )
-    return RelaxedInequality(inequality.sense, rest, lows, highs, 2 * polynomial.rounding, polynomial.scale)
-
-
-def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
-    """Return each term's factor in the free variables at given values, divided by the lowest power of each variable."""
-    # a common positive factor keeps the sign, but would widen the bounds
-    minimum = {item: polynomial.powers(item)[0] for item in inside}
-    factors = []
-    for _, monomial in polynomial.terms:
-        powers = dict(monomial)
-        factors.append(prod(x ** (powers.get(item, 0) - minimum[item]) for item, x in zip(inside, point, strict=True)))
-    return np.array(factors, dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -323,10 +243,23 @@ class PolynomialConstraint:
 
     def holds(self, rows: PartialAssignments) -> Bools:
         """Return whether each row satisfies the constraint, exactly. All its variables must be assigned."""
-        known: dict[SignPolynomial, Signs] = {}
+        # several cases have the same polynomials
+        signs = cache(lambda polynomial: polynomial.signs(rows))
+        return self._in_any_case(rows, lambda inequality: inequality.met(signs(inequality.polynomial)))
+
+    def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
+        """Return whether each row can satisfy the constraint; False only if it fails for all values of the free
+        variables.
+        """
+        return self._in_any_case(rows, lambda inequality: inequality.possible(rows, extents))
+
+    def _in_any_case(self, rows: PartialAssignments, test: Callable[[PolynomialInequality], Bools]) -> Bools:
         found: Bools = np.zeros(rows.size, dtype=np.bool_)
         for case in self.cases:
-            found |= _case_holds(case, rows, known)
+            met: Bools = np.ones(rows.size, dtype=np.bool_)
+            for inequality in case:
+                met &= test(inequality)
+            found |= met
         return found
 
     def value(self, rows: PartialAssignments) -> Floats:
@@ -336,35 +269,9 @@ class PolynomialConstraint:
         (above, _), (below, _) = (side.values(rows, scale) for side in self.function)
         return np.asarray(above / below)
 
-    def reaches(self, corners: Corners) -> list[list[RelaxedInequality]]:
-        """Return the inequalities of each case relaxed over the free variables, as arguments of `possible`."""
-        return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
-
     def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
         """Return, for each case, the half-open index range of the admissible values of variable `item` in each row.
 
         Both arrays of a case have the shape (rows,) and contain indices into `rows.items[item]`.
         """
         return [find_window(case, rows, item) for case in self.cases]
-
-
-def _case_holds(
-    case: Sequence[PolynomialInequality], rows: PartialAssignments, known: dict[SignPolynomial, Signs]
-) -> Bools:
-    met: Bools = np.ones(rows.size, dtype=np.bool_)
-    for inequality in case:
-        if inequality.polynomial not in known:
-            known[inequality.polynomial] = inequality.polynomial.signs(rows)
-        met &= inequality.met(known[inequality.polynomial])
-    return met
-
-
-def possible(reaches: Sequence[Sequence[RelaxedInequality]], rows: PartialAssignments) -> Bools:
-    """Return whether each row can satisfy a constraint, from its relaxed inequalities `reaches`."""
-    found: Bools = np.zeros(rows.size, dtype=np.bool_)
-    for case in reaches:
-        met: Bools = np.ones(rows.size, dtype=np.bool_)
-        for reach in case:
-            met &= reach.possible(rows)
-        found |= met
-    return found

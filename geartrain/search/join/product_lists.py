@@ -1,7 +1,7 @@
 """Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
 
 An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
-instead of wheels. A variable (class `Item`) is a list of products of counts, or of quotients of two such products. A
+instead of wheels. A variable (class `Item`) is a list of products of counts, here of a c, and another one of b d. A
 wheel in a constraint on counts is a variable by itself.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, reduce
+from functools import lru_cache
 from math import prod
 from typing import Any
 
@@ -22,6 +22,8 @@ from geartrain.numerics.arrays import Floats, Ints
 Tallies = NDArray[Any]
 """Numbers or weights of assignments: int64 if all of them fit, otherwise Python integers."""
 Domains = Mapping[str, tuple[int, ...]]
+Factors = tuple[tuple[str, int], ...]
+"""Definition of a variable: its wheels, each with its positive power."""
 Weights = Mapping[str, tuple[int, ...]]
 """Integer weight of each tooth count by wheel. Wheels that are missing have weights 1, which counts assignments."""
 
@@ -30,21 +32,6 @@ BLOCK = 1 << 18
 _LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
 _TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
 _REMEMBERED = 20_000_000  # maximum number of values of all cached variables
-
-
-@dataclass(frozen=True, slots=True)
-class ItemRecipe:
-    """Definition of a variable as plain data: the wheels of its numerator and denominator."""
-
-    top: tuple[tuple[str, int], ...]
-    """Wheels of the numerator, each with its positive power."""
-    bottom: tuple[tuple[str, int], ...] = ()
-    """Wheels of the denominator, each with its positive power."""
-
-    @property
-    def wheels(self) -> tuple[str, ...]:
-        """All wheels of the variable."""
-        return tuple(wheel for wheel, _ in self.top + self.bottom)
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
@@ -99,15 +86,17 @@ class ProductStep:
             yield from self.before.chain()
 
 
-class CountProducts:
-    """Distinct products of one tooth count of each wheel, raised to its power.
+class Item:
+    """Values of a variable: distinct products of one tooth count of each wheel, raised to its power, ascending.
 
-    values   products, ascending, shape (m,) int64
+    values   products, shape (m,) int64
+    x        products as float64, shape (m,)
     times    total weight of each product, shape (m,) of the given dtype
+    sums     cumulative weights, shape (m + 1,), from 0
     """
 
-    def __init__(self, wheels: Sequence[tuple[str, int]], domains: Domains, weights: Weights, dtype: Any) -> None:
-        self.wheels = tuple(wheels)
+    def __init__(self, wheels: Factors, domains: Domains, weights: Weights, dtype: Any) -> None:
+        self.wheels = wheels
         self.counts = [np.array(domains[wheel], dtype=np.int64) for wheel, _ in wheels]
         self.powers = [counts**power for counts, (_, power) in zip(self.counts, wheels, strict=True)]
         # products of the counts of the first 0, 1, 2, ... wheels
@@ -118,6 +107,11 @@ class CountProducts:
             values, self.times = _multiplied(self.levels[-1], self.times, powers, own)
             self.levels.append(values)
         self.values = self.levels[-1]
+        self.x = self.values.astype(np.float64)
+        self.sums = np.concatenate([np.zeros(1, dtype=dtype), np.cumsum(self.times, dtype=dtype)])
+
+    def __len__(self) -> int:
+        return len(self.values)
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
         """Return every assignment of tooth counts that produces one of some products.
@@ -133,11 +127,11 @@ class CountProducts:
             found[self.wheels[level][0]] = self.counts[level][factor]
         return owner, found
 
-    def last_step(self, indices: Ints) -> ProductStep | None:
-        """Return the last of the steps that lead from the empty product to some distinct products; None without
-        wheels.
-        """
-        return self._step(len(self.wheels) - 1, self.values[indices])
+    def last_step(self, indices: Ints) -> ProductStep:
+        """Return the last of the steps that lead from the empty product to some distinct products."""
+        step = self._step(len(self.wheels) - 1, self.values[indices])
+        assert step is not None, "a variable has at least one wheel"
+        return step
 
     def _step(self, level: int, values: Ints) -> ProductStep | None:
         if level < 0:
@@ -187,73 +181,13 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     return rows, columns, quotients
 
 
-class Item:
-    """Values of a variable, numerator divided by denominator, ascending, with the total weight of each value.
-
-    x               values, shape (m,) float64, ascending, accurate to a few roundings
-    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients
-                    may be repeated
-    times           weights, shape (m,)
-    sums            cumulative weights, shape (m + 1,), from 0
-    """
-
-    def __init__(self, recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> None:
-        self.recipe = recipe
-        self._top = CountProducts(recipe.top, domains, weights, dtype)
-        self._bottom = CountProducts(recipe.bottom, domains, weights, dtype) if recipe.bottom else None
-        self.tops, self.times = self._top.values, self._top.times
-        self.bottoms: Ints | None = None
-        self._at: tuple[Ints, Ints] | None = None
-        if self._bottom is not None:
-            self._divide(self._bottom)
-        self.x = self.tops / (1.0 if self.bottoms is None else self.bottoms)
-        self.sums = np.concatenate([np.zeros(1, dtype=dtype), np.cumsum(self.times, dtype=dtype)])
-        self._powers: dict[int, Floats] = {}
-
-    def __len__(self) -> int:
-        return len(self.x)
-
-    def _divide(self, bottom: CountProducts) -> None:
-        above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
-        below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
-        tops, bottoms = self._top.values[above], bottom.values[below]
-        # equal quotients of floats are ordered too: those of one numerator by their denominator
-        order = np.lexsort((-bottoms, tops / bottoms))
-        self._at = above[order], below[order]
-        self.tops, self.bottoms = tops[order], bottoms[order]
-        self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]
-
-    def powers(self, power: int) -> Floats:
-        """Return the values raised to a power, ascending."""
-        if power not in self._powers:
-            self._powers[power] = reduce(np.multiply, [self.x] * power)
-        return self._powers[power]
-
-    def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
-        """Return the products of numerator and denominator, each with the index of its product for some values."""
-        if self._bottom is None or self._at is None:
-            return [(self._top, indices)]
-        return [(self._top, self._at[0][indices]), (self._bottom, self._at[1][indices])]
-
-    def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment of tooth counts that produces one of some values.
-
-        The result is (owner, wheel -> counts), where owner is the index in `indices` of the value, ascending.
-        """
-        if self._bottom is None or self._at is None:
-            return self._top.ways(indices)
-        owner, found = self._top.ways(self._at[0][indices])
-        further, more = self._bottom.ways(self._at[1][indices[owner]])
-        return owner[further], {wheel: column[further] for wheel, column in found.items()} | more
-
-
 _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
 """Least-recently-used cache of variables, limited by their total length."""
 
 
-def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
+def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
     """Return the variable of a definition, from the cache if possible."""
-    key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
+    key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
     _ITEMS.move_to_end(key)
@@ -288,14 +222,9 @@ class PartialAssignments:
             self._x[item] = self.items[item].x[self.columns[item]]
         return self._x[item]
 
-    def top(self, item: int) -> Ints:
-        """Return the numerators of the values of a variable."""
-        return self.items[item].tops[self.columns[item]]
-
-    def bottom(self, item: int) -> Ints | None:
-        """Return the denominators of the values of a variable; None if all are 1."""
-        bottoms = self.items[item].bottoms
-        return None if bottoms is None else bottoms[self.columns[item]]
+    def value(self, item: int) -> Ints:
+        """Return the values of a variable as int64."""
+        return self.items[item].values[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
         """Return the rows selected by a mask or by indices."""
@@ -336,12 +265,9 @@ class PartialAssignments:
             return
         above, below = np.ones(self.size, dtype=np.int64), np.ones(self.size, dtype=np.int64)
         for item, power in monomial:
-            bottom = self.bottom(item)
+            side = above if power > 0 else below
             for _ in range(abs(power)):
-                top, under = (above, below) if power > 0 else (below, above)
-                top *= self.top(item)
-                if bottom is not None:
-                    under *= bottom
+                side *= self.value(item)
         # in lowest terms, so that 2/4 and 3/6 are equal; exact if both sides are in int64
         common = np.gcd(above, below)
         for side in (above, below):

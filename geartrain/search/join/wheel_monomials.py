@@ -8,26 +8,23 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
 from geartrain.search.join.polynomial_constraints import (
+    Extents,
     PolynomialConstraint,
     PolynomialInequality,
     SignPolynomial,
-    possible,
 )
-from geartrain.search.join.product_lists import Domains, ItemRecipe, PartialAssignments, forecast, maximum
+from geartrain.search.join.product_lists import Domains, Factors, PartialAssignments, forecast, maximum
 
-Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
 """Maximum number of values of one variable. With all their arrays, these values need half a gigabyte."""
-_MOST_QUOTIENTS = 1 << 22  # maximum number of values of a variable with numerator and denominator
 _MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
@@ -93,34 +90,17 @@ def find_wheel_monomials(
     return [{w: sign * power for w, power in powers.items()} for sign, powers in zip(signs, found, strict=True)]
 
 
-def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    """Yield definitions of variables for the monomials: whole quotients, or numerator and denominator as separate
-    variables.
-    """
-    choices = [list(_item_cuts(bundle, domains)) for bundle in bundles]
-    # too many combinations to plan: all quotients, or all separate
-    if math.prod(map(len, choices)) > 8:
-        yield from dict.fromkeys(tuple(recipe for choice in choices for recipe in choice[kind]) for kind in (0, -1))
-    else:
-        for chosen in product(*choices):
-            yield tuple(recipe for cut in chosen for recipe in cut)
-
-
-def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    above = tuple((wheel, power) for wheel, power in bundle.items() if power > 0)
-    below = tuple((wheel, -power) for wheel, power in bundle.items() if power < 0)
-    top, bottom = list(_listable_groups(above, domains)), list(_listable_groups(below, domains))
-    yield tuple(ItemRecipe(wheels) for wheels in top) + tuple(ItemRecipe((), wheels) for wheels in bottom)
-    largest = math.prod(domains[wheel][-1] ** power for wheel, power in above + below)
-    # different quotients of such products are different floats, so their order is exact
-    short = largest < 1 << 52 and len(top) == len(bottom) == 1
-    if short and quotients(top[0], bottom[0], domains) <= _MOST_QUOTIENTS:
-        yield (ItemRecipe(top[0], bottom[0]),)
-
-
-def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
-    """Estimate the number of values of a variable with this numerator and denominator."""
-    return forecast(top, domains)[0] * forecast(bottom, domains)[0]
+def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
+    """Return definitions of variables for the monomials: numerators and denominators are separate variables."""
+    # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
+    return tuple(
+        group
+        for monomial in monomials
+        for sign in (1, -1)
+        for group in _listable_groups(
+            tuple((wheel, abs(power)) for wheel, power in monomial.items() if power * sign > 0), domains
+        )
+    )
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
@@ -145,10 +125,10 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
 
 
 def find_polynomial_constraints(
-    requested: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
+    requested: Sequence[IntervalConstraint], recipes: Sequence[Factors], domains: Domains
 ) -> list[PolynomialConstraint]:
     """Convert interval constraints to polynomial constraints in variables."""
-    extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
+    extents = [extent(recipe, domains) for recipe in recipes]
     constraints = []
     for one in requested:
         function = one.function
@@ -157,7 +137,7 @@ def find_polynomial_constraints(
         polynomials = [(term[0], monomial) for term, monomial in zip(terms, monomials, strict=True)]
         N = SignPolynomial.of(polynomials[: len(function.numerator)])
         D = SignPolynomial.of(polynomials[len(function.numerator) :])
-        cases = _feasible(list(_cases(N, D, one)), extremes)
+        cases = _feasible(list(_cases(N, D, one)), extents)
         constraints.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
     return constraints
 
@@ -167,27 +147,21 @@ def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
     return any((low is None or value >= low) and (high is None or value <= high) for low, high in intervals)
 
 
-def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
+def extent(recipe: Factors, domains: Domains) -> tuple[float, float]:
     """Return the minimum and maximum value of a variable as floats, accurate to a few roundings."""
-    above, below = ([domains[wheel] for wheel, _ in side] for side in (recipe.top, recipe.bottom))
-    ends = []
-    for up, down in ((0, -1), (-1, 0)):
-        top = math.prod(counts[up] ** power for counts, (_, power) in zip(above, recipe.top, strict=True))
-        bottom = math.prod(counts[down] ** power for counts, (_, power) in zip(below, recipe.bottom, strict=True))
-        ends.append(float(Fraction(top, bottom)))
-    return ends[0], ends[1]
+    low, high = (math.prod(domains[wheel][end] ** power for wheel, power in recipe) for end in (0, -1))
+    return float(low), float(high)
 
 
-def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
+def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[Factors]) -> list[Monomial]:
     """Return each term as a monomial in variables, divided by a common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
-        wheel, power = recipe.top[0] if recipe.top else recipe.bottom[0]
+        wheel, power = recipe[0]
         if wheel not in wheels:
             continue
         at = wheels.index(wheel)
-        sign = power if recipe.top else -power
-        steps = [(term[1][at] - terms[0][1][at]) // sign for term in terms]
+        steps = [(term[1][at] - terms[0][1][at]) // power for term in terms]
         # a common factor of numerator and denominator cancels
         minimum = min(steps)
         for row, step in zip(rows, steps, strict=True):
@@ -211,12 +185,12 @@ def _cases(
 
 
 def _feasible(
-    cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
+    cases: Sequence[tuple[PolynomialInequality, ...]], extents: Extents
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
     """Return the cases that some tooth counts can satisfy; the first case if there are none.
 
     One case is kept so that the constraint still depends on its variables.
     """
     nothing = PartialAssignments((), {}, 1)
-    kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
+    kept = [case for case in cases if PolynomialConstraint("", (case,)).possible(nothing, extents)[0]]
     return tuple(kept or cases[:1])

@@ -1,7 +1,7 @@
-"""Trees of arbors that show given periods, with the minimum number of wheels and the enumeration up to a size.
+"""Trees of arbors with requested periods: minimum number of wheels, and enumeration up to a size.
 
 A table contains the distinct ratios of two wheels. The number of wheels of a tree is minimised by branch and bound over
-the multiples of its ratios. Trees are enumerated up to a number of additional arbors, which do not show a period.
+the multiples of its ratios. Trees are enumerated up to a number of intermediate arbors, which have no requested period.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class PeriodTargets:
         return (1 << len(self.periods)) - 1
 
     def meets(self, target: int, ratio: Fraction) -> bool:
-        """Return whether an arbor with this period shows target number `target`, compared exactly."""
+        """Return whether a period is within the tolerance of target number `target`, compared exactly."""
         low, high = self.bounds[target]
         return low <= ratio <= high
 
@@ -75,7 +75,7 @@ def read_period_targets(
     """Build the targets from periods by name, and one relative tolerance for all or one for each."""
     if not periods:
         raise QuestionError(
-            Problem("no periods are given", "an orrery shows at least one period", "give a period, such as moon=29.53")
+            Problem("no periods are given", "an orrery has at least one pointer", "give a period, such as moon=29.53")
         )
     if len(periods) > 30:
         raise RangeError(
@@ -207,10 +207,8 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """Targets that two gear pairs in series can drive from one arbor, for each of m intermediate arbors."""
+    """Targets that two gear pairs in series can drive from one arbor, for each of m arbors between the pairs."""
 
-    requested: int
-    """Bit mask of the targets that were searched for."""
     first: Ints
     """Index of the ratio of the pair to the intermediate arbor, shape (m,)."""
     next: Ints
@@ -241,7 +239,7 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
     first = np.flatnonzero((found >= 0).any(axis=0))
     further = found[:, first].T.astype(np.int64)
     sets = ((further >= 0) << np.arange(len(targets.periods))).sum(axis=1)
-    return ReachablePeriods(requested, first, further, sets)
+    return ReachablePeriods(first, further, sets)
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
@@ -286,48 +284,35 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
         hopes.append(min(fresh))
     # lower bound of the wheels of the pairs from each index on
     rest = [sum(hopes[at:]) for at in range(len(edges) + 1)]
-    return _Search(edges, options, rest).run()
+    used: Counter[tuple[int, int]] = Counter()
+    best: tuple[int, Meshes] = 2 * len(edges) + 1, ()
+    steps = 0
 
-
-class _Search:
-    """Branch and bound over the pairs in the order of the tree, with the wheels in use on each arbor."""
-
-    def __init__(self, edges: Sequence[Edge], options: list[list[tuple[int, int]]], rest: list[int]) -> None:
-        self.edges, self.options, self.rest = edges, options, rest
-        self.used: Counter[tuple[int, int]] = Counter()
-        self.taken: list[tuple[int, int]] = []
-        self.best: tuple[int, Meshes] = (2 * len(edges) + 1, ())
-        self.steps = 0
-
-    def run(self) -> tuple[int, Meshes, bool]:
-        self._descend(0, 0)
-        return *self.best, self.steps <= _MOST_STEPS
-
-    def _descend(self, at: int, wheels: int) -> None:
-        if at == len(self.edges):
-            if wheels < self.best[0]:
-                self.best = (wheels, tuple(self.taken))
+    def descend(at: int, wheels: int, taken: Meshes) -> None:
+        """Assign counts to the pairs from index `at` on, with `wheels` wheels in use."""
+        nonlocal best, steps
+        if at == len(edges):
+            best = min(best, (wheels, taken), key=lambda found: found[0])
             return
-        parent, child = self.edges[at][:2]
+        parent, child = edges[at][:2]
         # choices that share most wheels first, so that good bounds are found early
         ranked = sorted(
-            (int(not self.used[parent, driver]) + int(not self.used[child, driven]), driver + driven, driver, driven)
-            for driver, driven in self.options[at]
+            (int(not used[parent, driver]) + int(not used[child, driven]), driver + driven, driver, driven)
+            for driver, driven in options[at]
         )
-        for fresh, _, driver, driven in ranked:
-            self.steps += 1
-            if self.steps > _MOST_STEPS and self.best[1]:
+        for fresh, _, *pair in ranked:
+            steps += 1
+            if steps > _MOST_STEPS and best[1]:
                 return
             # the remaining pairs need at least `rest` further wheels
-            if wheels + fresh + self.rest[at + 1] >= self.best[0]:
-                continue
-            for wheel in ((parent, driver), (child, driven)):
-                self.used[wheel] += 1
-            self.taken.append((driver, driven))
-            self._descend(at + 1, wheels + fresh)
-            self.taken.pop()
-            for wheel in ((parent, driver), (child, driven)):
-                self.used[wheel] -= 1
+            if wheels + fresh + rest[at + 1] < best[0]:
+                own = (parent, pair[0]), (child, pair[1])
+                used.update(own)
+                descend(at + 1, wheels + fresh, (*taken, (pair[0], pair[1])))
+                used.subtract(own)
+
+    descend(0, 0, ())
+    return *best, steps <= _MOST_STEPS
 
 
 # ----------------------------------------------------------------------------------------------------------- all trees
@@ -338,7 +323,7 @@ class TreeArbor:
     """Arbor of a tree, with the gear pair that drives it."""
 
     target: int
-    """Index of the period that the arbor shows; -1 if it shows none."""
+    """Index of the requested period of the arbor; -1 for the first arbor and for an intermediate arbor."""
     parent: int
     """Index of the arbor that drives this arbor; -1 for the first arbor."""
     driven: int
@@ -378,12 +363,12 @@ def edges(tree: ArborTree) -> list[Edge]:
 
 
 class TreeEnumeration:
-    """Enumeration of every tree with exactly `extra` arbors that do not show a period.
+    """Enumeration of every tree with exactly `extra` intermediate arbors.
 
     A tree grows from the first arbor. Whenever one pair can drive targets from an arbor, each of them is either driven
-    from there or left for later arbors, and all combinations are visited. The tree then receives one more additional
-    arbor. Additional arbors that cannot drive a target are visited as long as another one can follow. Each tree is
-    visited once for each order in which its additional arbors can be added.
+    from there or left for later arbors, and all combinations are visited. The tree then receives one more
+    intermediate arbor. Intermediate arbors that cannot drive a target are visited as long as another one can follow.
+    Each tree is visited once for each order in which its intermediate arbors can be added.
     """
 
     def __init__(
@@ -421,12 +406,12 @@ class TreeEnumeration:
             arbors = tuple(arbor for arbor in taken if arbor is not None)
             if not arbors and not blank:
                 continue
-            # targets that no arbor shows yet
+            # targets that are not driven yet
             rest = left & ~sum(1 << arbor.target for arbor in arbors)
             yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 
     def _with_extra_arbor(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
-        """Yield the trees with one more additional arbor, driven from any arbor of the tree."""
+        """Yield the trees with one more intermediate arbor, driven from any arbor of the tree."""
         if not extra:
             return
         for parent, arbor in enumerate(tree):
@@ -446,7 +431,7 @@ class TreeEnumeration:
                 yield from self._with_extra_chain(tree, left, parent)
 
     def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
-        """Yield the trees whose last two additional arbors form a chain, in which the first drives only the second.
+        """Yield the trees whose last two intermediate arbors form a chain, in which the first drives only the second.
 
         The period of the second arbor is determined from the targets: it drives one target, and all other targets
         must be reachable from the targets that it drives.
@@ -483,7 +468,7 @@ class TreeEnumeration:
 
 
 def _useful(tree: ArborTree) -> bool:
-    """Return whether every arbor shows a period or drives another arbor."""
+    """Return whether every arbor has a requested period or drives another arbor."""
     driving = {arbor.parent for arbor in tree}
     return all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree))
 

@@ -1,4 +1,4 @@
-"""Search for a gear train that shows several periods from one arbor with few wheels, sharing arbors and wheels."""
+"""Search for a gear train with few wheels that drives pointers of several periods from one arbor."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ from geartrain.search.orrery.arbor_trees import (
     PairRatios,
     PeriodTargets,
     ReachablePeriods,
-    TreeArbor,
     TreeEnumeration,
     edges,
     fewest_wheels,
@@ -33,30 +32,27 @@ from geartrain.search.orrery.arbor_trees import (
 )
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Ints
+    from geartrain.numerics.arrays import Floats, Ints
 
 
-_KEPT_ENTRIES = 3 * 10**7  # maximum size of the cache of reaches: 240 MB of int64
 _TRIED = 20  # number of moves of each gain that are evaluated exactly
-_ALIKE = 3  # trees with the same targets and periods that are selected before others
+_ALIKE = 3  # number of trees with the same targets and periods that are selected before other trees
 _Key = frozenset[tuple[int, int, int]]
 _WALKABLE = 2 * 10**5  # maximum number of steps of an enumeration by default
-_SEEDS_A_PART = 4  # initial additional arbors for each tree of the beam
+_SEEDS_A_PART = 4  # initial intermediate arbors for each tree of the beam
 
 Tell = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery, with its period, its sense of rotation, its wheels, and whether it shows a requested
-    period.
-    """
+    """Arbor of an orrery: period, sense of rotation, wheels, and whether it carries a pointer."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the period that the arbor shows, or `arbor 1`, `arbor 2` and so on. The caller names the first
-    arbor.
+    """Name of the requested period of the arbor, or `arbor 1`, `arbor 2` and so on for intermediate arbors. The caller
+    names the first arbor.
     """
     period: Fraction
     """Period [revolutions of the first arbor], exact and positive."""
@@ -65,7 +61,7 @@ class OrreryArbor(Result):
     wheels: tuple[int, ...]
     """Distinct tooth counts of the wheels of the arbor, ascending."""
     shows: bool
-    """True if the arbor shows a requested period."""
+    """True if the arbor carries a pointer, which turns with a requested period."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +80,7 @@ class OrreryPair(Result):
 
 @dataclass(frozen=True, slots=True)
 class Orrery(Tabular, Result):
-    """Tree of gear pairs whose arbors show all requested periods.
+    """Tree of gear pairs that drives a pointer for each requested period.
 
     See Also
     --------
@@ -237,8 +233,8 @@ def find_orrery(
         Maximum width of the beam. Each search has four times the width of the previous search, up to this value; the
         time increases nearly in proportion.
     walk : int, optional
-        Maximum number of arbors without a period in the trees that are enumerated. By default 1, or more if the
-        enumeration is fast.
+        Maximum number of intermediate arbors, which carry no pointer, in the trees that are enumerated. By default 1,
+        or more if the enumeration is fast.
     seconds : float, optional
         Time after which the search stops with the best orrery so far [s].
     tell : callable, optional
@@ -286,7 +282,7 @@ class _TimeUpError(Exception):
 
 
 class _OrrerySearch:
-    """State of a search: the best tree so far, and the proved bounds."""
+    """State of a search: the best tree so far, and the lower bounds proved so far."""
 
     def __init__(self, table: PairRatios, targets: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
         self.table, self.targets, self.tell = table, targets, tell
@@ -314,9 +310,9 @@ class _OrrerySearch:
         return "proved" if self.proved else "effort"
 
     def _walks(self, walk: int | None) -> Iterator[int]:
-        """Yield the numbers of additional arbors for which trees are enumerated.
+        """Yield the numbers of intermediate arbors for which trees are enumerated.
 
-        Each additional arbor multiplies the work by the number of ratios times the number of arbors.
+        Each intermediate arbor multiplies the work by the number of ratios times the number of arbors.
         """
         extra, steps = 0, 1
         while extra <= (1 if walk is None else walk) or (walk is None and steps <= _WALKABLE):
@@ -360,9 +356,9 @@ class _OrrerySearch:
     def minimum_wheels(self) -> int:
         """Proved lower bound of the number of wheels.
 
-        Every arbor has a wheel. In a tree with the minimum number of wheels every arbor that does not show a period
-        has two, because with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not
-        enumerated have more additional arbors than the enumerated trees.
+        Every arbor has a wheel. In a tree with the minimum number of wheels every intermediate arbor has two, because
+        with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated have more
+        intermediate arbors than the enumerated trees.
         """
         unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
@@ -425,7 +421,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
         Problem(
             f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
             f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
-            "increase the tolerance, the number of extra arbors or the beam width, or allow more tooth counts",
+            "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts",
         )
     )
 
@@ -454,7 +450,7 @@ class PartialTree:
 
     @property
     def key(self) -> _Key:
-        """Key to detect duplicates, equal for trees whose arbors show the same targets with the same periods."""
+        """Key to detect duplicates, equal for trees whose arbors have the same targets and periods."""
         return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
@@ -470,22 +466,19 @@ class BeamSearch:
         self, table: PairRatios, targets: PeriodTargets, tell: Callable[[int, int], None] | None = None
     ) -> None:
         self.table, self.targets, self.tell = table, targets, tell
-        self._reaches: dict[tuple[int, int], ReachablePeriods] = {}
-        self._entries = 0
-        plain = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
-        self._bulk = plain
+        self._bulk = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
         self._windows = np.array(targets.logs).T
         # stable sort: ties are ordered by ratio, on every machine
-        self._plainest = np.argsort(plain, kind="stable")
+        self._plainest = np.argsort(self._bulk, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
         """Yield complete trees as they are found.
 
-        seeds   number of additional arbors, driven from the first arbor, that are further initial trees
+        seeds   number of further initial trees, each with one intermediate arbor driven from the first arbor
         """
         size = len(self.targets.periods)
         root = PartialTree((FIRST,), self.targets.everything, 0, 0.0)
-        # initial arbors without a period lead to targets that two pairs from the first arbor cannot reach
+        # initial intermediate arbors lead to targets that two pairs from the first arbor cannot reach
         chosen = [root, *self._direct(root, 0), *self._seed_trees(root, seeds)]
         levels: list[dict[_Key, PartialTree]] = [{} for _ in range(size)]
         for shown in range(size):
@@ -501,7 +494,7 @@ class BeamSearch:
                 chosen = _best(levels[shown + 1], width)
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Yield trees with an additional arbor whose period is much nearer to the targets, simplest ratios first."""
+        """Yield trees with an intermediate arbor whose period is much nearer to the targets, simplest ratios first."""
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         # ratios of at least the cube root of the largest ratio
@@ -514,25 +507,11 @@ class BeamSearch:
         bulk = sum(math.log(arbor.driven * arbor.driver) for arbor in tree)
         return PartialTree(tree, left, wheels, bulk)
 
-    def _reach(self, arbor: TreeArbor, left: int) -> ReachablePeriods:
-        """Return the moves from an arbor to the remaining targets. They are cached by the period of the arbor."""
-        known = self._reaches.pop((arbor.n, arbor.d), None)
-        if known is not None and left & ~known.requested:
-            self._entries -= known.next.size
-            known = None
-        if known is None:
-            known = reach(self.table, self.targets, arbor.log, left)
-            self._entries += known.next.size
-            while self._reaches and self._entries > _KEPT_ENTRIES:
-                self._entries -= self._reaches.pop(next(iter(self._reaches))).next.size
-        self._reaches[arbor.n, arbor.d] = known  # the most recently used entry is last
-        return known
-
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
         """Yield the best extensions of a partial tree: one arbor with its targets, and further targets driven from
         these arbors.
         """
-        reaches = [self._reach(arbor, part.left) for arbor in part.tree]
+        reaches = [reach(self.table, self.targets, arbor.log, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
         # separately for each gain: moves with more targets need more wheels, and would always be ranked lower
         for gain in np.unique(rows[:, 0]):
@@ -559,30 +538,23 @@ class BeamSearch:
                         yield child
                         yield from self._direct(child, parent)
 
-    def _moves(
-        self, part: PartialTree, parent: int, known: ReachablePeriods
-    ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    def _moves(self, part: PartialTree, parent: int, known: ReachablePeriods) -> Floats:
         """Return a table of moves, shape (moves, 5): targets gained, wheels needed, `bulk`, driving arbor, row in
         `known`.
         """
-        sets = known.sets & part.left
-        rows = np.flatnonzero(sets)
-        gained = np.bitwise_count(sets[rows]).astype(np.int64)
-        first = known.first[rows]
+        gained, first = np.bitwise_count(known.sets).astype(np.int64), known.first
         # two wheels per pair, minus those that can be shared
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()
-        for target in range(len(self.targets.periods)):
-            if not part.left >> target & 1:
-                continue
-            further = known.next[rows, target]
+        for further in known.next.T:
             good = further >= 0
             mine, own = first[good], further[good]
             wheels[good] -= self._joint(
                 self.table.driven[mine], self.table.driver[mine], self.table.driver[own], self.table.driven[own]
             )
             bulk[good] += self._bulk[own]
-        return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows]).astype(np.float64)
+        rows = np.arange(len(first))
+        return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows])
 
     def _sharing(self, tree: ArborTree, parent: int, ways: Ints) -> Ints:
         """Return 1 for each ratio whose pair can use a wheel that is already on the driving arbor, otherwise 0."""
@@ -613,7 +585,7 @@ class BeamSearch:
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
         for target, further in enumerate(known.next[at]):
-            if further < 0 or not left >> target & 1:
+            if further < 0:
                 continue
             new = grown(tree, target, extra, *self.table.terms(int(further)))
             if self.targets.meets(target, new.period):
@@ -624,8 +596,7 @@ class BeamSearch:
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
     """Return the `width` best partial trees.
 
-    Only the best few of all trees that show the same targets with the same periods are selected before other
-    trees.
+    Of all trees with the same targets and periods, only the best few are selected before other trees.
     """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
@@ -634,6 +605,4 @@ def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
         shown = frozenset((arbor.target, arbor.n, arbor.d) for arbor in part.tree if arbor.target >= 0)
         alike[shown] += 1
         (kept if alike[shown] <= _ALIKE else spare).append(part)
-    kept = (kept[:width] + spare)[:width]
-    # trees that share arbors are neighbours, so that the reaches of these arbors are still cached
-    return sorted(kept, key=lambda part: [(arbor.n, arbor.d) for arbor in part.tree])
+    return (kept[:width] + spare)[:width]

@@ -1,4 +1,4 @@
-"""Command `geartrain teeth orrery moon=29.53 venus=224.7 ...`: search for a train that shows several periods."""
+"""Command `geartrain teeth orrery moon=29.53 venus=224.7 ...`: search for a train with pointers of several periods."""
 
 from __future__ import annotations
 
@@ -28,14 +28,16 @@ def run(
     walk: Annotated[
         int | None,
         typer.Option(
-            "--extra-arbors", min=0, help="Enumerate all trees with up to this number of arbors that show no period."
+            "--extra-arbors",
+            min=0,
+            help="Enumerate all arbor trees with at most this number of intermediate arbors, which carry no pointer.",
         ),
     ] = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find a train with few wheels and arbors that shows several periods, driven from one arbor.
+    """Find a train with few wheels that drives pointers of several periods from one arbor.
 
     Example: `geartrain teeth orrery moon=29.53 venus=224.7`.
     """

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import pickle
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import inf, prod
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from geartrain.search.posterior.inference_problem import (
     ToothCountPrior,
     build_inference_problem,
     find_priors,
+    observation_constraint,
 )
 from geartrain.search.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
 from geartrain.search.posterior.posterior_summary import (
@@ -38,7 +40,6 @@ from geartrain.search.posterior.sampled_posterior import (
     LikelihoodBatch,
     PosteriorTally,
     misfit_of,
-    packed,
     plain_number,
     sample_task,
 )
@@ -49,10 +50,9 @@ LIMIT = 2_000_000
 SAMPLES = 1_000_000
 _SINGLE_OUTPUT_STEPS = 200_000  # maximum steps for a single output: a fraction of a second
 _DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
-_ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 METHODS: tuple[Method, ...] = ("exact", "sample")
 _NO_PARTIAL_RESULT = (
-    "interrupted: the exact method has no partial result, so the figures are estimated from {} combinations drawn at "
+    "interrupted: the exact method has no partial result, so the values are estimated from {} combinations drawn at "
     "random; the method `sample` draws any number of them"
 )
 _LONG = 1 << 62  # products of total weights below this: every sum of weights is exact in int64
@@ -166,16 +166,15 @@ def infer_counts(
         soft=soft,
     )
     means = Execution(executor, journal, tell)
-    outcome = _summarise(question, method, most, limit, samples, seed, means)
-    chosen, found, cut = outcome.method, outcome.found, outcome.cut
-    exact = found.evidence if chosen != "sample" else None
+    found = _summarise(question, method, most, limit, samples, seed, means)
+    sampled = found.effective < inf
     shares = {
         name: find_variance_shares(name, formula, question.uncertainties, seed)
         for name, formula in question.outputs.items()
     }
     return ToothCountPosterior(
         question.name,
-        chosen,
+        "sample" if sampled else "exact",
         soft,
         question.combinations,
         found.examined,
@@ -186,22 +185,13 @@ def infer_counts(
         _single_output_evidence(question, seed),
         found.posteriors,
         found.correlations,
-        rank_combinations(question, found.candidates, most, exact),
-        found.ranked and chosen != "sample" and not cut,
+        rank_combinations(question, found.candidates, most, None if sampled else found.evidence),
+        found.ranked and not sampled,
         {name: one for name, one in shares.items() if one is not None},
-        (*question.remarks, *outcome.remarks, *_sample_remarks(found, chosen)),
-        seed if chosen == "sample" else None,
-        cut,
+        (*question.remarks, *found.remarks),
+        seed if sampled else None,
+        found.cut,
     )
-
-
-def _sample_remarks(found: PosteriorSummary, method: Method) -> Iterator[str]:
-    """Yield a remark if the effective size of a sample is too small for reliable estimates."""
-    if method == "sample" and found.effective < _ENOUGH:
-        yield (
-            f"the figures are estimated from only {found.effective:.3g} combinations that fit: increase --samples, "
-            "raise --limit to use the exact method, or narrow the ranges of counts"
-        )
 
 
 def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
@@ -216,15 +206,6 @@ def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -
             )
 
 
-class _Outcome(NamedTuple):
-    """Result of the inference with the method that was used; `cut` is True after an interruption."""
-
-    method: Method
-    found: PosteriorSummary
-    cut: bool = False
-    remarks: tuple[str, ...] = ()
-
-
 def _summarise(
     question: InferenceProblem,
     method: Method | None,
@@ -233,17 +214,17 @@ def _summarise(
     samples: int,
     seed: int,
     means: Execution,
-) -> _Outcome:
+) -> PosteriorSummary:
     """Compute the posterior by the requested method; by default by the exact join, or by sampling beyond the limit."""
     if method != "sample":
         few = prod(len(uncertainty.counts) for uncertainty in question.moved.values()) <= limit
         try:
-            return _Outcome("exact", find_exact_posterior(question, most, inf if few else limit))
+            return find_exact_posterior(question, most, inf if few else limit)
         except KeyboardInterrupt:
             # an interrupted exact join has no partial result: a short sample is returned instead, without a journal,
             # because the exact join would begin again
-            found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
-            return _Outcome("sample", found, True, (_NO_PARTIAL_RESULT.format(found.examined),))
+            found = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
+            return replace(found, cut=True, remarks=(*found.remarks, _NO_PARTIAL_RESULT.format(found.examined)))
         except BudgetSpentError:
             if method is not None:
                 what = f"the exact method needs more than {limit} steps"
@@ -251,24 +232,22 @@ def _summarise(
                 raise RangeError(
                     Problem(what, "`limit` bounds the number of partial combinations that the method examines", fix)
                 ) from None
-    return _Outcome("sample", *_sampled(question, most, samples, seed, means))
+    return _sampled(question, most, samples, seed, means)
 
 
-def _sampled(
-    question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
-) -> tuple[PosteriorSummary, bool]:
-    """Return the summary of a random sample, and whether the sampling was interrupted."""
+def _sampled(question: InferenceProblem, most: int, samples: int, seed: int, means: Execution) -> PosteriorSummary:
+    """Return the summary of a random sample."""
     # at most 1000 tasks, which depend only on the number of samples, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
     tally, cut = PosteriorTally(LikelihoodBatch(question), most), False
-    work = partial(sample_task, packed(question, most))
+    work = partial(sample_task, pickle.dumps((question, most)))
     try:
         for result in means.run(work, tasks):
             tally.join(result)
     except KeyboardInterrupt:
         cut = True
-    return summary_of_sample(question, tally), cut
+    return summary_of_sample(question, tally, cut)
 
 
 def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
@@ -276,12 +255,12 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
     found = {}
     for witness in question.witnesses:
         # other wheels do not change the evidence of this output
-        uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.formula.wheels}
+        uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.function.wheels}
         one = replace(question, uncertainties=uncertainties, witnesses=(witness,), conditions=())
         try:
             found[witness.name] = evidence_of(one, _SINGLE_OUTPUT_STEPS)
         except BudgetSpentError:
-            found[witness.name] = _sampled(one, 1, _DRAWN, seed, Execution())[0].evidence
+            found[witness.name] = _sampled(one, 1, _DRAWN, seed, Execution()).evidence
     return found
 
 
@@ -293,6 +272,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
     most   number of combinations to list
     """
+    # other wheels keep their prior
     uncertainties = question.moved
     root, steps = _recorded(question, limit)
     sums = AssignmentSums(root, question.soft)
@@ -316,7 +296,6 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
         correlations_of(question, marginals, share, sums.covariances(floats, question.domains)) if share else {},
         candidates,
         ranked,
-        float("inf"),
     )
 
 
@@ -344,7 +323,10 @@ def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
     """
     uncertainties = question.moved
     domains = {wheel: uncertainty.counts for wheel, uncertainty in uncertainties.items()}
-    requested = [*(one.constraint(question.soft, graded) for one in question.witnesses), *question.conditions]
+    requested = [
+        *(observation_constraint(one, question.soft, graded) for one in question.witnesses),
+        *question.conditions,
+    ]
     sample = SelectivitySample.of(domains)
     weights = {wheel: uncertainty.weights for wheel, uncertainty in uncertainties.items()}
     return find_join_problem(domains, requested, (), {one.name: sample.of_demand(one) for one in requested}, weights)
@@ -368,6 +350,7 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
     """Return the number of combinations that satisfy all observations, including the counts of independent wheels."""
+    # with equal weights the total weight is a number of combinations
     alike = {
         w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()
     }

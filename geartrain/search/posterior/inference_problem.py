@@ -13,13 +13,11 @@ from geartrain.kinematics.formulas import Formula, find_formulas
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Result
 from geartrain.search.join.product_lists import Domains
-from geartrain.search.join.wheel_monomials import Interval, IntervalConstraint, is_within
+from geartrain.search.join.wheel_monomials import IntervalConstraint
 from geartrain.search.train.output_requirements import (
-    SpeedRequirement,
+    OutputRequirement,
     find_output_requirements,
     find_turning_conditions,
-    meet,
-    of_either_sense,
 )
 from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
@@ -32,7 +30,6 @@ exp(-12.5).
 """
 MOST_COUNTS = 10**5
 """Maximum number of possible counts of one wheel."""
-_LINE: Interval = (None, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +40,7 @@ class InferenceProblem:
     """Name of the train."""
     uncertainties: Mapping[str, ToothCountPrior]
     """Prior of the tooth count of each wheel, in the order of declaration."""
-    witnesses: tuple[ObservedOutput, ...]
+    witnesses: tuple[OutputRequirement, ...]
     """Observed outputs that depend on an uncertain count."""
     outputs: Mapping[str, Formula]
     """Speed of each output that depends on an uncertain count, as a function of the counts."""
@@ -68,7 +65,7 @@ class InferenceProblem:
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
         """Priors of the wheels that an observed output or a condition depends on, in the order of declaration."""
-        functions = [witness.formula for witness in self.witnesses] + [one.function for one in self.conditions]
+        functions = [witness.function for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
         return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}
 
@@ -77,13 +74,8 @@ class InferenceProblem:
         """Number of combinations of possible tooth counts."""
         return prod(len(uncertainty.counts) for uncertainty in self.uncertainties.values())
 
-    @property
-    def total(self) -> int:
-        """Sum of the integer weights of all combinations."""
-        return prod(uncertainty.total for uncertainty in self.uncertainties.values())
-
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """Return the integer prior weight of a combination; divided by `total` it is the prior probability."""
+        """Return the integer prior weight of a combination, which is proportional to its prior probability."""
         return prod(self.uncertainties[wheel].weight(count) for wheel, count in teeth.items())
 
 
@@ -113,7 +105,7 @@ def build_inference_problem(
     domains = {uncertainty.wheel: uncertainty.counts for uncertainty in uncertainties}
     found = [(one, find_formulas(train, one, domains)) for one in states]
     _check_outputs(train, states, outputs)
-    witnesses: list[ObservedOutput] = []
+    witnesses: list[OutputRequirement] = []
     moved: set[str] = set()
     known: set[str] = set()
     shown: dict[str, Formula] = {}
@@ -129,10 +121,15 @@ def build_inference_problem(
             if outputs and requirement.name not in outputs:
                 continue
             formula = formulas.outputs[requirement.name]
-            witness = ObservedOutput(
-                prefix + requirement.name, formula, observations_of(requirement.demands, against, scale)
+            # targets without a tolerance are not evidence
+            claims = tuple(
+                demand.scaled(scale)
+                for demand in requirement.demands
+                if demand.allowed is not None and not demand.approached
+                if against in ("all", "targets" if demand.target else "figures")
             )
-            if witness.claims and formula.wheels:
+            witness = OutputRequirement(prefix + requirement.name, formula, claims)
+            if witness.demands and formula.wheels:
                 witnesses.append(witness)
                 known.add(requirement.name)
             else:
@@ -143,14 +140,14 @@ def build_inference_problem(
     return InferenceProblem(train.name, by_wheel, tuple(witnesses), shown, tuple(conditions), tuple(remarks), soft)
 
 
-def _remarks(witness: ObservedOutput) -> Iterator[str]:
+def _remarks(witness: OutputRequirement) -> Iterator[str]:
     """Yield a remark on an output without a tolerance, or with a speed that depends on no uncertain count and
     violates its observations.
     """
-    if not witness.claims:
+    if not witness.demands:
         yield f"'{witness.name}' is not used: none of its observations has a tolerance"
-    elif not witness.fits(witness.formula.constant):
-        yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy: {witness.text}"
+    elif not witness.fits(witness.function.value({})):
+        yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy {witness.text}"
 
 
 def _check(
@@ -174,8 +171,8 @@ def _check(
     if scale < 0:
         raise QuestionError(
             Problem(
-                f"the factor {scale} of tolerances is negative",
-                "a negative factor would make tolerances negative",
+                f"the tolerance factor {scale} is negative",
+                "tolerances are multiplied by it and cannot be negative",
                 "give a factor >= 0",
             )
         )
@@ -333,130 +330,12 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
 # --------------------------------------------------------------------- observations: known speeds with their tolerances
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
-    """Observed speed of an output with its tolerance."""
+def observation_constraint(witness: OutputRequirement, soft: bool, graded: bool) -> IntervalConstraint:
+    """Return the interval constraint of the observations of an output for a join.
 
-    label: str
-    """Description, such as "speed 254/19 within 0.2 %"."""
-    wanted: Fraction
-    """Observed speed in the unit of the train; positive if only the magnitude is known."""
-    signed: bool
-    """False if only the magnitude of the speed is known."""
-    intervals: tuple[Interval, ...]
-    """Closed intervals of accepted speeds or magnitudes; None for an infinite end."""
-
-    @property
-    def is_exact(self) -> bool:
-        """True if exactly one speed is accepted."""
-        return all(low == high for low, high in self.intervals)
-
-    def scaled(self, factor: Fraction) -> Observation:
-        """Return the observation with all tolerances multiplied by a factor."""
-        if factor == 1:
-            return self
-        stretched = tuple((self._moved(low, factor), self._moved(high, factor)) for low, high in self.intervals)
-        return replace(self, intervals=stretched)
-
-    def _moved(self, end: Fraction | None, factor: Fraction) -> Fraction | None:
-        return None if end is None else self.wanted + factor * (end - self.wanted)
-
-    def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above or below the observed speed; None if it is unlimited, or if no interval contains
-        the speed.
-        """
-        # interval that contains the observed speed
-        own = [each for each in self.intervals if is_within(self.wanted, (each,))]
-        end = own[0][1 if above else 0] if own else None
-        return None if end is None else abs(end - self.wanted)
-
-    def met(self, speed: Fraction) -> bool:
-        """Return whether a speed is within the tolerance."""
-        value = speed if self.signed else abs(speed)
-        return is_within(value, self.intervals)
-
-    def misfit(self, speed: Fraction) -> Fraction:
-        """Return (error / tolerance)^2; 0 for an unlimited tolerance and for an exact observation."""
-        value = speed if self.signed else abs(speed)
-        half = self.half(value > self.wanted)
-        return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
-
-    def allowed(self) -> tuple[Interval, ...]:
-        """Return the intervals of accepted speeds, of either sense if only the magnitude is known."""
-        if self.signed:
-            return self.intervals
-        ((low, high),) = self.intervals
-        assert low is not None, "a target has a tolerance on both sides"
-        assert high is not None, "a target has a tolerance on both sides"
-        return of_either_sense(low, high)
-
-
-@dataclass(frozen=True, slots=True)
-class ObservedOutput:
-    """Output with its speed as a function of uncertain tooth counts, and with observations of this speed as
-    evidence.
+    It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
+    then. With `soft` the intervals are those of `FAR` tolerances. With `graded` the join also returns the misfit of the
+    output.
     """
-
-    name: str
-    """Name of the output, or "state: output" if several states are used at once."""
-    formula: Formula
-    """Speed as a function of one or more uncertain counts."""
-    claims: tuple[Observation, ...]
-    """Observations of its speed, at least one, all of which must be satisfied."""
-
-    @property
-    def text(self) -> str:
-        """Descriptions of the observations, as one string."""
-        return "; ".join(claim.label for claim in self.claims)
-
-    def fits(self, speed: Fraction | None) -> bool:
-        """Return whether a speed satisfies every observation; False if the speed is undetermined (None)."""
-        return speed is not None and all(claim.met(speed) for claim in self.claims)
-
-    def misfit(self, speed: Fraction) -> Fraction:
-        """Return the sum of (error / tolerance)^2 over the observations."""
-        return sum((claim.misfit(speed) for claim in self.claims), Fraction(0))
-
-    def requested(self, soft: bool) -> IntervalConstraint | None:
-        """Return the interval constraint of all observations; None if it has no bounds.
-
-        soft   True for the wider intervals of `FAR` tolerances
-        """
-        common: tuple[Interval, ...] = (_LINE,)
-        for claim in self.claims:
-            common = meet(common, (claim.scaled(FAR) if soft else claim).allowed())
-        return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
-
-    def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
-        """Return the interval constraint of this output for a join.
-
-        It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
-        then. With `graded` the join also returns the misfit of the output.
-        """
-        return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
-
-
-def observations_of(
-    demands: Sequence[SpeedRequirement], kind: LikelihoodKind, factor: Fraction = Fraction(1)
-) -> tuple[Observation, ...]:
-    """Convert the requirements on an output to observations. Targets without a tolerance are omitted.
-
-    kind     "figures" for `expect` and `published`, "targets" for targets, or "all" for both
-    factor   factor of every tolerance
-    """
-    found = []
-    for demand in demands:
-        if (
-            demand.allowed is None
-            or demand.approached
-            or kind not in ("all", "targets" if demand.target else "figures")
-        ):
-            continue
-        intervals = demand.allowed
-        if not demand.signed:
-            most = demand.allowed[-1][1]
-            assert most is not None, "a target has a tolerance"
-            # symmetric about the observed magnitude
-            intervals = ((2 * demand.wanted - most, most),)
-        found.append(Observation(demand.label, demand.wanted, demand.signed, intervals).scaled(factor))
-    return tuple(found)
+    common = (witness.scaled(FAR) if soft else witness).requested(None)
+    return replace(common or IntervalConstraint(witness.name, witness.function, ((None, None),)), graded=graded)

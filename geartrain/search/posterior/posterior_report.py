@@ -73,7 +73,7 @@ def _summary(found: ToothCountPosterior) -> Iterator[str]:
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."
     if found.cut:
-        yield "Interrupted: the figures cover only the combinations drawn so far."
+        yield "Interrupted: the values cover only the combinations drawn so far."
     if found.turning.value != 1:
         yield f"The prior probability that the train turns is {found.turning}."
     share = f"prior probability {found.evidence}"
@@ -106,7 +106,10 @@ def _sections(found: ToothCountPosterior) -> Iterator[Section]:
 
 
 def _known(found: ToothCountPosterior) -> Section:
-    rows = [(one.name, one.text, str(found.alone.get(one.name, "-"))) for one in found.witnesses]
+    rows = [
+        (one.name, "; ".join(each.label for each in one.demands), str(found.alone.get(one.name, "-")))
+        for one in found.witnesses
+    ]
     line = "Evidence of each output by itself: the prior mean of its likelihood."
     return Section("Observations", [line], [Table(("output", "observed", "evidence"), rows)])
 

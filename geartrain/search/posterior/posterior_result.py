@@ -10,7 +10,8 @@ from typing import Any, ClassVar, Literal, NotRequired, TypedDict
 
 from geartrain.numerics.exact import as_float, decimal
 from geartrain.numerics.results import Key, Result, Tabular
-from geartrain.search.posterior.inference_problem import ObservedOutput, ToothCountPrior
+from geartrain.search.posterior.inference_problem import ToothCountPrior
+from geartrain.search.train.output_requirements import OutputRequirement
 from geartrain.search.weighted_alternatives import relative_entropy
 
 Method = Literal["exact", "sample"]
@@ -235,7 +236,7 @@ class ToothCountPosterior(Tabular, Result):
     """Prior probability that the train can turn."""
     fits: int | None
     """Number of combinations that satisfy all observations; None if it is not known."""
-    witnesses: tuple[ObservedOutput, ...]
+    witnesses: tuple[OutputRequirement, ...]
     """Outputs with observed speeds, which are the evidence."""
     alone: Mapping[str, CountProbability]
     """Evidence of each output without the observations of the other outputs."""
@@ -295,7 +296,9 @@ class ToothCountPosterior(Tabular, Result):
         """Observed outputs as plain data, each with its evidence if it was computed."""
         found = []
         for one in self.witnesses:
-            known = KnownOutput(output=one.name, claims=[claim.label for claim in one.claims], formula=str(one.formula))
+            known = KnownOutput(
+                output=one.name, claims=[claim.label for claim in one.demands], formula=str(one.function)
+            )
             if one.name in self.alone:
                 known["alone"] = self.alone[one.name]
             found.append(known)

@@ -31,6 +31,7 @@ from geartrain.search.posterior.posterior_result import (
 from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTally, origin_of, plain_number
 
 _LISTED = 200_000  # maximum number of combinations that are enumerated for a variance
+_ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 _DRAWN = 1 << 14  # size of each of two samples, for more combinations
 _CERTAIN = 1e-4
 """Ratio of standard deviation to range below which a count is treated as certain and has no correlations.
@@ -46,6 +47,7 @@ def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[
     """Return the first `most` entries of an ascending list and all ties of the last entry, and False if ties were
     omitted, else True.
     """
+    # misfits in floats: entries that may be tied with the last are later sorted exactly
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
@@ -77,12 +79,11 @@ def _combination(
     errors: dict[str, Fraction] = {}
     misfit = Fraction(0)
     for witness in question.witnesses:
-        speed = witness.formula.value(ordered)
+        speed = witness.function.value(ordered)
         assert speed is not None, "what fits has a speed"
         speeds[witness.name] = speed
-        claim = max(witness.claims, key=lambda one: one.misfit(speed))
-        value = speed if claim.signed else abs(speed)
-        errors[witness.name] = value / claim.wanted - 1 if claim.wanted else value
+        claim = max(witness.demands, key=lambda one: one.misfit(speed))
+        errors[witness.name] = claim.error(speed)
         misfit += witness.misfit(speed)
     changed = tuple(wheel for wheel, count in ordered.items() if count != question.uncertainties[wheel].declared)
     probability = _probability(question, ordered, misfit, evidence)
@@ -104,7 +105,9 @@ def _probability(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best candidates, computed by either method."""
+    """Evidence, posteriors, correlations and best candidates, computed by either method; the fields are those of
+    `ToothCountPosterior`.
+    """
 
     examined: int
     evidence: CountProbability
@@ -114,12 +117,16 @@ class PosteriorSummary:
     correlations: Mapping[tuple[str, str], float]
     candidates: Sequence[GradedAssignment]
     ranked: bool
-    effective: float
+    effective: float = float("inf")
     """Effective sample size (Kish); infinite for the exact method."""
+    cut: bool = False
+    """True after an interruption."""
+    remarks: tuple[str, ...] = ()
+    """Remarks on the method of computation."""
 
 
-def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> PosteriorSummary:
-    """Compute the summary of a sample of combinations."""
+def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bool) -> PosteriorSummary:
+    """Compute the summary of a sample of combinations; `cut` is True if the sampling was interrupted."""
     wheels = tally.batch.wheels
     candidates = [
         GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
@@ -132,38 +139,43 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
         wheel: wheel_posterior(uncertainty, by.get(wheel), tally.weight, trials)
         for wheel, uncertainty in question.uncertainties.items()
     }
-    evidence = _share(tally.weight, tally.examined, tally, question.soft)
-    correlations = _sample_correlations(question, tally)
+    effective = trials or 0.0
+    few = (
+        f"the values are estimated from only {effective:.3g} combinations that fit: increase --samples, "
+        "raise --limit to use the exact method, or narrow the ranges of counts"
+    )
     return PosteriorSummary(
         tally.examined,
-        evidence,
-        _counted(tally),
+        _share(question, tally),
+        _turning(tally),
         None,
         posteriors,
-        correlations,
+        _sample_correlations(question, tally),
         candidates,
         tally.ranked,
-        trials or 0.0,
+        effective,
+        cut,
+        (few,) if effective < _ENOUGH else (),
     )
 
 
-def _share(weight: float, examined: int, tally: PosteriorTally, soft: bool) -> CountProbability:
+def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbability:
     """Return the evidence estimated from a sample, with its 95 % interval.
 
     The interval is the Wilson score interval for combinations that satisfy the observations or not, and a normal
     interval for a Gaussian likelihood.
     """
-    if not examined:
+    if not tally.examined:
         return CountProbability(0.0, 0.0, 1.0)
-    mean = float(weight) / examined
-    if not soft or not weight:
-        return CountProbability(mean, *wilson(float(weight), examined))
+    mean = tally.weight / tally.examined
+    if not question.soft or not tally.weight:
+        return CountProbability(mean, *wilson(tally.weight, tally.examined))
     # rounding may make a variance negative
-    half = deviations() * sqrt(max(tally.square / examined - mean**2, 0.0) / examined)
+    half = deviations() * sqrt(max(tally.square / tally.examined - mean**2, 0.0) / tally.examined)
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 
-def _counted(tally: PosteriorTally) -> CountProbability:
+def _turning(tally: PosteriorTally) -> CountProbability:
     if not tally.batch.question.conditions:
         return CountProbability(Fraction(1))
     share = tally.turning / tally.examined if tally.examined else 0.0
@@ -196,7 +208,7 @@ def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> d
         return {}
     wheels = tally.batch.wheels
     means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
-    # sums of products are relative to these origins
+    # E[(x - a)(y - b)] - (E[x] - a)(E[y] - b) loses fewer digits than E[xy] - E[x] E[y] if a and b are probable counts
     off = [means[wheel] - origin_of(question.uncertainties[wheel]) for wheel in wheels]
     found = {}
     for i, first in enumerate(wheels):
@@ -213,7 +225,7 @@ def correlations_of(
 ) -> dict[tuple[str, str], float]:
     """Return the correlations from covariances, only for wheels that an output or a condition connects."""
     scopes = [
-        *(one.formula.wheels for one in question.witnesses),
+        *(one.function.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
     ]
     group = {wheel: at for at, wheels in enumerate(joined_groups(marginals, scopes)) for wheel in wheels}

@@ -22,7 +22,8 @@ from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.join.wheel_monomials import IntervalConstraint, is_within
-from geartrain.search.posterior.inference_problem import InferenceProblem, Observation, ObservedOutput, ToothCountPrior
+from geartrain.search.posterior.inference_problem import InferenceProblem, ToothCountPrior, observation_constraint
+from geartrain.search.train.output_requirements import OutputRequirement, SpeedRequirement
 
 KEPT = 2000
 """Maximum number of best combinations that a task returns; further ties are omitted."""
@@ -42,8 +43,8 @@ class LikelihoodBatch:
         self.domains = {wheel: uncertainty.counts for wheel, uncertainty in question.moved.items()}
         self.wheels = tuple(self.domains)
         # formulas of few wheels first: they are cheap, and rows that they reject need no further evaluation
-        ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
-        self._outputs = [(misfit_of(one), one.constraint(question.soft, graded=False)) for one in ordered]
+        ordered = sorted(question.witnesses, key=lambda one: len(one.function.wheels))
+        self._outputs = [(misfit_of(one), observation_constraint(one, question.soft, graded=False)) for one in ordered]
 
     def turns(self, counts: Mapping[str, Ints]) -> Bools:
         """Return whether the train turns, for each combination, given as counts of equal length for each wheel."""
@@ -119,75 +120,31 @@ class PosteriorTally:
     def __init__(self, batch: LikelihoodBatch, most: int) -> None:
         self.batch, self.most = batch, most
         self.examined = self.turning = 0
-        self.weight: Any = 0
-        self.square = 0.0
-        self.by: list[list[Any]] = [[0] * len(batch.domains[wheel]) for wheel in batch.wheels]
+        self.weight = self.square = 0.0
+        self.by: list[Floats] = [np.zeros(len(batch.domains[wheel])) for wheel in batch.wheels]
         self.sizes: Floats = np.zeros((len(batch.wheels), len(batch.wheels)))
         self.best: list[tuple[float, tuple[int, ...]]] = []
         self.ranked = True
-        uncertainties = [batch.question.uncertainties[wheel] for wheel in batch.wheels]
-        self._steps = [
-            np.array(uncertainty.counts, dtype=np.float64) - origin_of(uncertainty) for uncertainty in uncertainties
-        ]
-
-    def add(self, at: Sequence[Ints], misfit: Floats, weights: Any) -> None:
-        """Add combinations that satisfy the observations.
-
-        at        index of the count of each wheel in each combination
-        misfit    misfit of each combination
-        weights   likelihood of each combination, integers or floats
-        """
-        self.weight += plain_number(weights.sum())  # a Python integer: the sum of many blocks may exceed int64
-        self.square += float((weights.astype(np.float64) ** 2).sum())
-        for sums, index in zip(self.by, at, strict=True):
-            for choice in np.unique(index):
-                sums[choice] += plain_number(weights[index == choice].sum())
-        steps = np.array([own[index] for own, index in zip(self._steps, at, strict=True)])
-        self.sizes += (steps * weights.astype(np.float64)) @ steps.T
-        self._keep(misfit, at)
-
-    def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
-        near = np.flatnonzero(misfit <= self._threshold())  # candidates for the list of the best
-        # one more than is kept, so that `_trim` detects omitted ties
-        order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
-        self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
-        self._trim()
-
-    def _threshold(self) -> float:
-        return self.best[self.most - 1][0] * TIE if len(self.best) >= self.most else np.inf
-
-    def _trim(self) -> None:
-        self.best.sort()
-        threshold = self._threshold()
-        self.best = [one for one in self.best if one[0] <= threshold]
-        if len(self.best) > KEPT:
-            self.ranked = False
-            self.best = self.best[:KEPT]
 
     def join(self, other: Mapping[str, Any]) -> None:
-        """Add the sums of another tally."""
+        """Add the result of `sample_task`."""
         self.examined += other["examined"]
         self.turning += other["turning"]
         self.weight += other["weight"]
         self.square += other["square"]
-        self.by = [[a + b for a, b in zip(x, y, strict=True)] for x, y in zip(self.by, other["by"], strict=True)]
+        self.by = [own + np.array(more) for own, more in zip(self.by, other["by"], strict=True)]
         self.sizes += np.array(other["sizes"]).reshape(self.sizes.shape)
-        self.best += [(misfit, tuple(at)) for misfit, at in other["best"]]
-        self.ranked &= other["ranked"]
-        self._trim()
+        self.best = sorted([*self.best, *((misfit, tuple(at)) for misfit, at in other["best"])])
+        self.best = self.best[: _with_ties([misfit for misfit, _ in self.best], self.most)]
+        self.ranked &= len(self.best) <= KEPT
+        self.best = self.best[:KEPT]
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the sums as plain data, for `join`."""
-        return {
-            "examined": self.examined,
-            "turning": self.turning,
-            "weight": plain_number(self.weight),
-            "square": self.square,
-            "by": [[plain_number(value) for value in sums] for sums in self.by],
-            "sizes": self.sizes.tolist(),
-            "best": [[misfit, list(at)] for misfit, at in self.best],
-            "ranked": self.ranked,
-        }
+
+def _with_ties(misfits: Sequence[float] | Floats, most: int) -> int:
+    """Return how many of some ascending misfits are among the first `most`, or tied with the last of these."""
+    if len(misfits) < most:
+        return len(misfits)
+    return int(np.searchsorted(misfits, misfits[most - 1] * TIE, side="right"))
 
 
 def plain_number(value: Any) -> int | float:
@@ -200,11 +157,6 @@ def origin_of(uncertainty: ToothCountPrior) -> int:
     return uncertainty.counts[uncertainty.weights.index(max(uncertainty.weights))]
 
 
-def packed(question: InferenceProblem, most: int) -> bytes:
-    """Return the data that all tasks share, pickled."""
-    return pickle.dumps((question, most))
-
-
 @lru_cache(maxsize=1)
 def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
     question, most = pickle.loads(shared)
@@ -214,25 +166,40 @@ def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
 def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     """Draw combinations from their prior, and return the sums over them.
 
+    shared  pickled inference problem, and number of combinations to list
     task   random seed, number of the block, number of combinations
     """
     batch, most = _unpacked(shared)
-    tally = PosteriorTally(batch, most)
     seed, block, size = task
     # an independent random stream for each block: the draws do not depend on the distribution of tasks
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
-    places = {}
-    for wheel in batch.wheels:
-        probabilities = np.array([float(prior) for prior in batch.question.uncertainties[wheel].priors])
+    uncertainties = [batch.question.uncertainties[wheel] for wheel in batch.wheels]
+    places, steps = [], []
+    for one in uncertainties:
+        probabilities = np.array([float(prior) for prior in one.priors])
         # divided by their sum, because numpy rejects probabilities whose rounded sum differs from 1
-        places[wheel] = draw.choice(len(probabilities), size, p=probabilities / probabilities.sum())
-    counts = {wheel: np.array(batch.domains[wheel])[at] for wheel, at in places.items()}
+        places.append(draw.choice(len(probabilities), size, p=probabilities / probabilities.sum()))
+        steps.append(np.array(one.counts, dtype=np.float64) - origin_of(one))
+    counts = {wheel: np.array(batch.domains[wheel])[at] for wheel, at in zip(batch.wheels, places, strict=True)}
+    # combinations outside the observations have the likelihood 0 and enter only the number of examined combinations
     met, misfit = batch.judged(counts)
-    tally.examined, tally.turning = size, int(batch.turns(counts).sum())
     fit = np.flatnonzero(met)
-    weights = np.exp(-misfit[fit] / 2) if batch.question.soft else np.ones(len(fit), dtype=np.int64)
-    tally.add([places[wheel][fit] for wheel in batch.wheels], misfit[fit], weights)
-    return tally.to_dict()
+    # ascending, so that the best are first
+    fit = fit[np.argsort(misfit[fit], kind="stable")]
+    weights = np.exp(-misfit[fit] / 2) if batch.question.soft else np.ones(len(fit))
+    chosen = [at[fit] for at in places]
+    sizes = np.array([own[at] for own, at in zip(steps, chosen, strict=True)])
+    # one more than is kept, so that `PosteriorTally.join` detects omitted ties
+    best = range(min(_with_ties(misfit[fit], most), KEPT + 1))
+    return {
+        "examined": size,
+        "turning": int(batch.turns(counts).sum()),
+        "weight": float(weights.sum()),
+        "square": float((weights**2).sum()),
+        "by": [np.bincount(at, weights, len(own)).tolist() for own, at in zip(steps, chosen, strict=True)],
+        "sizes": ((sizes * weights) @ sizes.T).tolist(),
+        "best": [[float(misfit[fit[row]]), [int(at[row]) for at in chosen]] for row in best],
+    }
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,7 +212,7 @@ class _Scale:
     above: float
 
     @classmethod
-    def of(cls, claim: Observation) -> _Scale:
+    def of(cls, claim: SpeedRequirement) -> _Scale:
         halves = (claim.half(side) for side in (False, True))
         wanted, below, above = (as_float(each or Fraction(0)) for each in (claim.wanted, *halves))
         if wanted is None or below is None or above is None:
@@ -260,9 +227,9 @@ class _Scale:
         return found
 
 
-def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
+def misfit_of(witness: OutputRequirement) -> Callable[[Floats], Floats]:
     """Return a function from speeds of an output to their misfits, sums of (error / tolerance)^2, up to rounding."""
-    scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
+    scales = [_Scale.of(claim) for claim in witness.demands if not claim.exact]
 
     def misfit(speeds: Floats) -> Floats:
         return sum((scale.misfit(speeds) for scale in scales), np.zeros(len(speeds)))

@@ -6,12 +6,14 @@ influence the result.
 
 from __future__ import annotations
 
+import pickle
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import combinations_with_replacement, pairwise
-from math import ceil, comb, factorial, isqrt, log
+from functools import partial
+from itertools import combinations_with_replacement
+from math import comb, factorial, isqrt, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,7 +36,6 @@ from geartrain.search.ratio.stage_problem import (
     first_of,
     key_of,
     pairings,
-    stage_problem_of,
 )
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
 
 BLOCK = 1 << 21
-"""Maximum number of products of one side in memory."""
+"""Maximum number of products of one side in a segment, which bounds the memory."""
 PER_ROW = 3
 """Minimum number of products per row of the tables in a block, because each row costs a binary search."""
 CHUNK = 1 << 19
@@ -58,43 +59,40 @@ _MOST = 1e11
 Range = tuple[int, int]
 
 
-def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
+def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
     """Count the solutions of a segment exactly, and return the best of them.
 
-    The task has the keys `question`; `low` and `high`, the half-open range of the denominator products (or of the sums
-    of stages with equal sums); and `near`, the tolerance within which solutions are listed. The result has the keys
-    `count`; `listed`, the number of solutions within `near`; `removed`, the number of pairs of multisets within the
-    tolerance that are not solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator
-    counts].
+    packed    pickled problem, and the tolerance within which solutions are listed
+    segment   half-open ranges of the denominator products and of the numerator products (four numbers), or half-open
+              range of the sums of stages with equal sums (two numbers)
+
+    The result has the keys `count`; `listed`, the number of solutions within the tolerance of the list; `removed`, the
+    number of pairs of multisets within the tolerance that are not solutions, by reason; and `rows`, the best as [rank
+    value, numerator counts, denominator counts].
     """
-    question = stage_problem_of(task["question"])
-    near = replace(question, tolerance=Fraction(task["near"]))
+    question, tolerance = pickle.loads(packed)
     if question.of_equal_sums:
-        return _search_sums(question, task["low"], task["high"])
-    judge, count = StageFilter(question), 0
-    # every pair of multisets is expanded to all of its pairings
-    chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
-    for beneath, top in blocks(question, task["low"], task["high"]):
-        (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
-        first, last = cuts(p, q, *question.edges)
-        # several multisets may have the same product
-        count += int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
-        if near.tolerance < question.tolerance:
-            first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
-        used = last > first
-        if used.any():
-            # products within some window: number of windows opened minus number closed so far
-            opened, closed = (np.bincount(ends, minlength=len(p) + 1) for ends in (first, last))
-            q, beneaths = question.under.members(*beneath, q[used])
-            p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
-            for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
-                judge.see(tops[j], beneaths[i], p[j], q[i])
-    return {
-        "count": count if question.loose else judge.count,
-        "listed": judge.count,
-        "removed": judge.removed,
-        "rows": judge.best.plain(),
-    }
+        return _search_sums(question, *segment)
+    beneath, top = segment[:2], segment[2:]
+    near = replace(question, tolerance=tolerance)
+    judge = StageFilter(question)
+    (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
+    first, last = cuts(p, q, *question.edges)
+    # several multisets may have the same product
+    count = int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
+    if near.tolerance < question.tolerance:
+        first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
+    used = last > first
+    if used.any():
+        # products within some window: number of windows opened minus number closed so far
+        opened, closed = (np.bincount(ends, minlength=len(p) + 1) for ends in (first, last))
+        q, beneaths = question.under.members(*beneath, q[used])
+        p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
+        # every pair of multisets is expanded to all of its pairings
+        chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
+        for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
+            judge.see(tops[j], beneaths[i], p[j], q[i])
+    return judge.outcome() | ({"count": count} if question.loose else {})
 
 
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
@@ -107,7 +105,8 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
     judge, size = StageFilter(question), question.stages
     first, last = map(float, question.edges)
     for total in range(low, high):
-        stages = np.array(question.stages_of(total), dtype=np.int64).reshape(-1, 2)
+        pairs = [(count, total - count) for count in question.top if total - count in question.beneath]
+        stages = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         ratios = stages[:, 0] / stages[:, 1]
         lower, upper = (_multisets(len(stages), part) for part in (size // 2, size - size // 2))
         below = ratios[lower].prod(axis=1)
@@ -123,12 +122,7 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
             p, q = (row_products(each.astype(question.over.rows.dtype)) for each in (tops, beneaths))
             inside = _are_within(p, q, question)
             judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
-    return {
-        "count": judge.count,
-        "listed": judge.count,
-        "removed": judge.removed,
-        "rows": judge.best.plain(),
-    }
+    return judge.outcome()
 
 
 def _multisets(number: int, size: int) -> Ints:
@@ -145,22 +139,6 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
     for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
         inside[at] = abs(Fraction(int(over[at]), int(under[at])) / value - 1) <= question.tolerance
     return inside
-
-
-def blocks(question: StageProblem, low: int, high: int) -> Iterator[tuple[Range, Range]]:
-    """Yield pairs of a range of denominator products and a range of numerator products. Together they contain
-    every pair of products within the tolerance once.
-    """
-    most = _block(question)
-    for beneath in pieces(question.under, *question.beneath_within(low, high), most):
-        for top in pieces(question.over, *question.tops_for(*beneath), most):
-            yield beneath, top
-
-
-def _block(question: StageProblem) -> int:
-    """Return the maximum number of products of one side in a block: `BLOCK`, or more if the tables have many rows."""
-    numbers = max(len(question.top), len(question.beneath))
-    return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
@@ -200,7 +178,11 @@ class StageFilter:
         self.count += len(at)
         if len(at):
             first = first_of(self.question.by, tops[at], beneaths[at], fit)
-            self.best.add((first, tops[at], beneaths[at], over[at], under[at]))
+            self.best.add(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
+
+    def outcome(self) -> dict[str, Any]:
+        """Return the number of solutions, the rejected pairs by reason, and the best solutions as plain data."""
+        return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": self.best.plain()}
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
         """Return the indices for which `good` is true, and count the remaining indices under `reason`."""
@@ -292,10 +274,9 @@ def _check(question: StageProblem, tolerance: Fraction) -> None:
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
     """Search all segments and merge their results. After a keyboard interrupt return the results obtained so far."""
-    plain = question.plain()
-    tasks = [{"question": plain, "low": low, "high": high, "near": str(near)} for low, high in _segments(question)]
+    work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor
-    results = map(search_segment, tasks) if len(tasks) < 2 else means.run(search_segment, tasks)
+    results = map(work, tasks) if len(tasks) < 2 else means.run(work, tasks)
     count, listed, keys, complete = 0, 0, list[StageRank](), True
     removed = Counter[str]()
     try:
@@ -310,8 +291,8 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
     return SweepOutcome(question.tolerance, count, listed, removed, keys, complete)
 
 
-def _segments(question: StageProblem) -> list[Range]:
-    """Divide the denominator products into segments of about two blocks of products, counting both sides.
+def _segments(question: StageProblem) -> list[Sequence[int]]:
+    """Divide the search into segments, which together contain every pair of products within the tolerance once.
 
     Stages with equal sums are divided by their sum: eight sums in a segment for four or more stages, which are
     slow, otherwise all sums in one segment.
@@ -320,11 +301,13 @@ def _segments(question: StageProblem) -> list[Range]:
     if question.of_equal_sums:
         low, high = question.top[0] + question.beneath[0], question.top[-1] + question.beneath[-1] + 1
         return [(at, min(at + 8, high)) for at in range(low, high, 8)] if size > 3 else [(low, high)]
-    low, high = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
-    if not question.reachable or low >= high:
+    if not question.reachable:
         return []
-    products = multisets(len(question.top), size) + multisets(len(question.beneath), size)
-    number = ceil(products / (2 * _block(question)))
-    # equal steps of the logarithm contain about equal numbers of products
-    inner = {int(low * (high / low) ** (at / number)) for at in range(1, number)}
-    return list(pairwise(sorted({low, high, *inner})))
+    # more products if the tables have many rows
+    most = max(BLOCK, PER_ROW * multisets(max(len(question.top), len(question.beneath)), (size + 1) // 2))
+    whole = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
+    return [
+        (*beneath, *top)
+        for beneath in pieces(question.under, *whole, most)
+        for top in pieces(question.over, *question.tops_for(*beneath), most)
+    ]

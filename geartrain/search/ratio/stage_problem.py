@@ -6,7 +6,7 @@ The orders are total, and do not depend on the sequence in which solutions are f
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.results import Result
 from geartrain.search.ratio.product_windows import PLAIN, ProductWindows, error_places, multisets, products_of
 
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools
 
     Ints = NDArray[Any]
-    RankedRows = tuple[Ints, Ints, Ints, Ints, Ints]
 
 
 Set = tuple[int, ...]
@@ -193,11 +191,6 @@ class StageProblem:
         sums = Counter(a + b for a in self.top for b in self.beneath)
         return sum(multisets(stages, self.stages) for stages in sums.values())
 
-    def stages_of(self, total: int) -> list[tuple[int, int]]:
-        """Return all stages (numerator count, denominator count) with a given sum of counts."""
-        beneath = set(self.beneath)
-        return [(count, total - count) for count in self.top if total - count in beneath]
-
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
         """Return the part of the range [low, high) of denominator products in which a numerator product can match."""
         first, last = self.edges
@@ -221,33 +214,6 @@ class StageProblem:
         # one internal mesh is always possible unless all counts are equal, and then the ratio is 1
         ring_alone = self.fit.internal == 1 and not low <= 1 <= high
         return self.fit.free or (ring_alone and replace(self.fit, internal=0).free)
-
-    def plain(self) -> dict[str, Any]:
-        """Return the problem as plain data for JSON."""
-        return {
-            "value": fraction_text(self.value),
-            "stages": self.stages,
-            "top": list(self.top),
-            "beneath": list(self.beneath),
-            "fit": self.fit.to_dict(),
-            "by": self.by,
-            "best": self.best,
-            "tolerance": str(self.tolerance),
-        }
-
-
-def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
-    """Build the problem from the plain data of `StageProblem.plain`."""
-    return StageProblem(
-        Fraction(plain["value"]),
-        plain["stages"],
-        tuple(plain["top"]),
-        tuple(plain["beneath"]),
-        StageConstraints(**plain["fit"]),
-        plain["by"],
-        plain["best"],
-        Fraction(plain["tolerance"]),
-    )
 
 
 # ------------------------------------------------------------ pairings of the counts of two multisets to stages
@@ -366,26 +332,20 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints
     return np.zeros(len(tops), dtype=np.int64)
 
 
-def cut(rows: RankedRows, best: int, value: Fraction) -> RankedRows:
-    """Return the first `best` rows in their exact order."""
-    first, _, _, over, under = rows
-    if len(first) > best:
+def cut(rows: Ints, best: int, value: Fraction) -> Ints:
+    """Return the first `best` rows of `BestStages` in their exact order."""
+    if len(rows) > best:
         # errors in floats select slightly too many rows, which are then compared as Fractions
+        first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
         error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
         last = np.lexsort((error, first))[best - 1]
         near = error <= error[last] + _MARGIN * (1 + error[last])
-        at = np.flatnonzero((first < first[last]) | ((first == first[last]) & near))
-        rows = _rows_at(rows, at)
-    first, top, beneath, over, under = rows
-    sizes = np.maximum(top[:, -1], beneath[:, -1]), top.sum(axis=1) + beneath.sum(axis=1)
+        rows = rows[(first < first[last]) | ((first == first[last]) & near)]
+    first, over, under, *counts = rows.T
+    sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
     # lexsort takes its last key first
-    order = np.lexsort((*[*top.T, *beneath.T][::-1], *sizes, error_places(over, under, value), first))
-    return _rows_at(rows, order[:best])
-
-
-def _rows_at(rows: RankedRows, at: Ints) -> RankedRows:
-    first, top, beneath, over, under = (column[at] for column in rows)
-    return first, top, beneath, over, under
+    order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, value), first))
+    return rows[order[:best]]
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
@@ -397,26 +357,26 @@ def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fracti
 class BestStages:
     """List of the n best of all rows that are added, in bounded memory.
 
-    Rows are columns: primary criterion of the order, smaller is better, shape (n,); counts of numerator and
-    denominator, ascending in each row, shape (n, k) each; and their products, shape (n,) each.
+    The columns of a row are: primary criterion of the order, smaller is better; products of numerator and denominator;
+    counts of numerator and denominator, each ascending.
     """
 
     def __init__(self, best: int, value: Fraction) -> None:
         self.best, self.value = best, value
-        self._parts: list[RankedRows] = []
+        self._parts: list[Ints] = []
 
-    def add(self, rows: RankedRows) -> None:
+    def add(self, rows: Ints) -> None:
         """Add candidate rows to the list."""
         self._parts.append(rows)
         # several times the list length is stored between two sorts, which amortises their cost
-        if sum(len(part[0]) for part in self._parts) > max(4 * self.best, 1 << 17):
+        if sum(map(len, self._parts)) > max(4 * self.best, 1 << 17):
             self._parts = [self._settled()]
 
     def plain(self) -> list[list[Any]]:
         """Return the n best rows in order as plain data: criterion, numerator counts, denominator counts."""
-        first, top, beneath, *_ = self._settled() if self._parts else ([],) * 3
-        return [list(row) for row in zip(*(np.asarray(each).tolist() for each in (first, top, beneath)), strict=True)]
+        rows = self._settled().tolist() if self._parts else []
+        stages = (len(rows[0]) - 3) // 2 if rows else 0
+        return [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]
 
-    def _settled(self) -> RankedRows:
-        first, top, beneath, over, under = (np.concatenate(columns) for columns in zip(*self._parts, strict=True))
-        return cut((first, top, beneath, over, under), self.best, self.value)
+    def _settled(self) -> Ints:
+        return cut(np.concatenate(self._parts), self.best, self.value)

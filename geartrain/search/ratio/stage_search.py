@@ -15,7 +15,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal, plural
@@ -140,6 +140,30 @@ class StageFindings(Tabular, Result):
 
     def __getitem__(self, at: int) -> GearStages:
         return self.solutions[at]
+
+
+def stages_to_train(found: GearStages, internal: int = 0) -> dict[str, Any]:
+    """Return a declaration of a solution as plain data. The numerator wheels drive, so that the exact ratio is output
+    speed divided by input speed.
+
+    internal   number of internal pairs, which are the last pairs; the larger wheel of such a pair is a ring
+    """
+    stages = len(found.pairs)
+    links: dict[str, Any] = {"frame": {}, **{f"arbor {at}": {"wheels": {}} for at in range(1, stages + 2)}}
+    for at, pair in enumerate(found.pairs, 1):
+        for arbor, wheel, teeth in ((at, f"{at}a", pair[0]), (at + 1, f"{at}b", pair[1])):
+            ring = at > stages - internal and teeth == max(pair)
+            links[f"arbor {arbor}"]["wheels"][wheel] = {"teeth": teeth, "internal": True} if ring else teeth
+    arbors = list(links)[1:]
+    speed = found.ratio if (stages - internal) % 2 == 0 else -found.ratio
+    return {
+        "name": f"stages-{found.ratio.numerator}-{found.ratio.denominator}",
+        "links": links,
+        "revolutes": [{"pair": ["frame", arbor], "axis": arbor} for arbor in arbors],
+        "gears": [{"pair": [f"{at}a", f"{at}b"]} for at in range(1, stages + 1)],
+        "inputs": {arbors[0]: 1},
+        "outputs": {arbors[-1]: {"expect": str(speed)}},
+    }
 
 
 def find_stages(
@@ -339,11 +363,6 @@ def _question_error(what: str, why: str, fix: str) -> QuestionError:
 # ------------------------------------- explanation of short results: nearest miss and constraints to relax
 
 
-def tolerance_text(tolerance: Fraction) -> str:
-    """Format a tolerance with three or four significant digits, rounded up."""
-    return decimal(rounded_up(tolerance), 6)
-
-
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
     """Return the number of rejected pairs of multisets by reason. With the solutions they add up to `considered`."""
     removed = {f"count above {question.fit.largest}": considered - question.considered}
@@ -393,7 +412,7 @@ def in_words(key: StageRank, value: Fraction) -> str:
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
     """Yield suggestions of constraints to relax, the most certain to help first."""
     if miss.keys and miss.complete:
-        yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
+        yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():
         if reason not in (OUTSIDE, f"count above {question.fit.largest}"):
             yield f"relax the constraint that rejected {number} candidates within the tolerance ({reason})"

@@ -15,6 +15,7 @@ from geartrain.search.teeth_verb import (
     Different,
     Hunting,
     Per,
+    Pick,
     Pinions,
     Range,
     Ratio,
@@ -58,6 +59,7 @@ def run(
     maximum_total: Annotated[
         int | None, typer.Option("--max-total", min=2, help="Maximum sum of all tooth counts.")
     ] = None,
+    pick: Pick = 1,
     workers: Workers = None,
     resume: Resume = False,
     json: Json = False,
@@ -69,11 +71,11 @@ def run(
     Example: `geartrain teeth ratio 235/19 --stages 2 --tolerance 1e-4`.
     """
     from geartrain.search.ratio.stage_problem import StageConstraints
-    from geartrain.search.ratio.stage_search import find_stages
+    from geartrain.search.ratio.stage_search import find_stages, stages_to_train
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
 
-    answer = SearchAnswer.of(json, out, force)
+    answer = SearchAnswer.of(json, out, force, pick)
     wanted = read_ratio(check_number(context, ratio), per)
     larger, smaller = (read_counts(text or counts) for text in (wheels, pinions))
     most_error = read_tolerance(tolerance)
@@ -109,4 +111,4 @@ def run(
             tell=given.tell,
         )
         close_journal(given.journal, cut=not found.complete)
-    answer.give(found)
+    answer.give(found, lambda at: stages_to_train(found[at], found.fit.internal))

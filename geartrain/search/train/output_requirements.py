@@ -28,13 +28,13 @@ _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 class SpeedRequirement:
     """One requirement on the speed of an output.
 
-    label      description, such as "period 583.92 d" or "expect 2/7"
-    wanted     requested speed in the unit of the train; positive if only the magnitude is required
-    signed     False if only the magnitude is required
-    allowed    admissible speeds, closed disjoint intervals; None for all
-    graded     True if the error of the output is computed from this requirement
-    approached True if no tolerance is given, so the error is minimised
-    target     True for an astronomical target, False for an expected or published value
+    label       description, such as "period 583.92 d" or "expect 2/7"
+    wanted      requested speed in the unit of the train; positive if only the magnitude is required
+    signed      False if only the magnitude is required
+    allowed     closed disjoint intervals of admissible speeds, in the unit of the train; None if all are admissible
+    graded      True if the error of the output is computed from this requirement
+    approached  True if no tolerance is given, so that the error is minimised
+    target      True for a target, False for an expected or published value
     """
 
     label: str
@@ -79,26 +79,55 @@ class SpeedRequirement:
             return self.allowed
         # the tolerance is absolute if the requested speed is 0
         size = abs(self.wanted) or Fraction(1)
-        near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share)
+        near = (_around(self.wanted, share * size),) if self.signed else _magnitudes(self.wanted, share * size)
         return near if self.allowed is None else meet(near, self.allowed)
 
     def met(self, speed: Fraction) -> bool:
         """Return whether a speed is admissible."""
         return self.allowed is None or is_within(speed, self.allowed)
 
+    @property
+    def exact(self) -> bool:
+        """True if exactly one speed, or one magnitude, is admissible."""
+        return self.allowed is not None and all(low == high for low, high in self.allowed)
 
-def _around(middle: Fraction, half: Fraction) -> Interval:
+    def half(self, above: bool) -> Fraction | None:
+        """Return the tolerance above or below the requested speed, in the unit of the train; None if it is unlimited,
+        or if the requested speed is not admissible.
+        """
+        around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]
+        # a magnitude has equal tolerances, even if its interval extends to negative speeds
+        end = around[0][1 if above or not self.signed else 0] if around else None
+        return None if end is None else abs(end - self.wanted)
+
+    def scaled(self, factor: Fraction) -> SpeedRequirement:
+        """Return the requirement with all tolerances multiplied by a factor."""
+        if self.allowed is None or factor == 1:
+            return self
+        half = self.half(above=True)
+        if not self.signed and half is not None:
+            return replace(self, allowed=_magnitudes(self.wanted, factor * half))
+        stretched = tuple((self._moved(low, factor), self._moved(high, factor)) for low, high in self.allowed)
+        return replace(self, allowed=stretched)
+
+    def _moved(self, end: Fraction | None, factor: Fraction) -> Fraction | None:
+        return None if end is None else self.wanted + factor * (end - self.wanted)
+
+    def misfit(self, speed: Fraction) -> Fraction:
+        """Return (error / tolerance)^2; 0 for an unlimited tolerance and for an exact requirement."""
+        value = speed if self.signed else abs(speed)
+        half = self.half(value > self.wanted)
+        return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
+
+
+def _around(middle: Fraction, half: Fraction) -> tuple[Fraction, Fraction]:
     return middle - half, middle + half
 
 
-def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
-    """Return the intervals of speeds, of either sense, whose magnitude is within a relative tolerance of `wanted`."""
-    return of_either_sense(wanted * (1 - share), wanted * (1 + share))
-
-
-def of_either_sense(minimum: Fraction, most: Fraction) -> tuple[Interval, ...]:
-    """Return the intervals of speeds, of either sense, whose magnitude is from `minimum` to `most`."""
-    return ((-most, most),) if minimum <= 0 else ((-most, -minimum), (minimum, most))
+def _magnitudes(wanted: Fraction, half: Fraction) -> tuple[Interval, ...]:
+    """Return the intervals of speeds, of either sense, whose magnitude is within `half` of `wanted`."""
+    low, high = _around(wanted, half)
+    return ((-high, high),) if low <= 0 else ((-high, -low), (low, high))
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
@@ -158,8 +187,19 @@ class OutputRequirement:
         """Return a speed with its error according to the graded requirement for which the absolute error is largest."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
-        met = all(demand.met(speed) for demand in self.demands)
-        return ReachedSpeed(speed, worst.label, worst.error(speed), met)
+        return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
+
+    def scaled(self, factor: Fraction) -> OutputRequirement:
+        """Return the output with all tolerances multiplied by a factor."""
+        return replace(self, demands=tuple(demand.scaled(factor) for demand in self.demands))
+
+    def fits(self, speed: Fraction | None) -> bool:
+        """Return whether a speed satisfies all requirements; False if the speed is undetermined (None)."""
+        return speed is not None and all(demand.met(speed) for demand in self.demands)
+
+    def misfit(self, speed: Fraction) -> Fraction:
+        """Return the sum of (error / tolerance)^2 over the requirements."""
+        return sum((demand.misfit(speed) for demand in self.demands), Fraction(0))
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
@@ -200,6 +240,7 @@ def _demands(
 ) -> Iterator[SpeedRequirement]:
     requested = [target for target in output.targets if target.tolerance is not None]
     figures = output.expect is not None or output.published is not None
+    # a target without a tolerance is only used if nothing else is required, or if a common tolerance is given
     if not requested and output.targets and (tolerance is not None or not figures):
         requested = [output.targets[0]]
     if output.expect is not None:
@@ -306,6 +347,7 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
         chosen = wheel in free if not isinstance(free, str) else teeth.search is not None or free == "uncertain"
+        # the train cannot be solved without the count of a wheel, so wheels without a count are always varied
         counts = tuple(_counts(train, wheel, link, teeth)) if chosen or teeth.value is None else ()
         if counts:
             found[wheel] = counts

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import pickle
 import random
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -24,8 +25,8 @@ from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.search.integer_columns import distinct_quotients
 from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
-from geartrain.search.join.product_lists import Domains, Tallies
-from geartrain.search.join.wheel_monomials import IntervalConstraint, quotients
+from geartrain.search.join.product_lists import Domains, Tallies, forecast
+from geartrain.search.join.wheel_monomials import IntervalConstraint
 from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
 from geartrain.search.train.train_findings import Assignment, By
 
@@ -72,8 +73,7 @@ def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []
     while node is not None and (wanted > 1 or not found):
-        recipe = question.recipes[node.item]
-        runs = int(min(max(ceil(wanted), 1), quotients(recipe.top, recipe.bottom, question.domains)))
+        runs = min(max(ceil(wanted), 1), forecast(question.recipes[node.item], question.domains)[0])
         found.append((node.item, runs))
         wanted /= runs
         node = node.children[0] if len(node.children) == 1 and len(found) < 2 else None
@@ -88,56 +88,42 @@ def _digits(number: int, chain: Sequence[tuple[int, int]]) -> list[list[int]]:
     return parts
 
 
-@dataclass(frozen=True, slots=True)
-class PassWork:
-    """Data that all tasks of one pass share: the join problem, the order of solutions, and the limit of the list."""
-
-    question: JoinProblem
-    """Join problem of the pass."""
-    order: AssignmentOrder
-    """Order of the list of the best."""
-    most: int
-    """Maximum number of assignments that one task may enumerate to list the best."""
-
-    def packed(self) -> bytes:
-        """Return the data pickled for a worker process."""
-        return pickle.dumps(self)
-
-
 @lru_cache(maxsize=1)
-def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
+def _unpacked(packed: bytes) -> tuple[ExactJoin, AssignmentOrder, int]:
     # unpickled once per process and pass, not once per task
-    work = pickle.loads(packed)
-    assert isinstance(work, PassWork)
-    return work, ExactJoin(work.question)
+    question, order, most = pickle.loads(packed)
+    return ExactJoin(question), order, most
 
 
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
-    """Run one task of a search, which covers a part of the values of some variables.
+    """Run one task of a pass, which covers a part of the values of some variables.
 
-    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable; `budget`:
-           maximum number of steps; `pieces`: number of pieces, so that the results of finished pieces remain if the
-           budget is exceeded
+    packed   pickled join problem, order of the solutions, and maximum number of assignments to enumerate for the list
+    task     `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable;
+             `budget`: maximum number of steps; `pieces`: number of pieces, so that the results of finished pieces
+             remain if the budget is exceeded
 
-    The result has the keys `count`, `removed` (one number for each constraint), `listed` (True if `best` is complete),
-    `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
+    The result has the keys `count`, `removed` (number of rejected assignments by constraint), `listed` (True if `best`
+    is complete), `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
     """
-    work, join = _unpacked(packed)
-    total: dict[str, Any] = {"count": 0, "removed": [0] * len(work.question.reasons), "listed": True, "cut": False}
-    pool, spent = BestAssignments(work.order, work.question.wheels), 0
+    join, order, most = _unpacked(packed)
+    count, spent, listed, cut = 0, 0, True, False
+    removed: Counter[str] = Counter()
+    pool = BestAssignments(order, join.question.wheels)
     for slices in _slices(join, task["parts"], task["pieces"]):
         join.cut(slices, task["budget"] - spent)
         try:
-            found = _do_piece(work, join, pool, total["count"])
+            number, gone, enumerated = _do_piece(join, pool, most - count)
         except BudgetSpentError:
-            total["cut"] = True
+            cut = True
             break
         finally:
             spent += join.steps
-        total["count"] += found["count"]
-        total["removed"] = [a + b for a, b in zip(total["removed"], found["removed"], strict=True)]
-        total["listed"] &= found["listed"]
-    return total | {"best": pool.best() if total["listed"] else [], "steps": spent}
+        count += number
+        removed.update(gone)
+        listed &= enumerated
+    best = pool.best() if listed else []
+    return {"count": count, "removed": removed, "listed": listed, "best": best, "steps": spent, "cut": cut}
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
@@ -151,78 +137,30 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
             yield runs | {item: (start, min(start + step, last))}
 
 
-def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: int) -> dict[str, Any]:
-    """Count the assignments of a piece. Enumerate them only if they are to be listed or tested by late constraints."""
-    question = work.question
-    counts, gone = join.count(question.plan, join.start())
-    count = int(counts[0])
-    removed = [int(gone[at][0]) if at in gone else 0 for at in range(len(question.reasons))]
-    listed = before + count <= work.most
-    # late constraints can be tested only on complete assignments
-    if question.late or listed:
-        count = 0
-        for rows in join.stream((question.plan,), join.start()):
-            for columns in join.wheels(rows):
-                columns = _late(question, columns, removed)
-                count += len(next(iter(columns.values())))
-                pool.add(columns)
-        listed = True
-    return {"count": count, "removed": removed, "listed": listed}
+def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, Counter[str], bool]:
+    """Return the number of assignments of a piece, the numbers rejected by constraint, and whether the assignments were
+    added to the pool.
 
-
-def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int]) -> AssignmentColumns:
-    """Return the assignments that satisfy the late constraints, which are not part of the join. The numbers of
-    rejected assignments are added to `removed`.
+    They are enumerated only if there are at most `most`, or if late constraints must be tested on them.
     """
-    number = len(question.reasons) - len(question.late)
-    for at, rule in enumerate(question.late, number):
-        met = rule.holds(columns)
-        removed[at] += int((~met).sum())
-        columns = {wheel: column[met] for wheel, column in columns.items()}
-    return columns
-
-
-@dataclass(frozen=True, slots=True)
-class PassTally:
-    """Sum of the results of the tasks of a pass."""
-
-    count: int
-    """Number of assignments that satisfy all requirements."""
-    removed: tuple[int, ...]
-    """Number of assignments that each constraint rejected."""
-    best: tuple[Assignment, ...]
-    """Best assignments, best first."""
-    listed: bool
-    """False if there were too many assignments to enumerate; `best` is then empty."""
-    cut: bool
-    """True if a task exceeded its budget."""
-    stopped: bool
-    """True if the run was interrupted; the other fields include only finished tasks."""
-
-
-def merged(work: PassWork, results: Iterable[Mapping[str, Any]]) -> PassTally:
-    """Return the sum of the results of tasks; after a keyboard interrupt, the sum so far."""
-    count, listed, cut, stopped = 0, True, False, False
-    removed = [0] * len(work.question.reasons)
-    pool = BestAssignments(work.order, work.question.wheels)
-    try:
-        for result in results:
-            count += result["count"]
-            removed = [a + b for a, b in zip(removed, result["removed"], strict=True)]
-            listed, cut = listed and result["listed"], cut or result["cut"]
-            if result["best"]:
-                pool.add(dict(zip(pool.wheels, np.array(result["best"], dtype=np.int64).T, strict=True)))
-    except KeyboardInterrupt:
-        stopped = True
-    found = (dict(zip(pool.wheels, counts, strict=True)) for counts in (pool.best() if listed else ()))
-    best = tuple(one for teeth in found if (one := work.order.assignment(teeth)) is not None)
-    return PassTally(count, tuple(removed), best, listed, cut, stopped)
-
-
-NOTHING = PassTally(0, (), (), True, False, True)
-"""Result of a pass that was not started because the search was interrupted."""
-
-Tell = Callable[[int, int], None]
+    question = join.question
+    counts, gone = join.count(question.plan, join.start())
+    count, removed = int(counts[0]), Counter[str]()
+    for at, numbers in gone.items():
+        removed[question.reasons[at]] += int(numbers[0])
+    if not question.late and count > most:
+        return count, removed, False
+    count = 0
+    for rows in join.stream((question.plan,), join.start()):
+        for columns in join.wheels(rows):
+            # late constraints are not part of the join, because their wheels would have to be separate variables
+            for rule in question.late:
+                met = rule.holds(columns)
+                removed[rule.name] += int((~met).sum())
+                columns = {wheel: column[met] for wheel, column in columns.items()}
+            count += len(next(iter(columns.values())))
+            pool.add(columns)
+    return count, removed, True
 
 
 @dataclass
@@ -234,16 +172,16 @@ class PassRunner:
 
     executor: Executor | None = None
     journal: Journal | None = None
-    tell: Tell | None = None
+    tell: Callable[[int, int], None] | None = None
     done: int = 0
     stopped: bool = False
 
-    def run(self, work: PassWork, tasks: Sequence[Task]) -> PassTally:
-        """Run the tasks of a pass and return the sum of their results; an empty result if an earlier pass was
-        interrupted.
+    def run(self, work: Callable[[Task], Any], tasks: Sequence[Task]) -> Iterator[Any]:
+        """Yield the results of the tasks of a pass. After a keyboard interrupt, `stopped` is True and no further
+        results are yielded.
         """
         if self.stopped:
-            return NOTHING
+            return
         journal = None if self.journal is None else cast(Journal, _Section(self.journal, self.done))
         before, tell = self.done, self.tell
         # tasks of later passes have higher numbers in the journal
@@ -253,9 +191,10 @@ class PassRunner:
             if tell is not None:
                 tell(before + done, before + total)
 
-        tally = merged(work, run(partial(do_task, work.packed()), tasks, self.executor, journal, told))
-        self.stopped = tally.stopped
-        return tally
+        try:
+            yield from run(work, tasks, self.executor, journal, told)
+        except KeyboardInterrupt:
+            self.stopped = True
 
     def release(self) -> None:
         """Remove executor, journal and progress function, so that later computations run in this process."""
@@ -280,44 +219,33 @@ class _Section:
         self._journal.keep(task + self._offset, mark, text)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class PassResult:
-    """Result of one pass of a search: the counts, the best assignments, and the fraction of the assignments
-    searched.
-    """
+    """Result of one pass of a search: sums over its tasks, and the best assignments."""
 
-    share: Fraction | None
+    share: Fraction | None = None
     """Common relative tolerance of the pass; None without a common tolerance."""
-    searched: float
-    """Fraction of the assignments that the tasks cover: below 1 for a random sample, 0 if the pass was not
-    started.
-    """
-    tally: PassTally
-    """Counts and the best assignments."""
-    reasons: tuple[str, ...] = ()
-    """Names of the constraints that reject assignments, in the order of `tally.removed`."""
-    order: tuple[int, ...] = ()
-    """Indices of the reasons in the order in which they are evaluated."""
+    searched: float = 1.0
+    """Fraction of the assignments that the tasks cover: below 1 for a random sample."""
     steps: float = 0.0
     """Estimated number of partial assignments to examine."""
+    count: int = 0
+    """Number of assignments that satisfy all requirements."""
+    removed: dict[str, int] = field(default_factory=dict)
+    """Number of assignments that each constraint rejected, by its name, in the order of evaluation."""
+    best: tuple[Assignment, ...] = ()
+    """Best assignments, best first."""
+    listed: bool = True
+    """False if there were too many assignments to enumerate; `best` is then empty."""
+    cut: bool = False
+    """True if a task exceeded its budget."""
+    stopped: bool = False
+    """True if the run was interrupted; the sums then include only finished tasks."""
 
     @property
     def complete(self) -> bool:
         """True if every assignment was considered."""
-        return self.searched == 1 and not self.tally.cut and not self.tally.stopped
-
-    @property
-    def removed(self) -> dict[str, int]:
-        """Number of assignments rejected for each reason, in the order of evaluation."""
-        found: dict[str, int] = {}
-        for at in self.order:
-            reason = self.reasons[at]
-            found[reason] = found.get(reason, 0) + (self.tally.removed[at] if self.tally.removed else 0)
-        return found
-
-
-NOT_BEGUN = PassResult(None, 0.0, NOTHING)
-"""Result of a pass that was not started because of an interrupt."""
+        return self.searched == 1 and not self.cut and not self.stopped
 
 
 @dataclass
@@ -332,7 +260,6 @@ class PartSearch:
     removed_first: tuple[tuple[str, int], ...] = field(init=False)
     domains: Domains = field(init=False)
     rules: tuple[CountConstraint, ...] = field(init=False)
-    _sample: SelectivitySample | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         """Apply the constraints on single wheels to their counts."""
@@ -345,13 +272,6 @@ class PartSearch:
                 domains = narrowed  # later constraints are counted on what is left
         self.removed_first, self.domains = tuple(alone), domains
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
-
-    @property
-    def sample(self) -> SelectivitySample:
-        """Random sample of assignments, used to estimate probabilities."""
-        if self._sample is None:
-            self._sample = SelectivitySample.of(self.domains)
-        return self._sample
 
     def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
         """Return the search without the constraints of this name, or without this requirement on an output."""
@@ -369,8 +289,9 @@ class PartSearch:
 
     def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
         """Estimate the fraction of assignments that satisfies each constraint and each requirement."""
-        probabilities = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
-        return probabilities | {one.name: self.sample.of_demand(one) for one in requested}
+        sample = SelectivitySample.of(self.domains)
+        probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
+        return probabilities | {one.name: sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """Run one pass: count all solutions, and list the best if there are at most `most`.
@@ -379,14 +300,26 @@ class PartSearch:
         strict   True to exclude the ends of intervals
         """
         if not size_of(self.domains):
-            return PassResult(share, 1.0, PassTally(0, (), (), True, False, False))
+            return PassResult(share)
         requested = self.requested(share, strict)
         question = find_join_problem(self.domains, requested, self.rules, self.probabilities(requested))
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
-        work = PassWork(question, self.order, int(min(most, 1 << 62)))
-        tally = self.runner.run(work, tasks)
-        return PassResult(share, searched, tally, question.reasons, question.order, question.steps)
+        packed = pickle.dumps((question, self.order, int(min(most, 1 << 62))))
+        removed = dict.fromkeys((question.reasons[at] for at in question.order), 0)
+        found = PassResult(share, searched, question.steps, removed=removed)
+        pool = BestAssignments(self.order, question.wheels)
+        for result in self.runner.run(partial(do_task, packed), tasks):
+            found.count += result["count"]
+            for reason, number in result["removed"].items():
+                removed[reason] += number
+            found.listed, found.cut = found.listed and result["listed"], found.cut or result["cut"]
+            if result["best"]:
+                pool.add(dict(zip(pool.wheels, np.array(result["best"], dtype=np.int64).T, strict=True)))
+        found.stopped = self.runner.stopped
+        best = (self.order.assignment(dict(zip(pool.wheels, counts, strict=True))) for counts in pool.best())
+        found.best = tuple(one for one in best if one is not None) if found.listed else ()
+        return found
 
 
 def size_of(domains: Domains) -> int:

@@ -6,16 +6,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import ceil, floor, prod
+from math import ceil, floor
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.numerics.bounded_polynomials import WholeTerm
 from geartrain.numerics.exact import decimal, log10
 from geartrain.numerics.work import Journal
 from geartrain.search.constraints.assembly_constraints import find_constraints
 from geartrain.search.constraints.constraint_options import ConstraintOptions
 from geartrain.search.constraints.count_conditions import CountConstraint
-from geartrain.search.join.wheel_monomials import Interval
 from geartrain.search.search_outcome import Shortfall
 from geartrain.search.train.output_requirements import (
     OutputRequirement,
@@ -24,7 +22,7 @@ from geartrain.search.train.output_requirements import (
     find_parts,
     find_requirements,
 )
-from geartrain.search.train.search_passes import NOT_BEGUN, AssignmentOrder, PartSearch, PassResult, PassRunner, size_of
+from geartrain.search.train.search_passes import AssignmentOrder, PartSearch, PassResult, PassRunner, size_of
 from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.train import Train
 
@@ -35,7 +33,7 @@ _LISTED = 100_000
 """Maximum number of assignments that are enumerated to find the best by error. If there are more, the tolerance is
 reduced.
 """
-_TRIES = 40  # maximum number of passes with different tolerances
+_FIRST = Fraction(1, 10**6)  # first tolerance, which is changed by factors of ten
 _MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
 _WIDEST = Fraction(10**6)
 
@@ -44,14 +42,15 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
     """Return the pass that counts the solutions, the best assignments, and whether they are proved to be the best."""
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
-        return passed, passed.tally.best, passed.tally.listed and passed.complete
+        return passed, passed.best, passed.listed and passed.complete
     # only the order by error can be narrowed by a tolerance if there are too many solutions to list
     by_error = search.order.by == "error" and not search.order.level
+    # an assignment that is listed costs several times as much as a step of the count
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
-    if passed.tally.listed or not passed.complete:
-        return passed, passed.tally.best, passed.tally.listed and passed.complete
+    if passed.listed or not passed.complete:
+        return passed, passed.best, passed.listed and passed.complete
     narrowed = widened(search)
-    return passed, narrowed.tally.best, by_error and narrowed.tally.listed and narrowed.complete
+    return passed, narrowed.best, by_error and narrowed.listed and narrowed.complete
 
 
 def widened(search: PartSearch) -> PassResult:
@@ -61,59 +60,31 @@ def widened(search: PartSearch) -> PassResult:
     If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
     enumerate within its limit.
     """
-    guess, short = _initial_tolerance(search), Fraction(0)
+    share, short = _FIRST, Fraction(0)
     long: Fraction | None = None  # a tolerance that includes too many to list
-    for _ in range(_TRIES):
-        share = _rounded(guess)
-        if share < _MINIMUM or share > _WIDEST or (long is not None and not short < share < long):
-            break
+    while _MINIMUM <= share <= _WIDEST and (long is None or short < share < long):
         passed = search.run(share, _list_limit(search))
-        enough = passed.tally.count >= search.order.best
-        if not passed.complete or (enough and passed.tally.listed):
+        enough = passed.count >= search.order.best
+        if not passed.complete or (enough and passed.listed):
             return passed
         if enough:
             long = share
-            guess = long / 8
         else:
             short = share
-            guess = share * _growth(search, passed.tally.count)
         if short and long is not None:
-            # bisection of the logarithm, between too few and too many
-            guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
+            # bisection of the logarithm, between too few and too many; two digits are easy to print
+            share = Fraction(f"{10 ** ((log10(short) + log10(long)) / 2):.1e}")
+        else:
+            share = share / 10 if enough else share * 10
+    # there are fewer assignments than requested
     if long is None:
         return search.run(None, search.limit / 8)
+    # too many assignments have equal errors
     return search.run(long if short else Fraction(0), search.limit / 8)
 
 
 def _list_limit(search: PartSearch) -> int:
     return max(_LISTED, 4 * search.order.best)
-
-
-def _count_inexact(search: PartSearch) -> int:
-    """Return the number of outputs whose error is not necessarily 0."""
-    return sum(not requirement.exact for requirement in search.part.requirements)
-
-
-def _initial_tolerance(search: PartSearch) -> Fraction:
-    """Estimate the relative tolerance that includes about three times the requested number of assignments."""
-    trial = Fraction(1, 1000)
-    # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
-    hits = size_of(search.domains) * prod(search.probabilities(search.requested(trial)).values())
-    # 1e-300: a forecast may underflow to 0 in float64
-    guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_count_inexact(search), 1))
-    return Fraction(min(max(guess, 1e-12), 1.0))
-
-
-def _growth(search: PartSearch, count: int) -> Fraction:
-    """Return the factor by which to increase the tolerance if only `count` assignments were found."""
-    # nothing found: the maximum step
-    missing = 3 * search.order.best / count if count else 1e9
-    return Fraction(min(10.0, max(1.5, missing ** (1 / max(_count_inexact(search), 1)))))
-
-
-def _rounded(share: Fraction) -> Fraction:
-    """Round a tolerance to two significant digits, so that it is easy to print."""
-    return Fraction(f"{float(share):.1e}")
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
@@ -133,7 +104,7 @@ def relaxed_search(search: PartSearch) -> PartSearch:
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
     """Return the rejected assignments of a pass by reason; without a solution also the nearest miss and suggestions."""
     found = tallied(search, passed)
-    if passed.tally.count or not passed.complete:
+    if passed.count or not passed.complete:
         return found
     # the explanation must not cost more than the search
     nearest, advice = _explain(PartSearch(search.part, search.order, search.runner, search.limit / 4))
@@ -150,7 +121,7 @@ def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
 
 def _explain(search: PartSearch) -> tuple[str, str]:
     """Return the nearest miss and suggestions of constraints to relax, as text."""
-    wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(requirement)]
+    wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(search, requirement)]
     if wrong:
         names = ", ".join(f"'{requirement.name}'" for requirement in wrong)
         return f"{names} turn in the opposite sense for all counts", "change the required sign, or add an idler"
@@ -165,28 +136,12 @@ def _explain(search: PartSearch) -> tuple[str, str]:
     return nearest, advice + (f"; {others}" if others else "")
 
 
-def _has_wrong_sense(requirement: OutputRequirement) -> bool:
-    """Return whether no tooth counts give the required sense of rotation."""
-    requested = requirement.requested(None)
-    senses = [_sense(terms) for terms in (requirement.function.numerator, requirement.function.denominator)]
-    if requested is None or not all(senses):
-        return False
-    lasting = senses[0] * senses[1]  # sign of the speed for all counts
-    return bool(requested.intervals) and all(_is_opposite(interval, lasting) for interval in requested.intervals)
-
-
-def _is_opposite(interval: Interval, sense: int) -> bool:
-    """Return whether an interval has only speeds of the sense opposite to `sense`."""
-    low, high = interval
-    # an interval that ends at 0 includes rest, so it is not only of the opposite sense
-    near, far = (high, low) if sense > 0 else (low, high)
-    return near is not None and near * sense <= 0 and far != 0
-
-
-def _sense(terms: Sequence[WholeTerm]) -> int:
-    """Return the common sign of all terms, 1 or -1; 0 if they have different signs."""
-    signs = {term[0] > 0 for term in terms}
-    return (1 if signs.pop() else -1) if len(signs) == 1 else 0
+def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool:
+    """Return whether no tooth counts give the required sense of rotation of an output."""
+    loose = replace(requirement, demands=tuple(demand.loosened() for demand in requirement.demands))
+    part = replace(search.part, requirements=(loose,), conditions=(), rules=())
+    passed = PartSearch(part, replace(search.order, requirements=(loose,)), search.runner, search.limit).run(None, 0)
+    return passed.complete and not passed.count
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
@@ -196,7 +151,7 @@ def _nearest(search: PartSearch) -> Assignment | None:
     """
     if not search.part.requirements or not size_of(search.domains):
         return None
-    best = widened(relaxed_search(search)).tally.best
+    best = widened(relaxed_search(search)).best
     return search.order.assignment(best[0].teeth) if best else None
 
 
@@ -220,16 +175,16 @@ def _relaxations(search: PartSearch) -> Iterator[str]:
     for name in names:
         # 0: the solutions are counted, not listed
         passed = search.without(rule=name).run(None, 0)
-        if passed.tally.count:
+        if passed.count:
             yield f'without the constraint "{name}" there {_solution_count(passed)}'
     for requirement in search.part.requirements:
         passed = search.without(requirement=requirement).run(None, 0)
-        if passed.tally.count:
+        if passed.count:
             yield f"without the requirement on '{requirement.name}' there {_solution_count(passed)}"
 
 
 def _solution_count(passed: PassResult) -> str:
-    count = passed.tally.count
+    count = passed.count
     minimum = "" if passed.complete else "at least "
     return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
 
@@ -380,7 +335,7 @@ def _found(search: PartSearch) -> PartFindings:
         passed, solutions, ranked = solve(search)
     except KeyboardInterrupt:
         search.runner.stopped = True
-        passed, solutions, ranked = NOT_BEGUN, (), False
+        passed, solutions, ranked = PassResult(stopped=True), (), False
     part = search.part
     return PartFindings(
         tuple(part.domains),
@@ -388,7 +343,7 @@ def _found(search: PartSearch) -> PartFindings:
         tuple(requirement.text for requirement in part.requirements),
         tuple(dict.fromkeys(rule.name for rule in part.rules)),
         part.considered,
-        passed.tally.count,
+        passed.count,
         passed.share,
         passed.complete,
         ranked,
@@ -408,13 +363,13 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
     """Return why the search of a part is not complete or its solutions are not ranked; "" if neither applies."""
-    if passed.tally.stopped:
+    if passed.stopped:
         return "interrupted: the count covers only the finished part"
     if passed.searched < 1:
         share = decimal(Fraction(passed.searched), 2)
         limit = f"{search.limit:.1e}"
         return f"about {passed.steps:.1e} steps, above the limit of {limit}: a random share of {share} was searched"
-    if passed.tally.cut:
+    if passed.cut:
         return f"the limit of {search.limit:.1e} steps was reached"
     if not ranked and search.runner.stopped:
         return "interrupted: all solutions are counted, the best are not listed"
@@ -467,4 +422,4 @@ def _rank(search: PartSearch, assignment: Assignment) -> int | None:
         return 1
     # strict: assignments with an equal error are not counted
     passed = search.run(assignment.error, 0, strict=True)
-    return passed.tally.count + 1 if passed.complete else None
+    return passed.count + 1 if passed.complete else None

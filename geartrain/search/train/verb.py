@@ -52,46 +52,13 @@ def run(
         ),
     ] = None,
     clearance: Clearance = None,
-    undercut: Annotated[
-        str | None,
-        typer.Option("--undercut", help="Pressure angle, such as 20deg, at which no external wheel may be undercut."),
-    ] = None,
-    interference: Annotated[
-        str | None,
-        typer.Option("--interference", help="Pressure angle, such as 20deg, at which tooth tips must not interfere."),
-    ] = None,
     largest_radius: Annotated[
         str | None,
         typer.Option("--max-radius", help="Maximum pitch radius of a varied wheel: a length, or a number of modules."),
     ] = None,
-    addendum: Annotated[
-        str | None, typer.Option("--addendum", help="Addendum of external wheels, in modules; default: 1.")
-    ] = None,
-    ring_addendum: Annotated[
-        str | None,
-        typer.Option("--ring-addendum", help="Addendum of ring gears, in modules; default: as for external wheels."),
-    ] = None,
-    minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a varied wheel.")] = None,
-    maximum_teeth: Annotated[
-        int | None, typer.Option("--max-teeth", help="Maximum tooth count of a varied wheel.")
-    ] = None,
     shift: Shift = 0,
-    coaxial: Annotated[
-        bool | None,
-        typer.Option(
-            "--coaxial/--no-coaxial",
-            help="Require equal centre distances for all pairs that connect the same two axes.",
-        ),
-    ] = None,
     hunting: Hunting = False,
     different: Different = False,
-    closure: Annotated[
-        bool,
-        typer.Option(
-            "--closure",
-            help="Require that meshing wheels reach each other and teeth of loops mesh at the declared positions.",
-        ),
-    ] = False,
     where: Annotated[
         Names,
         typer.Option(
@@ -122,18 +89,10 @@ def run(
     rules = read_constraint_options(
         planets=planets,
         clearance=clearance,
-        undercut=undercut,
-        interference=interference,
         largest_radius=largest_radius,
-        addendum=addendum,
-        ring_addendum=ring_addendum,
-        minimum=minimum,
-        maximum_teeth=maximum_teeth,
         shift=shift,
-        coaxial=coaxial,
         hunting=hunting,
         different=different,
-        closure=closure,
     )
     most_error = read_tolerance(tolerance)
     assignments = [_assignment(text) for text in where or ()]

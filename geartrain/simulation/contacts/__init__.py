@@ -6,7 +6,7 @@ separation_rate     rate of the input at which teeth first separate (`find_separ
 time_case           inertia, drag, restitution and the drive of a train in one state
 train_model         train as coordinates and contacts, with ideal pairs eliminated exactly
 compliant_train     train model with stiffness and damping of teeth
-contact_model       coordinates, contacts, bearings, stops and springs in solved order: the arrays of the kernels
+contact_model       coordinates, contacts, bearings, stops and springs, and their arrays for the kernels
 pair_tables         transmission functions as tables of polynomials between kinks
 rubbing_arms        friction of teeth and pins as an addition to the lever arm of the driver
 """

@@ -1,7 +1,7 @@
 """Train with compliant teeth: the contacts of `TrainModel`, each with stiffness and damping, and the vibration modes.
 
-M x'' + C x' + K x = 0 about contact, docs/dynamics.md (19), where K = sum k r^T r over touching pairs and the springs
-of drives. r is the row of speeds by which a pair closes, with ratios at their means.
+Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, docs/dynamics.md (19), where K = sum k r^T r over
+all pairs and the springs of drives. r is the row of a pair's opening speed at its mean speed ratio.
 
 Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
 wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, cos, exp, log, sqrt
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,18 +28,15 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.quantity import Quantity
     from geartrain.simulation.contacts.contact_model import ContactPair
-    from geartrain.simulation.contacts.rubbing_arms import Arms
-    from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.transmission import ExactRatio
-    from geartrain.train import GearPair, Train
+    from geartrain.teeth.pin_coupling import Coupling
+    from geartrain.train import GearPair
 
 
 DAMPING_RATIO = 0.05
 """Damping ratio of a pair without declared damping and restitution, of the order measured on spur gears."""
 
-_MINIMUM = (
-    0.05  # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
-)
+# minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
+_MINIMUM = 0.05
 _SINGLE = 14e9
 """Stiffness of one pair of steel teeth in contact by face width [N/m2]: ISO 6336-1, method B, simplified."""
 
@@ -53,60 +50,33 @@ class CompliantTrain(TrainModel):
 
     restitution: float | None = None
 
-    @cached_property
-    def table(self) -> ToothComplianceTable:
-        """Stiffness and damping of the pairs of the train."""
-        driven = {}
-        for gear in self.train.gears:
-            first, second = gear.pair
-            driver = self.problem.drivers.get(gear.name)
-            driven[gear.name] = first if driver is not None and driver.wheel == second else second
-        return ToothComplianceTable(self.train, self._meshes, driven, self.restitution)
-
     def _is_contact(self, circuit: Circuit) -> bool:
         # a pair without stiffness keeps its ratio unless the rigid model makes it a contact
-        return circuit.id in self.table.pairs or super()._is_contact(circuit)
-
-    def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
-        return (
-            None if self._gears[circuit.id].efficiency is None else super()._constant_ratio_arms(circuit, transmission)
-        )
+        return circuit.id in self.compliances or super()._is_contact(circuit)
 
     @property
     def assumed(self) -> tuple[str, ...]:
         """Notes on the estimates that replace undeclared stiffness and damping."""
-        names = [pair.name for pair in self.model.pairs]
-        yields = [self.table.pairs[name] for name in names]
-        notes = [each.note for each in yields if each.note]
-        assumed = [
-            name
-            for name, each in zip(names, yields, strict=True)
-            if each.damping is None and self.restitution is None and self._undeclared(name)
-        ]
-        if assumed:
-            ratio = self.table.pairs[assumed[0]].ratio
+        found = {pair.name: self.compliances[pair.name] for pair in self.model.pairs}
+        notes = [each.note for each in found.values() if each.note]
+        if assumed := [name for name, each in found.items() if each.assumes_ratio]:
             notes.append(
-                f"damping of {', '.join(assumed)} taken as {ratio:g} of the critical damping, because none is declared"
+                f"damping of {', '.join(assumed)} taken as {DAMPING_RATIO:g} of the critical damping, because none is "
+                "declared"
             )
         return tuple(notes)
 
-    def _undeclared(self, name: str) -> bool:
-        parts = {part.name: part for part in (*self.train.gears, *self.train.couplings)}
-        return self.train.restitution_of(parts[name]) is None
-
     @cached_property
-    def pair_compliances(self) -> tuple[PairCompliance, ...]:
-        """Stiffness and damping of each pair of the contact model.
+    def yields(self) -> ToothCompliance:
+        """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays.
 
         Raises `QuestionError` if a stiffness is missing, and for escapements.
         """
         if self.case.escapements:
             what = f"'{self.train.name}' has an escapement, which compliant teeth do not support"
-            raise QuestionError(
-                Problem(what, "the stops of an escapement are rigid", "use rigid teeth (`--model rigid`)")
-            )
-        lacking = [pair.name for pair in self.model.pairs if pair.name not in self.table.pairs]
-        if lacking:
+            why = "the stops of an escapement are rigid"
+            raise QuestionError(Problem(what, why, "use rigid teeth (`--model rigid`)"))
+        if lacking := [pair.name for pair in self.model.pairs if pair.name not in self.compliances]:
             what = f"the stiffness of {', '.join(lacking)} is not known"
             why = (
                 "it is estimated only for involute wheels of steel, brass or bronze with known module, thickness and "
@@ -114,21 +84,17 @@ class CompliantTrain(TrainModel):
             )
             fix = "declare the stiffness of pairs or the train, such as `stiffness: 20 N m/rad` (pins: only N m/rad)"
             raise QuestionError(Problem(what, why, fix))
-        return tuple(self.table.pairs[pair.name] for pair in self.model.pairs)
-
-    @cached_property
-    def yields(self) -> ToothCompliance:
-        """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays."""
-        stiffness = np.array([each.stiffness for each in self.pair_compliances], dtype=np.float64)
-        damping = [
-            # damping from the damping ratio: c = 2 zeta sqrt(k m)
-            2 * each.ratio * np.sqrt(each.stiffness * self._inertia(self._row(pair)))
-            if each.damping is None
-            # declared
-            else each.damping
-            for pair, each in zip(self.model.pairs, self.pair_compliances, strict=True)
-        ]
-        return ToothCompliance(stiffness, np.array(damping, dtype=np.float64))
+        stiffness, damping = np.zeros(len(self.model.pairs)), np.zeros(len(self.model.pairs))
+        for at, pair in enumerate(self.model.pairs):
+            own = self.compliances[pair.name]
+            stiffness[at] = own.stiffness
+            # damping that is not declared follows from the damping ratio: c = 2 zeta sqrt(k m)
+            damping[at] = (
+                2 * own.ratio * sqrt(own.stiffness * self._inertia(self._row(pair)))
+                if own.damping is None
+                else own.damping
+            )
+        return ToothCompliance(stiffness, damping)
 
     @cached_property
     def free(self) -> list[int]:
@@ -136,15 +102,8 @@ class CompliantTrain(TrainModel):
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
     def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients of a pair's opening speed in the speeds of the coordinates, at the mean speed
-        ratio.
-        """
-        row = np.zeros(len(self.coordinates))
-        for at, value in pair.driven.items():
-            row[at] += value
-        for at, value in pair.driver.items():
-            row[at] -= pair.front.slope * value
-        return row
+        """Return the coefficients of a pair's opening speed at the mean speed ratio."""
+        return pair.opening_row(len(self.coordinates), pair.front.slope)
 
     def _inertia(self, row: Floats) -> float:
         """Return the effective inertia of a pair's row [kg m2], 1/(r M^-1 r^T); 0 if all its speeds are prescribed."""
@@ -178,9 +137,8 @@ class CompliantTrain(TrainModel):
         if not self.free:
             what = f"'{self.train.name}' cannot vibrate"
             why = "all its links have constant speed ratios to the drive"
-            raise QuestionError(
-                Problem(what, why, "declare the stiffness of a pair or of the train, such as `stiffness: 20 N m/rad`")
-            )
+            fix = "declare the stiffness of a pair or of the train, such as `stiffness: 20 N m/rad`"
+            raise QuestionError(Problem(what, why, fix))
         mass, _, stiffness = self.matrices
         # the mass matrix is positive definite, as checked by `mass`
         squares, modes = eigh(stiffness, mass)
@@ -201,61 +159,35 @@ class CompliantTrain(TrainModel):
             rates.append(float(c) / inertia / 2 if inertia else 0.0)
         return max(float(np.sqrt(self.vibration[0][-1])), *rates)
 
-
-# --------------------------------------------------------------------------------------- stiffness and damping of pairs
-
-
-@dataclass(frozen=True)
-class PairCompliance:
-    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
-
-    stiffness: float
-    source: Literal["declared", "estimated"]
-    """Source of the stiffness; `note` describes the estimate."""
-    damping: float | None
-    """Damping [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
-    ratio: float
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class ToothComplianceTable:
-    """Stiffness and damping of the pairs of a train, declared or estimated."""
-
-    train: Train
-    meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth by name; `driven` has the driven wheel of each pair."""
-    driven: Mapping[str, str]
-    restitution: float | None = None
-    """Coefficient of restitution of every pair; None for the declared values."""
+    # ----------------------------------------------------------------------------------- stiffness and damping of pairs
 
     @cached_property
-    def pairs(self) -> Mapping[str, PairCompliance]:
+    def compliances(self) -> Mapping[str, PairCompliance]:
         """Stiffness and damping by pair or coupling, where the stiffness is declared or can be estimated."""
         found = {}
         for gear in self.train.gears:
-            ratio = self._ratio(gear)
             stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
             if stiffness is not None:
+                estimate: tuple[float, str] | None = self._about_driven(gear, stiffness, "stiffness"), ""
+            else:
+                estimate = self._estimate(gear)
+            if estimate is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
-                value = self._about_driven(gear, stiffness, "stiffness")
-                found[gear.name] = PairCompliance(value, "declared", own, ratio)
-            elif (estimate := self._estimate(gear)) is not None:
-                own = None if damping is None else self._about_driven(gear, damping, "damping")
-                found[gear.name] = PairCompliance(estimate[0], "estimated", own, ratio, estimate[1])
-        for coupling in self.train.couplings:
-            stiffness, damping = self.train.stiffness, self.train.damping
-            if stiffness is not None and stiffness.dimension == "torsional stiffness":
-                turning = damping is not None and damping.dimension == "torsional damping"
-                own = damping.si if damping is not None and turning else None
-                found[coupling.name] = PairCompliance(stiffness.si, "declared", own, self._ratio(coupling))
+                found[gear.name] = self._compliance(gear, *estimate, own)
+        stiffness, damping = self.train.stiffness, self.train.damping
+        if stiffness is not None and stiffness.dimension == "torsional stiffness":
+            turning = damping is not None and damping.dimension == "torsional damping"
+            own = damping.si if damping is not None and turning else None
+            for coupling in self.train.couplings:
+                found[coupling.name] = self._compliance(coupling, stiffness.si, "", own)
         return found
 
-    def _ratio(self, part: GearPair | object) -> float:
-        restitution = self.restitution
-        if restitution is None:
-            restitution = self.train.restitution_of(part)  # type: ignore[arg-type]
-        return DAMPING_RATIO if restitution is None else damping_ratio(restitution)
+    def _compliance(
+        self, part: GearPair | Coupling, stiffness: float, note: str, damping: float | None
+    ) -> PairCompliance:
+        restitution = self.train.restitution_of(part) if self.restitution is None else self.restitution
+        ratio = DAMPING_RATIO if restitution is None else damping_ratio(restitution)
+        return PairCompliance(stiffness, damping, ratio, damping is None and restitution is None, note)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
         """Convert a stiffness or damping to the driven wheel's axis [N m/rad or N m s/rad]."""
@@ -272,8 +204,10 @@ class ToothComplianceTable:
 
     def _arm(self, gear: GearPair) -> float | None:
         """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is not known."""
-        wheel = self.driven[gear.name]
-        mesh = self.meshes.get(gear.name)
+        first, second = gear.pair
+        driver = self.problem.drivers.get(gear.name)
+        wheel = first if driver is not None and driver.wheel == second else second
+        mesh = self._meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
         module = mesh.wheels.module if mesh is not None else None
         if module is None:
@@ -287,9 +221,9 @@ class ToothComplianceTable:
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
         """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
-        method.
+        method; None for other teeth.
         """
-        mesh, arm = self.meshes.get(gear.name), self._arm(gear)
+        mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
         wheels = [self.train.wheels[name][1] for name in gear.pair]
@@ -307,6 +241,20 @@ class ToothComplianceTable:
             f"{elastic / _STEEL:.2g} by Young's modulus"
         )
         return _SINGLE * elastic / _STEEL * width * arm**2, note
+
+
+@dataclass(frozen=True)
+class PairCompliance:
+    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
+
+    stiffness: float
+    damping: float | None
+    """Damping [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
+    ratio: float
+    assumes_ratio: bool
+    """True if neither damping nor restitution is declared, so that `ratio` is the default."""
+    note: str
+    """Description of the estimate of the stiffness; empty if the stiffness is declared."""
 
 
 def restitution_at(ratio: float) -> float:

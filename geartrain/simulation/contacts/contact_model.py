@@ -1,9 +1,7 @@
-"""Model of a train for the kernels: coordinates, contacts, bearings, stops and springs, with an elimination order.
+"""Model of a train for the kernels: coordinates, contacts, bearings, stops and springs.
 
 The coordinates are the independent motions while no contact touches. A pair has two rows over the coordinates: the
-speeds of its driver and of its driven side in forward angles. In the solved order each touching pair determines one
-coordinate from earlier coordinates; this coordinate appears on only one side of the pair. Prescribed coordinates come
-first.
+speeds of its driver and of its driven side in forward angles.
 """
 
 from __future__ import annotations
@@ -24,9 +22,7 @@ if TYPE_CHECKING:
 Form = Mapping[int, float]
 """Linear form of the coordinates: coefficient by index of the coordinate."""
 
-# a row that determines no coordinate is regularised: its inverse compliance exceeds the inertia of all that turns
-# with it by the first factor, and that of its own coordinates by at most the second
-_STIFF, _STIFFEST = 1e6, 1e9
+_STIFF = 1e6  # inverse compliance of a contact between prescribed coordinates, relative to the inertia of the train
 
 
 @dataclass(frozen=True)
@@ -43,9 +39,8 @@ class ContactPair:
     front: TabledFunction
     """Driven angle as a function of the driver's angle, in contact on the drive flank [rad]."""
     back: TabledFunction
-    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; for a pair without
-    backlash it is
-    the same object as `front`.
+    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; the same object as `front`
+    for a pair without backlash.
     """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
@@ -63,15 +58,9 @@ class ContactPair:
         """True if the pair has no backlash."""
         return self.front is self.back
 
-    @property
-    def row(self) -> tuple[int, ...]:
-        """Indices of the coordinates of both sides."""
-        return tuple(dict.fromkeys((*self.driven, *self.driver)))
-
-    def could_determine(self, coordinate: int) -> bool:
-        """Return True if exactly one side contains the coordinate, with a coefficient that never vanishes."""
-        driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
-        return driven != driver and (driven or self.has_no_dwell)
+    def opening_row(self, n: int, ratio: float) -> Floats:
+        """Return the coefficients of the opening speed in the speeds of the n coordinates, at a speed ratio."""
+        return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 
 @dataclass(frozen=True)
@@ -97,9 +86,9 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates [N m/rad,
-    rad,
-    rad/s].
+    """Spring that exerts the torque stiffness (rest + rate t - angle) on a linear form of the coordinates.
+
+    Units are N m/rad, rad and rad/s.
     """
 
     name: str
@@ -107,16 +96,6 @@ class Spring:
     stiffness: float
     rest: float = 0.0
     rate: float = 0.0
-
-
-class SolvedOrder(NamedTuple):
-    """Order in which the kernels eliminate the coordinates, and the pair that determines each coordinate.
-
-    `owner` is the index of the pair that determines each coordinate, -1 for none.
-    """
-
-    coordinates: tuple[int, ...]
-    owner: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -138,39 +117,6 @@ class ContactModel:
     stops: Sequence[Stop] = ()
     springs: Sequence[Spring] = ()
     start: Floats | None = field(default=None)
-
-    @cached_property
-    def order(self) -> SolvedOrder:
-        """Order in which the coordinates are eliminated, and the pair that determines each coordinate.
-
-        A pair whose row has one undetermined coordinate determines it; if no pair has, one coordinate is left free.
-        """
-        # prescribed coordinates first, because nothing determines them
-        order = list(self.given)
-        owner = [-1] * len(order)
-        left = list(range(len(self.pairs)))
-        while left:
-            found = False
-            for m in list(left):
-                unknown = [each for each in self.pairs[m].row if each not in order]
-                if len(unknown) > 1:
-                    continue
-                left.remove(m)
-                if unknown and self.pairs[m].could_determine(unknown[0]):
-                    order.append(unknown[0])
-                    owner.append(m)
-                    found = True
-            # no pair has a single unknown: free a coordinate, preferably one that no pair determines
-            if not found and left:
-                driven = {each for m in left for each in self.pairs[m].row if self.pairs[m].could_determine(each)}
-                rows = [each for m in left for each in self.pairs[m].row if each not in order]
-                order.append(next((each for each in rows if each not in driven), rows[0]))
-                owner.append(-1)
-        # coordinates that appear in no pair
-        rest = [each for each in range(len(self.torque)) if each not in order]
-        order += rest
-        owner += [-1] * len(rest)
-        return SolvedOrder(tuple(order), tuple(owner))
 
     @property
     def fall_times(self) -> list[float]:
@@ -216,88 +162,71 @@ class ContactModel:
     def system(self, step: float, yields: ToothCompliance | None = None) -> ContactSystem:
         """Return the arrays of the kernels for the time step `step` [s].
 
-        yields   stiffness and damping of compliant teeth, for the midpoint rule, in which every pair is a compliant row
-                 and determines no coordinate; None for rigid teeth
+        yields   stiffness and damping of compliant teeth, for the midpoint rule; None for rigid teeth
         """
-        order, n = self.order, len(self.torque)
-        place = {each: at for at, each in enumerate(order.coordinates)}
-        mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
+        n, coordinates = len(self.torque), range(len(self.torque))
         # implicit in drag and springs, so that stiff ones remain stable; the midpoint rule weighs them by h/2 and h^2/4
         past = step if yields is None else step / 2
-        matrix = mass + past * viscous
+        matrix = self.mass + past * self.viscous
         for spring in self.springs:
-            c = np.zeros(n)
-            for each, value in spring.angle.items():
-                c[place[each]] = value
+            c = _dense(spring.angle, n)
             matrix = matrix + past**2 * spring.stiffness * np.outer(c, c)
         _, transmissions, rubbing = self._functions
         if yields is None:
-            stiff = [0.0 if m in order.owner else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]
+            # during a dwell the driver's speed has no effect
+            ratios = [pair.front.slope if pair.has_no_dwell else 0.0 for pair in self.pairs]
+            contacts = [pair.opening_row(n, ratio) for pair, ratio in zip(self.pairs, ratios, strict=True)]
+            compliance = [self._compliance(row) for row in contacts]
         else:
-            stiff = (step**2 / 4 * yields.stiffness + step / 2 * yields.damping).tolist()
+            compliance = (1 / (step**2 / 4 * yields.stiffness + step / 2 * yields.damping)).tolist()
+        compliance += [self._compliance(_dense(stop.angle, n)) for stop in self.stops]
+        # a stop has the row of a pair whose driver does not move
+        rows: list[tuple[Form, Form]] = [(pair.driver, pair.driven) for pair in self.pairs]
+        rows += [({}, stop.angle) for stop in self.stops]
+        driver, driven = (
+            _sparse([{at: row[side].get(at, 0.0) for at in (*row[1], *row[0])} for row in rows]) for side in (0, 1)
+        )
         return ContactSystem(
-            np.ascontiguousarray(mass),
-            np.ascontiguousarray(viscous),
-            np.ascontiguousarray(matrix),
-            np.array([self.torque[each] for each in order.coordinates], dtype=np.float64),
-            np.array([each in self.given for each in order.coordinates], dtype=np.int64),
-            np.array(order.owner if yields is None else [-1] * n, dtype=np.int64),
-            *self._pair_rows(place),
+            np.ascontiguousarray(self.mass, dtype=np.float64),
+            np.ascontiguousarray(self.viscous, dtype=np.float64),
+            np.ascontiguousarray(matrix, dtype=np.float64),
+            np.array(self.torque, dtype=np.float64),
+            np.array([each in self.given for each in coordinates], dtype=np.int64),
+            *driver,
+            driven[2],
             np.array([pair.start[0] for pair in self.pairs], dtype=np.float64),
             np.array([pair.start[1] for pair in self.pairs], dtype=np.float64),
-            np.array([pair.two_sided for pair in self.pairs], dtype=np.int64),
+            np.array([*(pair.two_sided for pair in self.pairs), *(False for _ in self.stops)], dtype=np.int64),
             np.array([pair.restitution for pair in self.pairs], dtype=np.float64),
             np.array(transmissions, dtype=np.int64).reshape(-1, 2),
             np.array(rubbing, dtype=np.int64).reshape(-1, 4),
-            np.array(stiff, dtype=np.float64),
-            *_sparse([_placed(each.speed, place) for each in self.bearings]),
+            np.array(compliance, dtype=np.float64),
+            *_sparse([each.speed for each in self.bearings]),
             np.array([each.sliding for each in self.bearings], dtype=np.float64),
             np.array([each.sticking for each in self.bearings], dtype=np.float64),
-            *_sparse([_placed(each.angle, place) for each in self.stops]),
-            np.zeros(len(self.stops)),
             np.array([each.pitch for each in self.stops], dtype=np.float64),
             np.array([each.beat for each in self.stops], dtype=np.float64),
             np.array([each.restitution for each in self.stops], dtype=np.float64),
-            np.array([self._stiffness(each.angle) for each in self.stops], dtype=np.float64),
-            *_sparse([_placed(each.angle, place) for each in self.springs]),
+            *_sparse([each.angle for each in self.springs]),
             np.array([each.stiffness for each in self.springs], dtype=np.float64),
             np.array([each.rest for each in self.springs], dtype=np.float64),
             np.array([each.rate for each in self.springs], dtype=np.float64),
         )
 
-    def _pair_rows(self, place: Mapping[int, int]) -> tuple[Ints, Ints, Floats, Floats]:
-        """Return the sparse rows of the pairs, with the determined coordinate of each first."""
-        owner = {m: d for d, m in enumerate(self.order.owner) if m >= 0}
-        rows = []
-        for m, pair in enumerate(self.pairs):
-            # a stable sort, so that the others keep their order
-            names = sorted(pair.row, key=lambda each: place[each] != owner.get(m))
-            rows.append({place[each]: (pair.driver.get(each, 0.0), pair.driven.get(each, 0.0)) for each in names})
-        sides = [_sparse([{each: own[side] for each, own in row.items()} for row in rows]) for side in (0, 1)]
-        return *sides[0], sides[1][2]
-
-    def _stiffness(self, form: Form) -> float:
-        """Return the regularising inverse compliance of a row [kg m2], far above the inertia of the links that turn
-        with it.
+    def _compliance(self, row: Floats) -> float:
+        """Return the compliance of a contact with rigid flanks [1/(kg m2)]: 0 if its row has a free coordinate; else a
+        small one, without which the equations would be singular.
         """
-        row = np.zeros(len(self.torque))
-        for each, value in form.items():
-            row[each] = value
-        heavy = float(self.typical @ self.mass @ self.typical)
-        speed = float(row @ self.typical)
-        # a prescribed coordinate has infinite inertia, so it does not contribute
-        free = [at for at, value in form.items() if value and at not in self.given]
-        with np.errstate(divide="ignore"):
-            own = float(1 / np.sum(row[free] ** 2 / np.diag(self.mass)[free])) if free else heavy
-        return min(_STIFF * max(own, heavy / speed**2 if speed else 0.0), _STIFFEST * own)
+        if any(value and at not in self.given for at, value in enumerate(row)):
+            return 0.0
+        return 1 / (_STIFF * (float(np.trace(self.mass)) or 1.0))
 
 
-def _joined(pair: ContactPair) -> Form:
-    return {each: pair.driven.get(each, 0.0) or pair.driver.get(each, 0.0) for each in pair.row}
-
-
-def _placed(form: Form, place: Mapping[int, int]) -> dict[int, float]:
-    return {place[each]: float(value) for each, value in form.items()}
+def _dense(form: Form, n: int) -> Floats:
+    row = np.zeros(n)
+    for at, value in form.items():
+        row[at] = value
+    return row
 
 
 def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
@@ -316,16 +245,15 @@ class ContactSystem(NamedTuple):
     mass, viscous, matrix   M, D, and M + h D + h^2 K, (n, n)
     torque                  constant torque on each coordinate
     given                   1 if the speed is prescribed
-    owner                   pair that determines a coordinate while it is in contact; -1 for none
-    pair_of                 coordinates of a pair's row; `pair_driver`, `pair_driven`: coefficients of the speeds of
-                            both sides
+    pair_of                 coordinates of the rows of pairs, then of stops; `pair_driver`, `pair_driven`: coefficients
+                            of the speeds of both sides, 0 for the driver of a stop
     start_driver, start_driven   angles of both sides where all coordinates are 0
-    two_sided               1 for pins without clearance and gears without backlash
+    two_sided               1 for pins without clearance and gears without backlash; 0 for stops
     tables, rubbing         functions of both flanks; friction terms of the driver's arm, (front, back) x (forward,
                             back)
-    stiff                   inverse compliance of the rows of pairs that determine no coordinate
+    compliance              compliance of the rows of pairs and stops [1/(kg m2)]; 0 for rigid teeth
     bearing_*               rows of relative speeds in bearings, with torques of sliding and sticking
-    stop_*                  rows limited to first + (1 + floor(t/beat)) pitch
+    stop_*                  the angle of a stop's row is limited to (1 + floor(t/beat)) pitch
     spring_*                rows with the torque stiffness (rest + rate t - angle)
     """
 
@@ -334,7 +262,6 @@ class ContactSystem(NamedTuple):
     matrix: Floats
     torque: Floats
     given: Ints
-    owner: Ints
     pair_at: Ints
     pair_of: Ints
     pair_driver: Floats
@@ -345,20 +272,15 @@ class ContactSystem(NamedTuple):
     restitution: Floats
     tables: Ints
     rubbing: Ints
-    stiff: Floats
+    compliance: Floats
     bearing_at: Ints
     bearing_of: Ints
     bearing_c: Floats
     sliding: Floats
     sticking: Floats
-    stop_at: Ints
-    stop_of: Ints
-    stop_c: Floats
-    stop_first: Floats
     stop_pitch: Floats
     stop_beat: Floats
     stop_restitution: Floats
-    stop_stiff: Floats
     spring_at: Ints
     spring_of: Ints
     spring_c: Floats

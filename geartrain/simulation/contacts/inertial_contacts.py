@@ -1,4 +1,4 @@
-"""Torques that the flanks of each pair must carry while a train turns fast: docs/dynamics.md, equations (1) to (6).
+"""Torques that each pair must transmit to keep its flanks in contact at speed: docs/dynamics.md, equations (1) to (6).
 
 While all drive flanks touch, links follow `motion`. Let pair m be displaced virtually: its driven side moves ahead by
 p_m, the input is fixed, and every other pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m,
@@ -14,7 +14,7 @@ with loads and dry friction of bearings in D, viscous drag in V, and inertia in 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
     from geartrain.numerics.quantity import Quantity
     from geartrain.simulation.contacts.link_inertia import LinkInertia
+    from geartrain.simulation.contacts.pair_tables import TabledFunction
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import StateCase, Train
 
@@ -47,16 +48,9 @@ _LEAP = 1e-7  # relative to the larger of the input's and the link's maximum spe
 _MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
 _NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
-FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
-"""Friction terms of the driver's lever arm on its drive flank as functions of its forward angle: turning forward,
-back.
-"""
-
 
 class CarriedTorques(NamedTuple):
-    """Terms of the forward torque that each pair must transmit to its driven side [N m, N m s, N m s2], shape (pairs,
-    n).
-    """
+    """Terms of the torque that each pair must transmit forwards [N m, N m s, N m s2], shape (pairs, n)."""
 
     constant: Floats
     viscous: Floats
@@ -64,9 +58,7 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the coupling of the
-    pairs.
-    """
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and coupling of the pairs."""
 
     speed: Floats
     acceleration: Floats
@@ -83,7 +75,7 @@ class InertialContacts:
         self,
         moving: MotionProblem,
         acting: InertialLoads,
-        rubbing: Mapping[str, FlankArms] | None = None,
+        rubbing: Mapping[str, tuple[TabledFunction, TabledFunction]] | None = None,
     ) -> None:
         self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
@@ -111,14 +103,8 @@ class InertialContacts:
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
-        """Tables of d tau / dS of each source's transmission function [1/rad]; sources with one function share a
-        table.
-        """
-        known: dict[int, CellTable] = {}
-        for source in self.sources:
-            if id(source.transmission) not in known:
-                known[id(source.transmission)] = speed_slope(source.transmission)
-        return tuple(known[id(source.transmission)] for source in self.sources)
+        """Tables of d tau / dS of each source's transmission function [1/rad]."""
+        return tuple(speed_slope(source.transmission) for source in self.sources)
 
     @cached_property
     def _senses(self) -> Floats:
@@ -245,9 +231,7 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 
 
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
-    """Return a table of d tau / dS of a transmission function [1/rad], the derivative of a table of its speed ratio
-    tau.
-    """
+    """Return a table of d tau / dS of a transmission function [1/rad], from a table of its speed ratio tau."""
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(
         transmission.speed, transmission.period, folded_kinks(transmission), _SLOPE * max(maximum, 1.0), _DEGREE
@@ -291,29 +275,22 @@ def find_inertial_loads(
         for link, torque in torques.items():
             if _is_plain(torque):
                 what = f"the {key} torque of '{link}', {torque}, has no unit"
-                raise QuestionError(
-                    Problem(what, "torques are compared with inertias in kg m2", f"for example, write '{torque} N m'")
-                )
+                why = "torques are compared with inertias in kg m2"
+                raise QuestionError(Problem(what, why, f"for example, write '{torque} N m'"))
+    loads = {link: torque.si for link, torque in load.items()}
+    driven = None if case.drive is None else case.drive.steady_torque
+    # a torque on a prescribed input does no virtual work
+    if driven is not None and train.crank is not None and train.crank not in case.inputs:
+        way = -1 if speeds[train.crank] < 0 else 1
+        loads[train.crank] = loads.get(train.crank, 0.0) + way * driven
     return InertialLoads(
         {each.link: each.value for each in inertias},
-        loads_with_drive({link: torque.si for link, torque in load.items()}, train, case, speeds),
+        loads,
         {link: torque.si for link, torque in friction.items()},
         {link: part.drag.si for link, part in turning.items() if part.drag is not None},
         {link: tree.parent[link][0] for link in turning},
         train.crank if _is_cranked(train, case) and speeds[train.crank or ""] else None,
     )
-
-
-def loads_with_drive(
-    loads: dict[str, float], train: Train, case: StateCase, speeds: Mapping[str, Fraction]
-) -> dict[str, float]:
-    """Return the loads with the steady driving torque at the crank added, if the crank is not a prescribed input."""
-    torque = None if case.drive is None else case.drive.steady_torque
-    # a torque on a prescribed input does no virtual work
-    if torque is None or train.crank is None or train.crank in case.inputs:
-        return loads
-    way = -1 if speeds[train.crank] < 0 else 1
-    return {**loads, train.crank: loads.get(train.crank, 0.0) + way * torque}
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:

@@ -78,9 +78,7 @@ def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANC
 def tabled_function(
     function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
-    """Return a table of a function of the driver angle with the kinks of a transmission function, such as a friction
-    term.
-    """
+    """Return a table of a function of the driver angle, such as a friction term, with the kinks of a transmission."""
     return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 
@@ -89,6 +87,7 @@ def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:
+        # pieces are found by the uniform cell that contains their start, without a search
         table = each.table
         breaks = table.breaks
         uniform = np.arange(table.cells) * (table.period / table.cells)

@@ -1,4 +1,4 @@
-"""Friction terms of the driver's lever arm of a pair: T_1 = (tau + more) T_2, docs/dynamics.md (10).
+"""Friction terms a_f of the driver's lever arm of a pair: T_1 = (tau + a_f) T_2, docs/dynamics.md (10).
 
 There are four cases: two flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign
 with the sense of rotation. If a contact transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards,
@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +21,6 @@ from geartrain.teeth.rubbed_transmission import RubbedTransmission
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.contacts.inertial_contacts import FlankArms
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
@@ -35,20 +33,13 @@ Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:
     """Return the friction terms of the driver's lever arm of two toothed wheels; None if no friction is known."""
-    ahead, back = drive_flank_arms(mesh), _flank_arms(mesh, mesh.coast)
+    ahead, back = _flank_arms(mesh, mesh.transmission), _flank_arms(mesh, mesh.coast)
     # the coast flank drives in the opposite sense, so its terms are swapped
     return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
 
 
-def drive_flank_arms(mesh: GearMesh) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms on the drive flank, turning forward and backward; None if no friction is known."""
-    return _flank_arms(mesh, mesh.transmission)
-
-
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms on one flank, turning in the direction in which it drives and in the opposite
-    direction.
-    """
+    """Return the friction terms on one flank, turning in its driving sense and backwards; None without friction."""
     if not mesh.tells_losses or not mesh.has_friction:
         return None
     losses = mesh.losses
@@ -57,21 +48,17 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
         coefficient = losses.by
 
     def table(way: int) -> TabledFunction:
-        nodes = transmission.rubbing_nodes()
-        if nodes is None:
-            return tabled_function(partial(_at_angles, transmission, coefficient, way, mesh.label), transmission)
-        # functions that are slow to evaluate are interpolated between the nodes at which their sliding is known
-        S = np.mod(nodes[0], transmission.period)
-        more = _friction_term(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
+        def term(S: Floats) -> Floats:
+            return _friction_term(transmission.speed(S), transmission.rubbing(S), coefficient, way, mesh.label)
+
+        if not transmission.slow:
+            return tabled_function(term, transmission)
+        # functions that are slow to evaluate are interpolated between few nodes
+        nodes, _ = transmission.graded_nodes(transmission.speed)
+        S, more = np.mod(nodes, transmission.period), term(nodes)
         return tabled_function(lambda at: np.interp(at, S, more, period=transmission.period), transmission, _ROUGH)
 
     return table(1), table(-1)
-
-
-def _at_angles(
-    transmission: TransmissionFunction, coefficient: Callable[[Floats], Floats | float], way: int, label: str, S: Floats
-) -> Floats:
-    return _friction_term(transmission.speed(S), transmission.rubbing(S), coefficient, way, label)
 
 
 def _friction_term(
@@ -95,21 +82,21 @@ def _friction_term(
 
 def separate_rubbing(
     moving: MotionProblem, gears: Sequence[GearPair] = ()
-) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
+) -> tuple[dict[str, tuple[TabledFunction, TabledFunction]], tuple[str, ...]]:
     """Return friction terms of the drive flanks by pair, and the names of the pairs and pins whose losses have no term.
 
     Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
     some angle, and gears with a declared efficiency below 1 have none.
     """
-    found: dict[str, FlankArms] = {}
+    found: dict[str, tuple[TabledFunction, TabledFunction]] = {}
     left = []
     for mesh in moving.teeth:
         arms = None
         if not mesh.rigid:
             with suppress(GearTrainError):
-                arms = drive_flank_arms(mesh)
+                arms = _flank_arms(mesh, mesh.transmission)
         if arms is not None:
-            found[mesh.name] = arms[0].__call__, arms[1].__call__
+            found[mesh.name] = arms
         elif mesh.has_friction:
             left.append(mesh.name)
     left += [joint.coupling.name for joint in moving.pins if joint.transmission.friction]

@@ -8,7 +8,7 @@ impulse decides.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf, tau
 from typing import TYPE_CHECKING
 
@@ -96,13 +96,26 @@ def find_separation(
     acting = find_inertial_loads(declared, case, train.tree, inertias, moving.speeds)
     rubbing, uncounted = separate_rubbing(moving, declared.gears)
     contacts = InertialContacts(moving, acting, rubbing=rubbing)
-    return replace(find_separation_rates(contacts, inertias, state, turns), uncounted=uncounted)
+    period = contacts.motion.period
+    # without a common period one revolution is searched
+    whole = 1.0 if period is None else float(period)
+    if turns is None:
+        frequency = KinkSearch(contacts.motion._forward).rate
+        most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
+        turns = whole if frequency * whole <= most else most / frequency
+    kinks = contacts.motion.kink_positions(0.0, turns).turns
+    rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
+    leaping = _jump_positions(contacts, kinks, narrowest)
+    found = []
+    for pair, name in enumerate(contacts.pairs):
+        rate, at = (0.0, leaping[pair]) if pair in leaping else (float(rates[pair]), float(places[pair]))
+        found.append(PairSeparation(name, None if rate == inf else rate / tau, at, pair in leaping))
+    found.sort(key=lambda each: (inf if each.rate is None else each.rate, each.pair))
+    return SeparationRates(state, moving.driving_link, turns, turns >= whole, tuple(found), inertias, uncounted)
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: a link that is not prescribed has an inertia, and torques have
-    units.
-    """
+    """Return True if `find_separation` has a result: torques have units, and a link that can move has an inertia."""
     declared = train.declaration
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
@@ -147,7 +160,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
     inertias = {each.link: each.value for each in find_link_inertias(train, state)}
     moving = find_motion_problem(train, state)
-    # real teeth lock such a train, so that it has no motion
+    # the tooth forms lock such a train, so that it has no motion
     if moving.contradictions():
         return {}
     every = {link: (link, moving.frame) for link in train.declaration.links}
@@ -233,14 +246,14 @@ class SeparationRates(Result):
 
 
 def separation_document(found: SeparationRates) -> Document:
-    """Return the rates of all pairs as a document."""
+    """Return a document that lists the input speed above which each pair separates."""
     from geartrain.report.document import Document
 
     return Document("Motion in time", (), (separation_section(found),))
 
 
 def separation_section(found: SeparationRates) -> Section:
-    """Return a section of a report with the rate of each pair."""
+    """Return a report section that lists the input speed above which each pair separates."""
     from geartrain.report.document import Section, Table
 
     rows = [(each.pair, *separation_words(each)) for each in found.pairs]
@@ -287,28 +300,6 @@ def _first_separation(found: SeparationRates) -> str:
 # --------------------------------------------------------------------------------------------------------------- search
 
 
-def find_separation_rates(
-    contacts: InertialContacts, inertias: Sequence[LinkInertia], state: str | None, turns: float | None = None
-) -> SeparationRates:
-    """Return the rates over the train's period, or over fewer revolutions if a period has too many kinks."""
-    period = contacts.motion.period
-    # without a common period one revolution is searched
-    whole = 1.0 if period is None else float(period)
-    if turns is None:
-        frequency = KinkSearch(contacts.motion._forward).rate
-        most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
-        turns = whole if frequency * whole <= most else most / frequency
-    kinks = contacts.motion.kink_positions(0.0, turns).turns
-    rates, places, narrowest = _minimum_rates(contacts, kinks, turns)
-    leaping = _jump_positions(contacts, kinks, narrowest)
-    found = []
-    for pair, name in enumerate(contacts.pairs):
-        rate, at = (0.0, leaping[pair]) if pair in leaping else (float(rates[pair]), float(places[pair]))
-        found.append(PairSeparation(name, None if rate == inf else rate / tau, at, pair in leaping))
-    found.sort(key=lambda each: (inf if each.rate is None else each.rate, each.pair))
-    return SeparationRates(state, contacts.moving.driving_link, turns, turns >= whole, tuple(found), tuple(inertias))
-
-
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
     """Return the minimum rate at which each pair separates between kinks [rad/s], its position, and the width of the
     narrowest interval between kinks [revolutions].
@@ -344,8 +335,8 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 
 
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
-    """Return the first positions at which pairs separate at any rate, because a speed jumps and would require a tensile
-    impulse [revolutions].
+    """Return the first position at which each pair separates at any rate [revolutions], because a speed jumps and would
+    require a tensile impulse, by index of the pair; other pairs are omitted.
     """
     if not len(kinks):
         return {}

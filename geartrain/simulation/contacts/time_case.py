@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.circuits import Tree
-    from geartrain.numerics.quantity import Quantity
     from geartrain.train import Drive, StateCase, Train
 
 _EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
@@ -182,11 +181,7 @@ def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: Mo
         wound = way * tau * float(drive.spring.turns.value)
         return PowerInput(link, "spring", stiffness=drive.spring.stiffness.si, wound=wound)
     assert hand is not None
-    own = way * _si(hand.rate)
+    own = 0.0 if hand.rate is None else way * hand.rate.si
     if hand.stiffness is None:
         return PowerInput(link, "rate", rate=own, inertia=inertia)
     return PowerInput(link, "hand", rate=own, stiffness=hand.stiffness.si, inertia=inertia)
-
-
-def _si(quantity: Quantity | None) -> float:
-    return 0.0 if quantity is None else quantity.si

@@ -1,7 +1,7 @@
 """Reduction of a train and its drive to coordinates and contacts: ideal pairs merge links, other pairs are contacts.
 
 Rows of ideal pairs, locks and brakes are eliminated exactly. Speeds of links are then linear forms of a few
-coordinates, docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs with a declared
+coordinates, docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with a tooth form, pins, and pairs with a declared
 efficiency are contacts between coordinates.
 """
 
@@ -72,9 +72,9 @@ class SlackPin(ExactRatio):
 class TrainModel:
     """Contact model of a train in one state.
 
-    problem   rows, mean speeds, transmission functions and drivers of the train
-    case   inertia, drag, and the drive
-    tree   turning pairs of the train
+    problem   equations, mean speeds, transmission functions and drivers of the train
+    case      inertia, drag, loads, and the drive
+    tree      turning pairs of the train
     """
 
     train: Train
@@ -102,7 +102,9 @@ class TrainModel:
         """Notes on effects that the simulation does not include."""
         found = []
         if not self.contacts:
-            found.append("backlash and impacts: no pair has real teeth, a pin or losses, so all links turn as one")
+            found.append(
+                "backlash and impacts: the train has no tooth form, pin or efficiency, so all speed ratios are constant"
+            )
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.tells_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
@@ -160,16 +162,17 @@ class TrainModel:
     def prescribed(self) -> Mapping[str, float]:
         """Prescribed speeds by link [rad/s]."""
         unit = self.case.rate / float(self.problem.speeds[self.problem.driving_link])
-        held = {row.label.removeprefix("input "): float(row.right) for row in self._rows("input")}
+        held = {
+            row.label.removeprefix("input "): float(row.right)
+            for row in self.problem.system.equations
+            if row.kind == "input"
+        }
         found = {link: speed * unit for link, speed in held.items()}
         drive = self.case.drive
         if drive.kind != "rate" or drive.link not in found:
             # power enters at one link instead; if that is not an input, the first input that turns is released
             found.pop(drive.link if drive.link in found else self.problem.driving_link)
         return found if drive.kind != "rate" else {**found, drive.link: drive.rate}
-
-    def _rows(self, kind: str) -> Iterator[Any]:
-        return (row for row in self.problem.system.equations if row.kind == kind)
 
     @cached_property
     def forms(self) -> tuple[tuple[str, ...], Floats]:
@@ -228,9 +231,8 @@ class TrainModel:
         if lacking:
             what = f"no inertia turns with {', '.join(lacking)}"
             why = "a link without inertia has no equation of motion after teeth separate"
-            raise QuestionError(
-                Problem(what, why, "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels")
-            )
+            fix = "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels"
+            raise QuestionError(Problem(what, why, fix))
         return found
 
     # --------------------------------------------------------------------------------------------------------- contacts
@@ -294,6 +296,8 @@ class TrainModel:
 
     def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         ways = self._gears[circuit.id].efficiency
+        if ways is None:
+            return None
         passed = float(ways.forward.base), float(ways.backward.base)
         # efficiencies are declared for the first wheel as driver
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:

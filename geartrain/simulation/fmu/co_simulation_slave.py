@@ -37,6 +37,18 @@ _UNITS = {
     "s": (0, 0, 1, 0),
 }
 
+_INPUT = {"causality": Fmi2Causality.input, "variability": Fmi2Variability.continuous}
+_PARAMETER = {
+    "causality": Fmi2Causality.parameter,
+    "variability": Fmi2Variability.fixed,
+    "initial": Fmi2Initial.exact,
+}
+_OUTPUT = {
+    "causality": Fmi2Causality.output,
+    "variability": Fmi2Variability.continuous,
+    "initial": Fmi2Initial.calculated,
+}
+
 
 class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     """Co-simulation slave for the train whose declaration is in the resources of the unit."""
@@ -73,13 +85,13 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         }[kind]
         link = self._simulation.drive_link
         if name:
-            self._input(name, unit, f"{what}, at {link}", lambda: self._drive, partial(self._set, "_drive"))
+            self._add(_INPUT, name, unit, f"{what}, at {link}", lambda: self._drive, partial(self._set, "_drive"))
         for each in self._loads:
-            self._input(f"loads.{_quoted(each)}", "N.m", f"torque on {each}", *self._item(self._loads, each))
-        self._parameter("step", "s", "time step", lambda: self._step, partial(self._set, "_step"))
+            self._add(_INPUT, f"loads.{_quoted(each)}", "N.m", f"torque on {each}", *self._item(self._loads, each))
+        self._add(_PARAMETER, "step", "s", "time step", lambda: self._step, partial(self._set, "_step"))
         for each in self._restitution:
             what = f"coefficient of restitution of {each}"
-            self._parameter(f"restitution.{_quoted(each)}", "", what, *self._item(self._restitution, each))
+            self._add(_PARAMETER, f"restitution.{_quoted(each)}", "", what, *self._item(self._restitution, each))
         if kind in ("torque", "spring", "hand"):
             self._output("drive.link.speed", "rad/s", f"speed of {link}", lambda of: of.speed)
         if kind != "torque":
@@ -97,23 +109,21 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
             meaning = f"energy lost in impacts of {each} since the last output"
             self._output(f"impact_energy.{own}", "J", meaning, _item("impact_energy", each))
 
-    def _input(self, name: str, unit: str, what: str, get: Callable[[], float], put: Callable[[float], None]) -> None:
-        kind = {"causality": Fmi2Causality.input, "variability": Fmi2Variability.continuous}
-        self._variable(name, unit, what, get, setter=put, **kind)
-
-    def _parameter(
-        self, name: str, unit: str, what: str, get: Callable[[], float], put: Callable[[float], None]
+    def _add(
+        self,
+        attributes: dict[str, Any],
+        name: str,
+        unit: str,
+        what: str,
+        get: Callable[[], float],
+        put: Callable[[float], None] | None = None,
     ) -> None:
-        kind = {"causality": Fmi2Causality.parameter, "variability": Fmi2Variability.fixed}
-        self._variable(name, unit, what, get, setter=put, initial=Fmi2Initial.exact, **kind)
+        variable = Real(name, description=what, getter=get, setter=put, **attributes)
+        self.register_variable(variable, nested=False)
+        self._units[name] = unit
 
     def _output(self, name: str, unit: str, what: str, of: Callable[[Simulation], float]) -> None:
-        kind = {"causality": Fmi2Causality.output, "variability": Fmi2Variability.continuous}
-        self._variable(name, unit, what, lambda: of(self.simulation), initial=Fmi2Initial.calculated, **kind)
-
-    def _variable(self, name: str, unit: str, what: str, get: Callable[[], float], **more: Any) -> None:
-        self.register_variable(Real(name, description=what, getter=get, **more), nested=False)
-        self._units[name] = unit
+        self._add(_OUTPUT, name, unit, what, lambda: of(self.simulation))
 
     def _item(self, values: dict[str, float], name: str) -> tuple[Callable[[], float], Callable[[float], None]]:
         """Return functions that read and set an item of the loads or of the coefficients of restitution."""

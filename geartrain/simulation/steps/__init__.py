@@ -2,7 +2,7 @@
 
 time_steps         rigid teeth: nonsmooth time stepping (Moreau-Jean), the complementarity problem of contacts, impacts;
                    compliant teeth: the implicit midpoint rule
-contact_solution   the speeds at the end of a step for one guess of the contacts: elimination in the solved order
+contact_solution   speeds and impulses of a step for one guess of the contacts, by a system of linear equations
 step_account       energy balance of a step, times in contact, impacts
 simulation         a run: its plan, its intervals, its result
 """

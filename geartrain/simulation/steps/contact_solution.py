@@ -1,13 +1,10 @@
-"""Speeds at the end of a step for one guess of the touching and sticking contacts, by elimination in a fixed order.
+"""Speeds and impulses at the end of a step for one guess of the touching and sticking contacts.
 
-    M (v+ - v) = h T + sum f_c P_c,   r_c v+ = k_c  for every c that touches        docs/dynamics.md (11)
+    M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
-A touching pair determines its driven coordinate, v_d = sum w_o v_o + k/r_d, and (13) condenses row and column of d into
-the coordinates before it. A pair without contact leaves d free, and d is eliminated by Gauss. If each coordinate
-depends on one before it (a chain, a tree), the condensation is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c).
-
-Rows that determine no coordinate (a second path between two links, stops, stuck bearings) enter the matrix with a
-compliance far below that of any mass: s r^T r v = s k r.
+The speeds v+ and the impulses P_c are the solution of one system of linear equations (13). The compliance 1/s_c is 0
+for rigid teeth and stops. Contacts between prescribed coordinates, whose speeds are known, have a compliance far below
+that of any mass, so that the system is regular.
 """
 
 from __future__ import annotations
@@ -37,7 +34,7 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """State of a train; modified in place by the kernels."""
+    """State of a train; modified in place by the kernels. Contacts are pairs, followed by stops."""
 
     clock: Floats
     """Time [s] and step number."""
@@ -45,13 +42,10 @@ class ContactState(NamedTuple):
     """Angles of the coordinates [rad]; `speed` is in rad/s."""
     speed: Floats
     touching: Ints
-    """Touching flank of each pair; `turning` of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1."""
+    """Touching flank of each contact, `BACK` for an active stop; `turning` of each bearing: -1, 0 (stuck), 1."""
     turning: Ints
-    stopped: Ints
     ratio: Floats
-    """Speed ratio of each pair in the last step, shape (pairs, 2); `struck` is 1 for pairs and stops during an
-    impact.
-    """
+    """Speed ratio of each pair in the last step, shape (pairs, 2); `struck` is 1 for contacts during an impact."""
     struck: Ints
     steady: Floats
     """Impulse of each pair in its last step without an impact [N m s]."""
@@ -98,8 +92,6 @@ class CompliantTeeth(NamedTuple):
     """Maximum contact torque in the counted part [N m]; updated by the kernel."""
     impact: Ints
     """Index of the last impact of each pair, -1 for none; updated by the kernel."""
-    gap: Floats
-    """Gap of both flanks at the middle of a step, without the change of speed in the step [rad]; work space."""
 
 
 class StepEquations(NamedTuple):
@@ -108,26 +100,21 @@ class StepEquations(NamedTuple):
     load: Floats
     """External impulses plus the momentum at the start of the step [N m s]."""
     bound: Floats
-    """Bound k of both flanks of each pair [rad/s]; `stop_bound` is the bound of each stop."""
-    stop_bound: Floats
+    """Bound k of both flanks of each contact [rad/s]; -inf for a flank that cannot touch."""
     ratio: Floats
-    """Speed ratio of both flanks of each pair."""
+    """Speed ratio of both flanks of each contact; 0 for stops."""
     arm: Floats
-    """Driver's torque divided by the driven side's torque, for both flanks of each pair."""
-    A: Floats
-    """Matrix; overwritten by the elimination."""
-    b: Floats
-    """Right side; overwritten by the elimination."""
-    w: Floats
-    """Coefficients w of the speed of each determined coordinate, which is w v + known, shape (n, n)."""
-    g: Floats
-    """Factors that condense the row of a determined coordinate into earlier rows."""
-    known: Floats
-    """Known part of the speed of a determined coordinate [rad/s]."""
+    """Driver's torque divided by the driven side's torque, for both flanks of each contact; 0 for stops."""
+    matrix: Floats
+    """Matrix of (13), shape (n + contacts, n + contacts); overwritten by the elimination."""
+    solution: Floats
+    """Right side of (13), overwritten by the solution: speeds [rad/s] and impulses of the contacts [N m s]; for a
+    prescribed coordinate, the impulse of its drive instead of its speed.
+    """
     v: Floats
     """Speeds of the coordinates at the end of the step [rad/s]."""
     P: Floats
-    """Impulses of pairs and stops [N m s]."""
+    """Impulses of the contacts [N m s]."""
     drive: Floats
     """Impulses that maintain the speeds of prescribed coordinates [N m s]."""
     ahead: Floats
@@ -135,12 +122,14 @@ class StepEquations(NamedTuple):
     middle: Floats
     """Mean speeds of the step [rad/s]."""
     gap: Floats
-    """Bound k of both flanks without restitution [rad/s]."""
+    """Bound k of both flanks without restitution [rad/s]. For compliant teeth, gap of both flanks at the middle of the
+    step without the change of speed in the step [rad].
+    """
     closing: Floats
     """Closing speeds of both flanks before the step [rad/s]."""
     stop_closing: Floats
     before: Ints
-    """Touching flanks and active stops before the step."""
+    """Touching flank of each contact before the step."""
 
 
 class StepRules(NamedTuple):
@@ -162,22 +151,28 @@ class StepRules(NamedTuple):
 
 @kernel
 def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Solve for speeds and impulses with the contacts that the state assumes as touching, turning and stopped.
+    """Solve for speeds and impulses with the contacts that the state assumes as touching and turning.
 
     creep   maximum creep speed of a stuck bearing [rad/s]
     """
     assemble(system, state, here, step, creep)
-    eliminate_coordinates(system, state, here)
-    substitute_back(system, state, here)
-    find_stiff_impulses(system, state, here)
+    solve_linear(here.matrix, here.solution)
+    n = len(here.v)
+    for d in range(n):
+        prescribed = system.given[d] != 0
+        here.v[d] = state.speed[d] if prescribed else here.solution[d]
+        here.drive[d] = here.solution[d] if prescribed else 0.0
+    for m in range(len(here.P)):
+        here.P[m] = here.solution[n + m]
 
 
 @kernel
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Assemble matrix and right side of all coordinates, without the pairs that determine a coordinate."""
-    A, b = here.A, here.b
-    b[:] = here.load
-    A[:, :] = system.matrix
+    """Assemble matrix and right side of (13)."""
+    A, b, n = here.matrix, here.solution, len(here.v)
+    A[:, :] = 0.0
+    A[:n, :n] = system.matrix
+    b[:n] = here.load
     for m in range(len(system.sliding)):
         turning = state.turning[m]
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
@@ -188,114 +183,47 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
                 stiff = step * system.sticking[m] / creep * system.bearing_c[x]
                 for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
                     A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
-    for m in range(len(system.stiff)):
-        if system.stiff[m] > 0.0 and state.touching[m] != 0:
-            side = state.touching[m] - 1
-            for x in range(system.pair_at[m], system.pair_at[m + 1]):
-                push = system.stiff[m] * (system.pair_driven[x] - here.arm[m, side] * system.pair_driver[x])
-                b[system.pair_of[x]] += push * (1.0 - 2.0 * side) * here.bound[m, side]
-                for y in range(system.pair_at[m], system.pair_at[m + 1]):
-                    row = system.pair_driven[y] - here.ratio[m, side] * system.pair_driver[y]
-                    A[system.pair_of[x], system.pair_of[y]] += push * row
-    for m in range(len(system.stop_stiff)):
-        if state.stopped[m] != 0:
-            for x in range(system.stop_at[m], system.stop_at[m + 1]):
-                push = system.stop_stiff[m] * system.stop_c[x]
-                b[system.stop_of[x]] += push * here.stop_bound[m]
-                for y in range(system.stop_at[m], system.stop_at[m + 1]):
-                    A[system.stop_of[x], system.stop_of[y]] += push * system.stop_c[y]
-
-
-@kernel
-def eliminate_coordinates(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """Eliminate the coordinates from the last to the first.
-
-    A coordinate whose pair touches is eliminated by condensation, another one by Gaussian elimination. All is done
-    in one loop, because a call with this number of arrays takes as long as a coordinate.
-    """
-    A, b, w, g = here.A, here.b, here.w, here.g
-    for d in range(len(b) - 1, -1, -1):
-        if system.given[d] != 0:
-            continue
-        own, m = A[d, d], system.owner[d]
-        if m < 0 or state.touching[m] == 0:
-            for o in range(d):
-                if A[o, d] != 0.0:
-                    part = A[o, d] / own
-                    b[o] -= part * b[d]
-                    for y in range(d):
-                        A[o, y] -= part * A[d, y]
+    for m in range(len(system.compliance)):
+        if state.touching[m] == OPEN:
+            # its equation is P = 0
+            A[n + m, n + m] = 1.0
+            b[n + m] = 0.0
             continue
         side = state.touching[m] - 1
-        first = system.pair_at[m]  # the determined coordinate is first in its row
-        # the row of speeds uses the ratio, that of forces the lever arm with friction
-        lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
-        lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
-        for o in range(d):
-            w[d, o] = 0.0
-            g[o] = 0.0
-        for x in range(first + 1, system.pair_at[m + 1]):
+        sign = 1.0 - 2.0 * side
+        A[n + m, n + m] = system.compliance[m]
+        b[n + m] = here.bound[m, side]
+        # the row of speeds uses the ratio, the column of forces the lever arm with friction
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
-            w[d, o] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
-            g[o] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
-        known = (1.0 - 2.0 * side) * here.bound[m, side] / lead
-        here.known[d] = known
-        rest = b[d] - own * known
-        for o in range(d):
-            if g[o] != 0.0 or A[o, d] != 0.0:
-                b[o] += g[o] * rest - A[o, d] * known
-                for y in range(d):
-                    A[o, y] += g[o] * (A[d, y] + own * w[d, y]) + A[o, d] * w[d, y]
-
-
-@kernel
-def substitute_back(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """Compute the speeds from the first coordinate to the last, and the impulses of pairs and drives."""
-    A, v = here.A, here.v
-    here.P[:] = 0.0
-    here.drive[:] = 0.0
-    for d in range(len(v)):
+            A[n + m, o] = sign * (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x])
+            A[o, n + m] = -sign * (system.pair_driven[x] - here.arm[m, side] * system.pair_driver[x])
+    for d in range(n):
         if system.given[d] != 0:
-            v[d] = state.speed[d]
-            here.drive[d] += A[d, d] * v[d] - here.b[d]
-            for o in range(d):  # prescribed coordinates come first, so these are prescribed too
-                here.drive[d] += A[d, o] * v[o]
-                here.drive[o] += A[o, d] * v[d]
-            continue
-        rest = -here.b[d]
-        for o in range(d):
-            rest += A[d, o] * v[o]
-        m = system.owner[d]
-        if m < 0 or state.touching[m] == 0:
-            v[d] = -rest / A[d, d]
-            continue
-        v[d] = here.known[d]
-        for o in range(d):
-            v[d] += here.w[d, o] * v[o]
-        first, side = system.pair_at[m], state.touching[m] - 1
-        lead = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
-        here.P[m] = (rest + A[d, d] * v[d]) / lead * (1.0 - 2.0 * side)
+            # the speed is known, and the impulse of the drive is the unknown instead
+            for o in range(len(b)):
+                b[o] -= A[o, d] * state.speed[d]
+                A[o, d] = 0.0
+            A[d, d] = -1.0
 
 
 @kernel
-def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """Compute the impulses of pairs that determine no coordinate, and of stops, from their regularised rows."""
-    pairs = len(system.stiff)
-    for m in range(pairs):
-        if system.stiff[m] > 0.0 and state.touching[m] != 0:
-            side = state.touching[m] - 1
-            rate = 0.0
-            for x in range(system.pair_at[m], system.pair_at[m + 1]):
-                row = system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]
-                rate += row * here.v[system.pair_of[x]]
-            here.P[m] = system.stiff[m] * (here.bound[m, side] - (1.0 - 2.0 * side) * rate)
-    for m in range(len(system.stop_stiff)):
-        if state.stopped[m] != 0:
-            rate = 0.0
-            for x in range(system.stop_at[m], system.stop_at[m + 1]):
-                rate += system.stop_c[x] * here.v[system.stop_of[x]]
-            # a stop acts from ahead: r v <= k
-            here.P[pairs + m] = system.stop_stiff[m] * (rate - here.stop_bound[m])
+def solve_linear(A: Floats, b: Floats) -> None:
+    """Replace b by the solution x of A x = b, by Gaussian elimination; A is overwritten.
+
+    No pivots are needed: the mass matrix is positive definite, and contacts are eliminated after all coordinates.
+    """
+    for k in range(len(b)):
+        for i in range(k + 1, len(b)):
+            if A[i, k] != 0.0:
+                part = A[i, k] / A[k, k]
+                b[i] -= part * b[k]
+                for j in range(k + 1, len(b)):
+                    A[i, j] -= part * A[k, j]
+    for k in range(len(b) - 1, -1, -1):
+        for j in range(k + 1, len(b)):
+            b[k] -= A[k, j] * b[j]
+        b[k] /= A[k, k]
 
 
 AT_ONCE = 6
@@ -307,20 +235,20 @@ def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
     """Correct the wrong contact states, all or only the state of lowest index (Murty's method); return their number."""
-    # with `single` the first wrong state ends the search, pairs before bearings before stops
-    found = correct_pairs(system, state, here, slack, single)
+    # with `single` the first wrong state ends the search, contacts before bearings
+    found = correct_contacts(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):
         found += correct_bearings(system, state, here, creep, single)
-    if len(system.stop_stiff) > 0 and (found == 0 or not single):
-        found += correct_stops(system, state, here, slack, single)
     return found
 
 
 @kernel
-def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
-    """Open flanks with tensile impulses, and close flanks that penetrate; return the number of changes."""
+def correct_contacts(
+    system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool
+) -> int:
+    """Open contacts with tensile impulses, and close flanks that penetrate; return the number of changes."""
     found = 0
-    for m in range(len(system.stiff)):
+    for m in range(len(system.compliance)):
         now = state.touching[m]
         want = now
         if now == OPEN:
@@ -349,9 +277,7 @@ def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquation
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, and stick bearings that turn against their friction; return the number of
-    changes.
-    """
+    """Release bearings that creep too fast, stick those that turn against their friction; return their number."""
     found = 0
     for m in range(len(system.sliding)):
         rate = 0.0
@@ -369,29 +295,6 @@ def correct_bearings(
             want = 0 if single or rate * now > -creep else -now
         if want != now:
             state.turning[m] = want
-            found += 1
-            if single:
-                return found
-    return found
-
-
-@kernel
-def correct_stops(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
-    """Release stops with tensile impulses, and activate stops that a link passes; return the number of changes."""
-    found = 0
-    for m in range(len(system.stop_stiff)):
-        rate = 0.0
-        for x in range(system.stop_at[m], system.stop_at[m + 1]):
-            rate += system.stop_c[x] * here.v[system.stop_of[x]]
-        now = state.stopped[m]
-        want = now
-        if now != 0:
-            if here.P[len(system.stiff) + m] < 0.0:
-                want = 0
-        elif rate > here.stop_bound[m] + slack:
-            want = 1
-        if want != now:
-            state.stopped[m] = want
             found += 1
             if single:
                 return found

@@ -19,6 +19,7 @@ from geartrain.simulation.steps.contact_solution import (
     FRONT,
     IMPACT_COLUMNS,
     IMPACTS,
+    OPEN,
     SAMPLES,
     STEP,
     CompliantTeeth,
@@ -30,7 +31,7 @@ from geartrain.simulation.steps.contact_solution import (
 from geartrain.simulation.steps.time_steps import run_steps
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.contact_model import ToothCompliance
 
     _Mark = tuple[Floats, Floats, Floats]
@@ -43,9 +44,7 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run: their length [s], the numbers of skipped and of counted steps, and the steps between
-    samples.
-    """
+    """Time steps of a run: their length [s], numbers of skipped and of counted steps, and steps between samples."""
 
     step: float
     skip: int
@@ -57,7 +56,7 @@ class StepPlan(NamedTuple):
 
 @dataclass
 class SimulatedRun:
-    """Results of a run in the original order of the coordinates.
+    """Results of a run.
 
     `start` and `end` are the kinetic energies [J] at both ends of the counted part.
     """
@@ -92,8 +91,8 @@ def simulate(
 ) -> SimulatedRun:
     """Return the results of a simulated run; with `fast` the kernels are compiled.
 
-    on_done   called with the steps done since the last call; if it returns True, the run stops, and the plan of the
-              result has the number of counted steps
+    on_done   called with the number of steps done since the last call; if it returns True, the run stops, and
+              `plan.steps` of the result is the number of counted steps so far
     yields    stiffness and damping of each pair; None for rigid teeth
     """
     system, n = model.system(plan.step, yields), len(model.torque)
@@ -134,28 +133,27 @@ def simulate(
     # energy still stored in teeth is not dissipated
     pressed = _stored(system, model.transmissions, state, yields) - pressed
     record.energy[STEP] -= pressed
-    order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])
     found = SimulatedRun(
         plan._replace(steps=counted),
-        record.angles[:done, order],
-        record.speeds[:done, order],
+        record.angles[:done],
+        record.speeds[:done],
         record.forces[:done],
-        record.drive[:done, order],
+        record.drive[:done],
         record.counts,
         record.energy,
         record.impacts[:kept],
         tuple(int(each) for each in record.numbers),
         start,
         _kinetic(system, state),
-        (state.angle - before)[order],
+        state.angle - before,
         pressed,
         None if yields is None else teeth.peak,
     )
     if plan.block:
         found.blocks = tuple(
-            _part(found, at, *each, order) for at, each in enumerate(pairwise(marks[: 1 + counted // plan.block]))
+            _part(found, at, *each) for at, each in enumerate(pairwise(marks[: 1 + counted // plan.block]))
         )
     return found
 
@@ -165,11 +163,11 @@ def _mark(record: RunRecord, state: ContactState) -> _Mark:
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
-def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark, order: Ints) -> SimulatedRun:
+def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark) -> SimulatedRun:
     """Return the results of one block of a run, between two marks."""
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
-    return replace(run, plan=plan, counts=counts, energy=energy, turned=turned[order], blocks=())
+    return replace(run, plan=plan, counts=counts, energy=energy, turned=turned, blocks=())
 
 
 def check_convergence(state: ContactState, record: RunRecord, step: float) -> None:
@@ -199,42 +197,35 @@ def step_rules(
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     """Return the initial state with all coordinates at 0.
 
-    The speeds are the model's initial speeds, or the speeds with all front flanks in contact.
+    The speeds are the model's initial speeds, or those of minimum norm with all front flanks in contact.
     """
-    n, pairs = len(model.torque), len(model.pairs)
-    place = {each: at for at, each in enumerate(model.order.coordinates)}
-    speed = np.zeros(n)
-    for each, value in model.given.items():
-        speed[place[each]] = value
+    n, pairs, contacts = len(model.torque), len(model.pairs), len(system.compliance)
     ratio = np.zeros((pairs, 2))
     for m in range(pairs):
         for side in range(2):
             _, ratio[m, side] = value_and_slope(
                 model.transmissions, int(system.tables[m, side]), float(system.start_driver[m])
             )
-    for d, m in enumerate(model.order.owner):
-        # speeds that follow from prescribed ones through touching front flanks
-        if m >= 0 and model.given:
-            row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
-            lead = system.pair_driven[row.start - 1] - ratio[m, 0] * system.pair_driver[row.start - 1]
-            others = speed[system.pair_of[row]]
-            speed[d] = (ratio[m, 0] * system.pair_driver[row] - system.pair_driven[row]) @ others / lead
-    # a continued run overrides the consistent initial speeds
     if model.start is not None:
-        speed = np.array([model.start[each] for each in model.order.coordinates], dtype=np.float64)
-    stops = len(model.stops)
+        speed = np.array(model.start, dtype=np.float64)
+    else:
+        speed = np.array([model.given.get(each, 0.0) for each in range(n)])
+        free = np.flatnonzero(system.given == 0)
+        rows = np.array([pair.opening_row(n, ratio[m, 0]) for m, pair in enumerate(model.pairs)]).reshape(pairs, n)
+        speed[free] = np.linalg.lstsq(rows[:, free], -rows @ speed, rcond=None)[0]
+    touching = np.full(contacts, OPEN, dtype=np.int64)
+    touching[:pairs] = FRONT
     return ContactState(
         np.zeros(2),
         np.zeros(n),
         speed,
-        np.full(pairs, FRONT, dtype=np.int64),
+        touching,
         np.zeros(len(model.bearings), dtype=np.int64),
-        np.zeros(stops, dtype=np.int64),
         ratio,
-        np.zeros(pairs + stops, dtype=np.int64),
+        np.zeros(contacts, dtype=np.int64),
         np.zeros(pairs),
         np.zeros(pairs, dtype=np.int64),
-        np.zeros((stops, 2)),
+        np.zeros((len(model.stops), 2)),
     )
 
 
@@ -247,16 +238,16 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
 
 def empty_equations(n: int, pairs: int, stops: int) -> StepEquations:
     """Return empty arrays for the equations of one step."""
-    flanks, contacts = (pairs, 2), pairs + stops
-    shapes: list[Any] = [n, flanks, stops, flanks, flanks, (n, n), n, (n, n), n, n, n, contacts, n, n, n]
-    shapes += [flanks, flanks, stops]
+    contacts, flanks = pairs + stops, (pairs, 2)
+    both, size = (contacts, 2), n + contacts
+    shapes: list[Any] = [n, both, both, both, (size, size), size, n, contacts, n, n, n, flanks, flanks, stops]
     return StepEquations._make([*(np.zeros(shape) for shape in shapes), np.zeros(contacts, dtype=np.int64)])
 
 
 def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:
     """Return the data of compliant teeth, with zero stiffness and damping for rigid teeth."""
     stiffness, damping = (np.zeros(pairs), np.zeros(pairs)) if yields is None else yields
-    return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2)))
+    return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64))
 
 
 def _stored(
@@ -271,6 +262,7 @@ def _stored(
         angle = state.angle[system.pair_of[row]]
         S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
         q = float(system.start_driven[m] + system.pair_driven[row] @ angle)
+        # only compressed flanks store energy; a pair without backlash is a spring in both directions
         gaps = [
             (1 - 2 * side) * (q - value_and_slope(transmissions, int(system.tables[m, side]), S)[0])
             for side in range(2)

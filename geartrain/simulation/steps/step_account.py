@@ -88,70 +88,15 @@ def count_contacts(
     here: StepEquations,
     record: RunRecord,
     rules: StepRules,
-) -> None:
-    """Add times in contact, impacts with their energy, and friction losses, by pair."""
-    for m in range(len(system.stiff)):
-        rate_S, rate_q, mean_S, mean_q = 0.0, 0.0, 0.0, 0.0
-        for x in range(system.pair_at[m], system.pair_at[m + 1]):
-            o = system.pair_of[x]
-            rate_S += system.pair_driver[x] * here.v[o]
-            rate_q += system.pair_driven[x] * here.v[o]
-            mean_S += system.pair_driver[x] * here.middle[o]
-            mean_q += system.pair_driven[x] * here.middle[o]
-        counts = record.counts[m]
-        if system.two_sided[m] == 0:
-            ahead = rules.step * (rate_q - here.ratio[m, 0] * rate_S - here.gap[m, 0])
-            behind = rules.step * (here.ratio[m, 1] * rate_S - rate_q - here.gap[m, 1])
-            count_gap(counts, ahead, behind, find_flight(state.touching, here, m))
-        now = state.touching[m]
-        if now == 0:
-            state.steady[m] = 0.0
-            state.struck[m] = 0
-            continue
-        side = now - 1
-        sign = 1.0 - 2.0 * side
-        # work against the contact: impulse times mean opening speed
-        taken = -here.P[m] * sign * (mean_q - here.ratio[m, side] * mean_S)
-        # friction is the difference between the speed ratio and the lever arm of forces
-        rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
-        record.energy[FRICTION] += rubbed
-        counts[RUBBED] += rubbed
-        counts[IMPULSE] += here.P[m] * sign
-        if now != here.before[m] and here.before[m] != 0:
-            counts[CHANGES] += 1.0
-        struck = now != here.before[m] or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)
-        # scale of rounding errors of the closing speed
-        minimum = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
-        if struck and system.two_sided[m] == 0 and here.closing[m, side] > minimum:
-            state.struck[m] = 1
-            count_impact(record, m, taken, here.P[m], state.steady[m])
-            counts[IMPACT_COUNT] += 1.0
-            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.closing[m, side])
-            note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
-        elif state.struck[m] != 0:
-            # a ratio that jumps within a step is replaced by the mean of both values; the next step has the rest
-            state.struck[m] = 0
-            count_impact(record, m, taken, here.P[m], state.steady[m])
-        else:
-            record.energy[STEP] += taken
-            state.steady[m] = abs(here.P[m])
-
-
-@kernel
-def count_compliant_contacts(
-    system: ContactSystem,
-    state: ContactState,
-    here: StepEquations,
-    record: RunRecord,
-    rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Add times in contact, losses of damping and friction, impacts and peak torques, by pair.
+    """Add times in contact, losses by friction and damping, impacts with their energy, and peak torques, by pair.
 
-    The work of a contact without its damping is added to the numerical dissipation, from which the change of the stored
-    energy must be subtracted.
+    The work of compliant teeth without their damping is added to the numerical dissipation, from which the change of
+    their stored energy must be subtracted.
     """
-    for m in range(len(system.stiff)):
+    step, rigid = rules.step, rules.share == 1.0
+    for m in range(len(system.tables)):
         rate_S, rate_q, start_S, start_q = 0.0, 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
@@ -160,44 +105,66 @@ def count_compliant_contacts(
             start_S += system.pair_driver[x] * state.speed[o]
             start_q += system.pair_driven[x] * state.speed[o]
         mean_S, mean_q = (start_S + rate_S) / 2, (start_q + rate_q) / 2
-        counts = record.counts[m]
+        now, before, counts = state.touching[m], here.before[m], record.counts[m]
         if system.two_sided[m] == 0:
-            ahead = teeth.gap[m, 0] + rules.step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
-            behind = teeth.gap[m, 1] + rules.step / 4 * (here.ratio[m, 1] * rate_S - rate_q)
-            count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
-            for side in range(2):
-                opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
-                count_released_energy(state, here, record, teeth, m, side, rules.step / 4 * opening)
-        now = state.touching[m]
-        if now == 0:
+            ahead, behind = rate_q - here.ratio[m, 0] * rate_S, here.ratio[m, 1] * rate_S - rate_q
+            if rigid:
+                ahead, behind = step * (ahead - here.gap[m, 0]), step * (behind - here.gap[m, 1])
+                count_gap(counts, ahead, behind, find_flight(state.touching, here, m))
+            else:
+                ahead, behind = here.gap[m, 0] + step / 4 * ahead, here.gap[m, 1] + step / 4 * behind
+                count_gap(counts, ahead, behind, 1.0 if now == OPEN else 0.0)
+                for side in range(2):
+                    opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
+                    count_released_energy(state, here, record, teeth, m, side, step / 4 * opening)
+        if now == OPEN:
+            state.steady[m] = 0.0
+            state.struck[m] = 0
             teeth.impact[m] = -1
             continue
         side = now - 1
         sign = 1.0 - 2.0 * side
-        rate = mean_q - here.ratio[m, side] * mean_S
-        damped = rules.step * teeth.damping[m] * rate * rate
+        rate = sign * (mean_q - here.ratio[m, side] * mean_S)
+        # work against the contact: impulse times mean opening speed
+        taken = -here.P[m] * rate
+        # friction is the difference between the speed ratio and the lever arm of forces
         rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
         record.energy[FRICTION] += rubbed
-        record.energy[IMPACT_LOSS] += damped
-        record.energy[STEP] += -here.P[m] * sign * rate - damped
         counts[RUBBED] += rubbed
-        counts[IMPACT_ENERGY] += damped
         counts[IMPULSE] += here.P[m] * sign
-        teeth.peak[m] = max(teeth.peak[m], abs(here.P[m]) / rules.step)
-        if now != here.before[m] and system.two_sided[m] == 0:
-            if here.before[m] != 0:
-                counts[CHANGES] += 1.0
-            counts[IMPACT_COUNT] += 1.0
-            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], -sign * rate)
-            # at first contact the force is only that of damping, which decreases within the first step
-            met = sign * (here.ratio[m, side] * start_S - start_q)
-            teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
-            teeth.impact[m] = record.numbers[IMPACTS]
-            note_impact(record, state.clock[0] + rules.step / 2, m, -sign * rate, 0.0, 0.0)
-        if 0 <= teeth.impact[m] < len(record.impacts):
-            # an impact lasts until its teeth separate
-            record.impacts[teeth.impact[m], 3] += damped
-            record.impacts[teeth.impact[m], 4] += here.P[m]
+        if now != before and before != OPEN and (rigid or system.two_sided[m] == 0):
+            counts[CHANGES] += 1.0
+        if not rigid:
+            damped = step * teeth.damping[m] * rate * rate
+            record.energy[IMPACT_LOSS] += damped
+            record.energy[STEP] += taken - damped
+            counts[IMPACT_ENERGY] += damped
+            teeth.peak[m] = max(teeth.peak[m], abs(here.P[m]) / step)
+            if now != before and system.two_sided[m] == 0:
+                # at first contact the force is only that of damping, which decreases within the first step
+                met = sign * (here.ratio[m, side] * start_S - start_q)
+                teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
+                teeth.impact[m] = record.numbers[IMPACTS]
+                note_impact(record, state.clock[0] + step / 2, m, -rate, 0.0, 0.0)
+            if 0 <= teeth.impact[m] < len(record.impacts):
+                # an impact lasts until its teeth separate
+                record.impacts[teeth.impact[m], 3] += damped
+                record.impacts[teeth.impact[m], 4] += here.P[m]
+            continue
+        struck = now != before or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)
+        # scale of rounding errors of the closing speed
+        minimum = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
+        if struck and system.two_sided[m] == 0 and here.closing[m, side] > minimum:
+            state.struck[m] = 1
+            count_impact(record, m, taken, here.P[m], state.steady[m])
+            note_impact(record, state.clock[0] + step, m, here.closing[m, side], taken, here.P[m])
+        elif state.struck[m] != 0:
+            # a ratio that jumps within a step is replaced by the mean of both values; the next step has the rest
+            state.struck[m] = 0
+            count_impact(record, m, taken, here.P[m], state.steady[m])
+        else:
+            record.energy[STEP] += taken
+            state.steady[m] = abs(here.P[m])
 
 
 @kernel
@@ -216,7 +183,7 @@ def count_released_energy(
     """
     parted = (1 if here.before[m] == side + 1 else 0) - (1 if state.touching[m] == side + 1 else 0)
     if parted != 0:
-        pressed = min(teeth.gap[m, side] - opened, 0.0)
+        pressed = min(here.gap[m, side] - opened, 0.0)
         left = parted * teeth.stiffness[m] / 2 * pressed * pressed
         record.energy[IMPACT_LOSS] += left
         record.energy[STEP] -= left
@@ -237,9 +204,7 @@ def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> Non
 
 @kernel
 def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
-    """Return the fraction of the step in which no flank of a pair touches; for a new contact, the fraction until it
-    closes.
-    """
+    """Return the fraction of the step in which no flank of a pair touches; for a new contact, until it closes."""
     if touching[m] == OPEN:
         return 1.0
     side = touching[m] - 1
@@ -273,45 +238,41 @@ def count_stops(
     system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, step: float
 ) -> None:
     """Add the impacts of links against their stops."""
-    pairs = len(system.stiff)
-    for m in range(len(system.stop_stiff)):
-        if state.stopped[m] == 0:
-            state.struck[pairs + m] = 0
+    for stop in range(len(system.stop_pitch)):
+        m = len(system.tables) + stop
+        if state.touching[m] == OPEN:
+            state.struck[m] = 0
             continue
         rate, start = 0.0, 0.0
-        for x in range(system.stop_at[m], system.stop_at[m + 1]):
-            rate += system.stop_c[x] * here.middle[system.stop_of[x]]
-            start += system.stop_c[x] * state.speed[system.stop_of[x]]
-        taken = here.P[pairs + m] * rate
-        counts = record.counts[pairs + m]
-        counts[IMPULSE] += here.P[pairs + m]
-        if state.struck[pairs + m] != 0:
-            state.struck[pairs + m] = 0
-            record.energy[IMPACT_LOSS] += taken
-            counts[IMPACT_ENERGY] += taken
-        elif here.before[pairs + m] == 0 and start > 0.0:
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            rate += system.pair_driven[x] * here.middle[system.pair_of[x]]
+            start += system.pair_driven[x] * state.speed[system.pair_of[x]]
+        taken = here.P[m] * rate
+        # the whole dissipation of a stop belongs to its impacts
+        record.energy[IMPACT_LOSS] += taken
+        counts = record.counts[m]
+        counts[IMPULSE] += here.P[m]
+        counts[IMPACT_ENERGY] += taken
+        closing = -1.0
+        if state.struck[m] != 0:
+            state.struck[m] = 0
+        elif here.before[m] == OPEN and start > 0.0:
             # it reaches its stop in this step, and comes to rest in the next
-            state.struck[pairs + m] = 1
-            record.energy[IMPACT_LOSS] += taken
-            counts[IMPACT_COUNT] += 1.0
-            counts[IMPACT_ENERGY] += taken
-            closing = here.stop_closing[m]
-            counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], closing)
-            note_impact(record, state.clock[0], pairs + m, closing, taken, here.P[pairs + m])
-        else:
-            # a stop that advances and is reached again within one step: its whole dissipation belongs to that impact
-            # (its closing speed is at least that of the step)
-            record.energy[IMPACT_LOSS] += taken
-            counts[IMPACT_ENERGY] += taken
-            if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
-                counts[IMPACT_COUNT] += 1.0
-                counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.stop_bound[m])
-                note_impact(record, state.clock[0], pairs + m, here.stop_bound[m], taken, here.P[pairs + m])
+            state.struck[m] = 1
+            closing = here.stop_closing[stop]
+        elif -here.bound[m, 1] * step > system.stop_pitch[stop] / 2:
+            # a stop that advances and is reached again within one step; its closing speed is at least that of the step
+            closing = -here.bound[m, 1]
+        if closing >= 0.0:
+            note_impact(record, state.clock[0], m, closing, taken, here.P[m])
 
 
 @kernel
 def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
-    """Append an impact to the list; if the list is full, only count it."""
+    """Count an impact of a contact, and append it to the list unless that is full."""
+    counts = record.counts[which]
+    counts[IMPACT_COUNT] += 1.0
+    counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], speed)
     at = record.numbers[IMPACTS]
     if at < len(record.impacts):
         row = record.impacts[at]

@@ -1,7 +1,7 @@
 """Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
 
-Rigid teeth are stepped after Moreau and Jean. Contacts without rebound are enforced at the position level,
-docs/dynamics.md (12). With S* = S + h dS/dt and F*, tau* there,
+Rigid teeth use the nonsmooth time stepping of Moreau and Jean. Contacts without rebound are enforced at the position
+level, docs/dynamics.md (12). With S* = S + h dS/dt, and F* and tau* at S*,
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
 
@@ -9,9 +9,9 @@ so that gaps do not drift. The complementarity problem of touching contacts and 
 solution of the previous step. Wrong contact states are flipped all at once (block pivoting) and, if that does not
 converge, the lowest index first (Murty's method).
 
-A train at rest takes identical steps at once, up to the next beat of an escapement. Between two beats a clock rests
-most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends without
-speed, and for which no contact state was flipped, is followed by the same step again.
+Identical steps of a train at rest are taken at once, up to the next beat of an escapement. Between two beats a clock
+rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
+without speed, and for which no contact state was flipped, is followed by the same step again.
 
 Compliant teeth have stiffness and damping, docs/dynamics.md (15) and (18):
 
@@ -19,7 +19,7 @@ Compliant teeth have stiffness and damping, docs/dynamics.md (15) and (18):
 
 with gap and closing speed in the middle of the step. Both are linear in the speeds at its end, because the transmission
 function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance 1/s, s = h^2
-k/4 + h c/2, in the equations that also solve rigid contacts. The rule is of second order and conserves the energy of
+k/4 + h c/2, in the equations of rigid contacts. The rule is of second order and conserves the energy of
 vibrations.
 """
 
@@ -54,7 +54,6 @@ from geartrain.simulation.steps.contact_solution import (
     solve_guess,
 )
 from geartrain.simulation.steps.step_account import (
-    count_compliant_contacts,
     count_contacts,
     count_energy,
     count_stops,
@@ -73,17 +72,13 @@ _IMPACT_CHANGE = 0.01  # relative change of a driver's speed within a step that 
 
 
 @kernel
-def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
-    """Return True if all speeds before and after a step are 0 within a tolerance.
-
-    still   tolerance of the speeds [rad/s]
-    """
-    fastest = 0.0
-    for d in range(len(after)):
-        fastest = max(fastest, abs(after[d]), abs(before[d]))
-        if fastest > still:
-            break
-    return fastest <= still
+def fastest(speed: Floats) -> float:
+    """Return the maximum magnitude of the speeds [rad/s]; NaN if one of them is NaN."""
+    found = 0.0
+    for each in speed:
+        if not abs(each) <= found:
+            found = abs(each)
+    return found
 
 
 @kernel
@@ -135,14 +130,12 @@ def run_steps(
         if idle > 1:
             before[:, :] = record.counts
         # the previous contact state is the first guess
-        if rigid:
-            rounds = solve_step(system, transmissions, state, here, rules)
-        else:
-            rounds = solve_midpoint_step(system, transmissions, state, here, rules, teeth)
-        if diverges(here.v, rules.step):
+        rounds = solve_step(system, transmissions, state, here, rules, teeth)
+        most = fastest(here.v)
+        if not most * rules.step < FARTHEST:
             record.numbers[DIVERGED] = 1
             break
-        rests = rigid and rounds == 1 and is_at_rest(state.speed, here.v, still)
+        rests = rigid and rounds == 1 and max(most, fastest(state.speed)) <= still
         # only a step that changed nothing may be repeated
         times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
@@ -153,17 +146,13 @@ def run_steps(
         if counted:
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += times
-            if rigid:
-                count_energy(system, state, here, record, rules, here.v)
-                count_contacts(system, transmissions, state, here, record, rules)
-            else:
-                count_energy(system, state, here, record, rules, here.middle)
-                count_compliant_contacts(system, state, here, record, rules, teeth)
-            if len(system.stop_stiff) > 0:
+            count_energy(system, state, here, record, rules, here.v if rigid else here.middle)
+            count_contacts(system, transmissions, state, here, record, rules, teeth)
+            if len(system.stop_pitch) > 0:
                 count_stops(system, state, here, record, rules.step)
             if times > 1:
                 repeat_counts(record.counts, before, times - 1)
-        for m in range(len(system.stiff)):
+        for m in range(len(system.tables)):
             state.ratio[m, 0] = here.ratio[m, 0]
             state.ratio[m, 1] = here.ratio[m, 1]
             state.flown[m] = 0 if state.touching[m] != OPEN else state.flown[m] + times
@@ -180,37 +169,32 @@ def run_steps(
             times -= part
             since += part
             sample = record.numbers[SAMPLES]
-            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample, part)
+            add_to_sample(record.forces[sample], here.P, state.touching, len(system.tables), part)
+            for d in range(len(here.drive)):
+                record.drive[sample, d] += part * here.drive[d]
             if since == rules.stride:
                 end_sample(state, record, rules.stride * rules.step)
                 since = 0
 
 
 @kernel
-def diverges(speed: Floats, step: float) -> bool:
-    """Return True if a coordinate turns by more than `FARTHEST` in one step, or its speed is NaN."""
-    near = True
-    for each in speed:
-        near = near and abs(each) * step < FARTHEST
-    return not near
-
-
-@kernel
 def solve_step(
-    system: ContactSystem, transmissions: PairTables, state: ContactState, here: StepEquations, rules: StepRules
+    system: ContactSystem,
+    transmissions: PairTables,
+    state: ContactState,
+    here: StepEquations,
+    rules: StepRules,
+    teeth: CompliantTeeth,
 ) -> int:
-    """Solve for the speeds at the end of a step and return the number of iterations."""
+    """Solve for the speeds at the end of a step and return the number of contact states tried."""
     find_loads(system, state, here, rules.step, rules.share)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
-    find_bounds(system, transmissions, state, here, rules.step)
-    if len(system.stop_stiff) > 0:
-        find_stop_bounds(system, state, here, rules.step)
-    pairs = len(system.stiff)
-    for m in range(pairs):
+    for m in range(len(here.before)):
         here.before[m] = state.touching[m]
-    for m in range(len(system.stop_stiff)):
-        here.before[pairs + m] = state.stopped[m]
+    find_bounds(system, transmissions, state, here, rules, teeth)
+    if len(system.stop_pitch) > 0:
+        find_stop_bounds(system, state, here, rules.step)
     rounds, again = 0, 0
     while True:
         solve_guess(system, state, here, rules.step, rules.creep)
@@ -219,7 +203,7 @@ def solve_step(
             return rounds
         if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) > 0:
             continue
-        if again == _AGAIN:
+        if rules.share != 1.0 or again == _AGAIN:
             return rounds
         struck = is_struck(state.touching, here.before, transmissions.jump, system.tables, here.ratio, state.ratio)
         if find_shift(system, here, 0.0 if struck else _IMPACT_CHANGE) * rules.step < _NEAR:
@@ -227,21 +211,17 @@ def solve_step(
         again += 1
         for d in range(len(here.v)):
             here.ahead[d] = here.v[d]
-        find_bounds(system, transmissions, state, here, rules.step)
+        find_bounds(system, transmissions, state, here, rules, teeth)
 
 
 @kernel
-def add_to_sample(
-    forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int, times: int
-) -> None:
+def add_to_sample(forces: Floats, P: Floats, touching: Ints, pairs: int, times: int) -> None:
     """Add the impulses of `times` identical steps to their sample.
 
     Calls with many arrays are slow, so only a few are passed.
     """
     for m in range(len(P)):
-        forces[sample, m] += times * (P[m] if m >= len(touching) or touching[m] != BACK else -P[m])
-    for d in range(len(kept)):
-        drive[sample, d] += times * kept[d]
+        forces[m] += times * (-P[m] if m < pairs and touching[m] == BACK else P[m])
 
 
 @kernel
@@ -281,13 +261,12 @@ def find_bounds(
     transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
-    step: float,
+    rules: StepRules,
+    teeth: CompliantTeeth,
 ) -> None:
-    """Compute speed ratios, lever arms and bounds k of both flanks at the extrapolated positions.
-
-    Closing speeds are the speeds before the step.
-    """
-    for m in range(len(system.stiff)):
+    """Compute speed ratios, lever arms, gaps and bounds k of both flanks at the extrapolated positions."""
+    step, rigid = rules.step, rules.share == 1.0
+    for m in range(len(system.tables)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
@@ -295,23 +274,38 @@ def find_bounds(
             q += system.pair_driven[x] * state.angle[o]
             dS += system.pair_driver[x] * state.speed[o]
             dq += system.pair_driven[x] * state.speed[o]
-            # the driver's angle at the end of the step, extrapolated
             on += system.pair_driver[x] * here.ahead[o]
-        at = S + step * on
+        at = S + rules.share * step * on
         way = 0 if dS >= 0 else 1
         for side in range(2):
-            if state.touching[m] == 2 - side and system.two_sided[m] == 0:
+            if rigid and state.touching[m] == 2 - side and system.two_sided[m] == 0:
                 # the opposite flank is a backlash away: it is inactive until the touching one separates
                 here.bound[m, side] = -np.inf
                 here.gap[m, side] = -np.inf
                 continue
             sign = 1.0 - 2.0 * side
             angle, ratio = value_and_slope(transmissions, system.tables[m, side], at)
-            lack = sign * ((angle - q) / step - ratio * on)
             rate = sign * (dq - ratio * dS)
+            here.ratio[m, side] = ratio
+            here.arm[m, side] = ratio
+            if system.rubbing[m, 2 * side + way] >= 0:
+                more, _ = value_and_slope(transmissions, system.rubbing[m, 2 * side + way], at)
+                here.arm[m, side] += more
+            if not rigid:
+                # with the row's speed r at the start and r+ at the end, the gap is gap + h/4 r+, and P = s (bound - r+)
+                gap = sign * (q + step / 2 * dq - angle) - step / 4 * rate
+                torque = teeth.stiffness[m] * gap + teeth.damping[m] / 2 * rate
+                here.gap[m, side] = gap
+                here.bound[m, side] = -step * torque * system.compliance[m]
+                if system.two_sided[m] == 0 and gap + step / 4 * rate >= 0.0:
+                    # flanks without contact do not damp
+                    here.bound[m, side] = -np.inf
+                    if state.touching[m] == side + 1:
+                        state.touching[m] = OPEN
+                continue
+            lack = sign * ((angle - q) / step - ratio * on)
             here.gap[m, side] = lack
             here.closing[m, side] = -rate
-            here.ratio[m, side] = ratio
             bounce = -system.restitution[m] * rate
             # without restitution only the position counts: a jump of the ratio within the step is not a flight. Bounces
             # follow each other ever faster, and those as short as a step end in contact
@@ -320,16 +314,12 @@ def find_bounds(
             if bounces and (long or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)):
                 lack = bounce
             here.bound[m, side] = lack
-            here.arm[m, side] = ratio
-            if system.rubbing[m, 2 * side + way] >= 0:
-                more, _ = value_and_slope(transmissions, system.rubbing[m, 2 * side + way], at)
-                here.arm[m, side] += more
 
 
 @kernel
 def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
     """Return True if a flank has come into contact in this step, or the speed ratio of a touching flank has jumped."""
-    for m in range(len(touching)):
+    for m in range(len(last)):
         now = touching[m]
         if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
             return True
@@ -343,7 +333,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
     minimum   fraction of its own speed from which a driver's difference counts
     """
     most = 0.0
-    for m in range(len(system.stiff)):
+    for m in range(len(system.tables)):
         shift, speed = 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
@@ -355,91 +345,31 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 
 @kernel
-def solve_midpoint_step(
-    system: ContactSystem,
-    transmissions: PairTables,
-    state: ContactState,
-    here: StepEquations,
-    rules: StepRules,
-    teeth: CompliantTeeth,
-) -> int:
-    """Solve for the speeds at the end of a step; return the number of contact states tried."""
-    find_loads(system, state, here, rules.step, rules.share)
-    for m in range(len(system.stiff)):
-        here.before[m] = state.touching[m]
-    find_midpoint_bounds(system, transmissions, state, here, teeth, rules.step)
-    rounds = 0
-    while True:
-        solve_guess(system, state, here, rules.step, rules.creep)
-        rounds += 1
-        if rounds > rules.rounds:
-            return rounds
-        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) == 0:
-            return rounds
-
-
-@kernel
-def find_midpoint_bounds(
-    system: ContactSystem,
-    transmissions: PairTables,
-    state: ContactState,
-    here: StepEquations,
-    teeth: CompliantTeeth,
-    step: float,
-) -> None:
-    """Compute speed ratios, lever arms and gaps at the middle of the step, and the row speeds at which P vanishes."""
-    for m in range(len(system.stiff)):
-        S, q, dS, dq = system.start_driver[m], system.start_driven[m], 0.0, 0.0
-        for x in range(system.pair_at[m], system.pair_at[m + 1]):
-            o = system.pair_of[x]
-            S += system.pair_driver[x] * state.angle[o]
-            q += system.pair_driven[x] * state.angle[o]
-            dS += system.pair_driver[x] * state.speed[o]
-            dq += system.pair_driven[x] * state.speed[o]
-        at = S + step / 2 * dS
-        way = 0 if dS >= 0 else 1
-        stiff, damped = step * teeth.stiffness[m], step * teeth.damping[m]
-        for side in range(2):
-            sign = 1.0 - 2.0 * side
-            angle, ratio = value_and_slope(transmissions, system.tables[m, side], at)
-            rate = sign * (dq - ratio * dS)
-            here.ratio[m, side] = ratio
-            here.arm[m, side] = ratio
-            if system.rubbing[m, 2 * side + way] >= 0:
-                more, _ = value_and_slope(transmissions, system.rubbing[m, 2 * side + way], at)
-                here.arm[m, side] += more
-            # with the row's speed r at the start and r+ at the end the gap is  gap + h/4 r+,  and P = s (bound - r+)
-            teeth.gap[m, side] = sign * (q + step / 2 * dq - angle) - step / 4 * rate
-            here.bound[m, side] = -(stiff * teeth.gap[m, side] + damped / 2 * rate) / system.stiff[m]
-            if system.two_sided[m] == 0 and teeth.gap[m, side] + step / 4 * rate >= 0.0:
-                # flanks without contact do not damp
-                here.bound[m, side] = -np.inf
-                if state.touching[m] == side + 1:
-                    state.touching[m] = 0
-
-
-@kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
     """Compute the maximum speed of each stopped link: up to its stop, or back from it [rad/s]."""
-    for m in range(len(system.stop_stiff)):
-        beats = floor((state.clock[0] + step / 2) / system.stop_beat[m])
-        room = system.stop_first[m] + (1.0 + beats) * system.stop_pitch[m]
+    for stop in range(len(system.stop_pitch)):
+        m = len(system.tables) + stop
+        beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])
+        room = (1.0 + beats) * system.stop_pitch[stop]
         rate = 0.0
-        for x in range(system.stop_at[m], system.stop_at[m + 1]):
-            room -= system.stop_c[x] * state.angle[system.stop_of[x]]
-            rate += system.stop_c[x] * state.speed[system.stop_of[x]]
-        here.stop_bound[m] = room / step
-        if state.stopped[m] != 0:
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            room -= system.pair_driven[x] * state.angle[system.pair_of[x]]
+            rate += system.pair_driven[x] * state.speed[system.pair_of[x]]
+        limit = room / step
+        if state.touching[m] != OPEN:
             # reached at its position in the previous step with the speed found there, and left in this one
-            back = system.stop_restitution[m] * here.stop_closing[m]
+            back = system.stop_restitution[stop] * here.stop_closing[stop]
             if back > 0.0:
-                here.stop_bound[m] = min(room / step, -back)
-            here.stop_closing[m] = 0.0
-            state.stop_rate[m, 1] = rate
+                limit = min(limit, -back)
+            here.stop_closing[stop] = 0.0
+            state.stop_rate[stop, 1] = rate
         else:
             # closing speed v0 under constant acceleration from the stop that was left at v0; with these steps
             # v0^2 = v^2 + a (h v + h v0 + 2 room)
-            gain = rate - state.stop_rate[m, 0]
-            square = rate * rate + gain * (rate + state.stop_rate[m, 1] + 2.0 * room / step)
-            here.stop_closing[m] = sqrt(max(square, 0.0)) if rate > 0.0 else 0.0
-        state.stop_rate[m, 0] = rate
+            gain = rate - state.stop_rate[stop, 0]
+            square = rate * rate + gain * (rate + state.stop_rate[stop, 1] + 2.0 * room / step)
+            here.stop_closing[stop] = sqrt(max(square, 0.0)) if rate > 0.0 else 0.0
+        state.stop_rate[stop, 0] = rate
+        # a stop is a coast flank: it limits the speed from ahead, -v >= -limit
+        here.bound[m, 0] = -np.inf
+        here.bound[m, 1] = -limit

@@ -1,4 +1,4 @@
-"""Strength of gear pairs, arbors and pins under load, and their wear (docs/strength.md). Units here: N, mm, MPa.
+"""Strength of gear pairs, arbors and pins under load, and their wear (docs/strength.md), in N, mm and MPa.
 
 train_strength     entry point: `solve_strength` for all pairs and arbors of a train
 strength_results   the results

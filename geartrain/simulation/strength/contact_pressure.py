@@ -1,8 +1,8 @@
 """Hertzian contact of two teeth, and Archard's wear: docs/strength.md.
 
-ContactLoad          line contact, the load shared equally by the tooth pairs in contact on the path of contact
-HelicalContactLoad   line contact of helical involutes on parallel axes: thin spur slices, each rotated against the
-                     next, with the load uniform along all lines of contact
+ContactLoad          line contact, the load shared equally by the tooth pairs in contact on the path of contact; for
+                     helical involutes on parallel axes, thin spur slices, each rotated against the next, with the load
+                     uniform along all lines of contact
 CrossedWheels        point contact: the contact ellipse, and involute helicoids on crossed axes
 loss_over_friction, deepest_passage   wear V = (K/H) times the integral of force over sliding distance
 """
@@ -111,7 +111,10 @@ class ContactPlace(Result):
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """Line contact of a loaded pair with a path of contact: forces and pressures along the path."""
+    """Line contact of a loaded pair with a path of contact: forces and pressures along the path.
+
+    For helical teeth the quantities are those in the transverse section.
+    """
 
     path: PathOfContact
     """Path of contact, lengths in modules."""
@@ -122,6 +125,15 @@ class ContactLoad:
     """Torque on gear 1 [N mm]."""
     factor: float
     """Elasticity factor [sqrt(MPa)]."""
+    base_helix: float = 0.0
+    """Base helix angle [rad]; 0 for spur teeth."""
+    overlap: float = 0.0
+    """Overlap ratio: advance of helical teeth over the width [pitch]."""
+
+    @property
+    def lines(self) -> float:
+        """Minimum number of tooth pairs in contact, averaged over the width of helical teeth."""
+        return minimum_tooth_pairs(self.path.contact_ratio, self.overlap)
 
     @property
     def tangential(self) -> float:
@@ -137,9 +149,12 @@ class ContactLoad:
         return [X + k * p for k in range(first, last + 1)] or [X]
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Return the normal force of one tooth pair at each arc X [N], and the number of tooth pairs that share the
-        torque.
+        """Return the force of one tooth pair at each arc X [N], and the number of tooth pairs that share the torque.
+
+        The force is normal to the flanks of spur teeth, and transverse for helical teeth.
         """
+        if self.base_helix:
+            return self.tangential / self.path.at(X).cos_psi / self.lines, np.full(X.shape, self.lines)
         cosines, counts = [], []
         for each in X.tolist():
             found = self.path.at(np.clip(self.tooth_pairs(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
@@ -149,20 +164,25 @@ class ContactLoad:
         return self.tangential / np.array(cosines), np.array(counts)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return pressure [MPa], force [N] and number of tooth pairs in contact at arcs X."""
+        """Return pressure [MPa], force [N] and number of tooth pairs in contact at arcs X.
+
+        Lines of contact of helical teeth are longer by 1/cos of the base helix angle, and so is the force normal to the
+        flanks; the curvature across the lines is smaller by the cosine.
+        """
         force, counts = self.forces(X)
-        curvature = self.path.at(X).kr / self.module
+        curvature = self.path.at(X).kr / self.module * cos(self.base_helix)
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
         """Return the arcs X between which one tooth pair carries the whole load [module].
 
-        With a contact ratio below 1 the result is both ends of the path of contact.
+        The result is both ends of the path of contact with a contact ratio below 1, and for helical teeth, of which one
+        pair never carries the whole load.
         """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
         # with a contact ratio below 1 one pair carries the load all the time
-        return (low, high) if low <= high else (-approach, recess)
+        return (low, high) if low <= high and not self.base_helix else (-approach, recess)
 
     @property
     def has_cusp(self) -> bool:
@@ -178,9 +198,7 @@ class ContactLoad:
         return float(self.pressures(np.linspace(low + nudge, high - nudge, _POSITIONS))[0].max())
 
     def places(self) -> tuple[ContactPlace, ...]:
-        """Return the pressures at the ends of contact and of single contact, the pitch point, and the worst
-        position.
-        """
+        """Return the pressures at the ends of contact and of single contact, at the pitch point, and the maximum."""
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         named = {"start of contact": -approach, "end of contact": recess}
         low, high = self.single()
@@ -226,42 +244,6 @@ def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
     return contact_ratio - lost / overlap
 
 
-@dataclass(frozen=True, slots=True)
-class HelicalContactLoad(ContactLoad):
-    """Load on a helical pair; quantities are as in `ContactLoad`, in the transverse section."""
-
-    base_helix: float = 0.0
-    """Base helix angle [rad]."""
-    overlap: float = 0.0
-    """Overlap ratio: advance of the teeth over the width [pitch]."""
-
-    @property
-    def lines(self) -> float:
-        """Minimum number of tooth pairs in contact, averaged over the width."""
-        return minimum_tooth_pairs(self.path.contact_ratio, self.overlap)
-
-    def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Return the transverse force on a tooth at each arc X [N], with all forces equal, and the number of tooth
-        pairs.
-        """
-        force = self.tangential / self.path.at(X).cos_psi / self.lines
-        return force, np.full(X.shape, self.lines)
-
-    def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return pressure [MPa], force [N] and number of tooth pairs in contact at arcs X.
-
-        Lines of contact are longer by 1/cos of the base helix angle, and so is the force normal to the flanks; the
-        curvature across the lines is smaller by the cosine.
-        """
-        force, counts = self.forces(X)
-        curvature = self.path.at(X).kr / self.module * cos(self.base_helix)
-        return self.factor * np.sqrt(force / self.width * curvature), force, counts
-
-    def single(self) -> tuple[float, float]:
-        """Return the arcs X at the ends of the path, because one tooth pair never carries the whole load."""
-        return -self.path.arcs[0], self.path.arcs[1]
-
-
 # ----------------------------------------------------------------------------------------------------------- at a point
 
 
@@ -304,13 +286,8 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     # an axis ratio below exp(-34) is close to the rounding error: practically a line
     elif ratio(-34.0) < 0:
         why = f"their generatrices cross at only {crossing:.3g} rad"
-        raise RangeError(
-            Problem(
-                "nearly parallel cylinders have no contact ellipse",
-                why,
-                "use the pressure of a line contact, `hertz_pressure`",
-            )
-        )
+        what = "nearly parallel cylinders have no contact ellipse"
+        raise RangeError(Problem(what, why, "use the pressure of a line contact, `hertz_pressure`"))
     else:
         # in logarithms, because long ellipses have axis ratios down to 1e-15
         k = float(np.exp(brentq(ratio, -34.0, -1e-7)))
@@ -366,9 +343,7 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path of contact beyond the pitch point, towards the tip of one wheel, by cause
-        [mm].
-        """
+        """Return the limits of the path of contact from the pitch point towards the tip of one wheel, by cause [mm]."""
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2
@@ -382,9 +357,7 @@ class CrossedWheels:
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """Lengths of contact along the line of action: towards the tip of the second wheel and towards that of the
-        first [mm].
-        """
+        """Lengths of contact along the line of action towards the tip of the second wheel, and of the first [mm]."""
         return min(self._bounds(1).values()), min(self._bounds(0).values())
 
     @property
@@ -426,7 +399,8 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
     """Return the power loss of a pair divided by its power and its friction coefficient, near friction 0:
     docs/strength.md (14).
 
-    The energy through the pair times this is the integral of force over sliding distance. None for teeth that lock.
+    This value times the energy that the pair transmits is the integral of force over sliding distance. The result is
+    None for teeth that lock.
     """
     # the limit at friction 0, evaluated at a small coefficient
     wheels = replace(mesh.wheels, friction=_SLIGHT, friction_law=None)
@@ -438,12 +412,11 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
 
 def deepest_passage(load: ContactLoad, gear: int) -> float:
-    """Return the maximum of force per width times sliding distance at a point of a flank in one passage [N]:
-    docs/strength.md
-    (15).
+    """Return the maximum, over the points of a flank, of force per width times sliding distance in one passage of the
+    contact [N]: docs/strength.md (15).
 
     This value times the wear coefficient K, divided by the hardness, is a wear depth. A point at which the contact does
-    not move is omitted.
+    not move along the flank is omitted.
     """
     approach, recess = load.path.arcs
     X = np.linspace(-approach, recess, 801)

@@ -102,17 +102,8 @@ class RackPair:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
         if not 1 <= self.contact_ratio < 2:
             what = f"the contact ratio {self.contact_ratio:.4g} is outside the range of ISO 6336 method B"
-            raise RangeError(
-                Problem(
-                    what,
-                    "its load sharing applies to contact ratios from 1 to 2, excluding 2",
-                    "use the stresses by Lewis and Hertz",
-                )
-            )
-
-    def wheel(self, at: int) -> RackWheel:
-        """Return the first wheel for index 0, the second for index 1."""
-        return self.second if at else self.first
+            why = "its load sharing applies to contact ratios from 1 to 2, excluding 2"
+            raise RangeError(Problem(what, why, "use the stresses by Lewis and Hertz"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +213,8 @@ def helical_root_stress(
     """Return the root stress of a helical wheel, from its virtual spur wheel in the normal section: docs/strength.md
     (22).
 
-    wheel, angle   teeth, shift, tip, dedendum and corner in normal modules; normal pressure angle [rad]
+    wheel, angle   data in the normal section, where `wheel.tip` is the height of the tip above the pitch circle instead
+                   of a radius [module]; normal pressure angle [rad]
     module         normal module [mm]
 
     Return None if at least two tooth pairs of the virtual spur wheel are always in contact.
@@ -296,9 +288,7 @@ class RootSection:
 
 @dataclass(frozen=True, slots=True)
 class ToothSide:
-    """Half of a tooth outline from its tip to the middle of the space: x along the tooth's centre line, y >= 0
-    [module].
-    """
+    """Half of a tooth outline, from its tip to the middle of the space: x along its centre line, y >= 0 [module]."""
 
     points: Floats
     outward: int
@@ -338,18 +328,14 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return a force at `radius` whose line of action passes the axis at the distance `arm`, docs/strength.md (4)
-        [module].
-        """
+        """Return a force at `radius` on a line at the distance `arm` from the axis [module]: docs/strength.md (4)."""
         # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
         angle = pressure - self.outward * self.half(radius)
         return ToothLoad(radius, arm / cos(angle), angle)
 
     def load_at_tip(self) -> ToothLoad:
-        """Return a force at the end of the flank, normal to its last chord; it is used for teeth without a path of
-        contact.
-        """
+        """Return a force at the end of the flank, normal to its last chord, for teeth without a path of contact."""
         r = np.hypot(*self.points.T)
         # points off the tip circle
         flank = self.points[np.abs(r - self.tip) > 1e-9]
@@ -379,9 +365,7 @@ class ToothSide:
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))
 
     def _sections(self) -> tuple[Floats, Floats]:
-        """Return height and half thickness of all sections [module], with points interpolated between those of the
-        outline.
-        """
+        """Return height and half thickness of sections at and between the points of the outline [module]."""
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))

@@ -14,7 +14,6 @@ from geartrain.errors import RangeError
 from geartrain.simulation.strength.contact_pressure import (
     ContactLoad,
     Elasticity,
-    HelicalContactLoad,
     base_helix_angle,
     deepest_passage,
     elasticity_factor,
@@ -132,9 +131,7 @@ class PairUnderLoad:
 
     @property
     def tangential(self) -> float:
-        """Tangential force at the pitch line [N]: the larger force of both wheels, because friction reduces one
-        torque.
-        """
+        """Tangential force at the pitch line [N]: the larger one of both wheels; friction reduces one torque."""
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
@@ -152,10 +149,7 @@ class PairUnderLoad:
             return None
         # torque on gear 1 that gives this force, also for bevels
         torque = self.tangential * path.pitch.R1 * self.module
-        if self.lean.helix:
-            lean = self.lean.base, self.lean.overlap
-            return HelicalContactLoad(path, self.module, self.width, torque, self.factor, *lean)
-        return ContactLoad(path, self.module, self.width, torque, self.factor)
+        return ContactLoad(path, self.module, self.width, torque, self.factor, self.lean.base, self.lean.overlap)
 
     @cached_property
     def lean(self) -> HelixData:
@@ -221,8 +215,9 @@ class PairUnderLoad:
         The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
         In the normal section the tooth is thinner and the load is larger.
         """
-        load = self.load
-        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, HelicalContactLoad) else 1.0
+        if self.load is None or not self.lean.helix:
+            return 1.0
+        return 1 / (self.load.lines * cos(self.lean.helix) ** 2)
 
     def _pin_stress(self, own: WheelUnderLoad) -> float:
         pins = own.teeth.pins
@@ -237,14 +232,12 @@ class PairUnderLoad:
         return own.side.load_at(tip, arm)
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """Return the section of maximum bending with the whole load at the tip, and the maximum stress with shared load
-        [MPa].
-        """
+        """Return the weakest section with the whole load at the tip, and the maximum stress with shared load [MPa]."""
         own, load = self.wheels[at], self.load
         if own.teeth.pins is not None:
             return None, None
         tip = own.side.weakest_section(self._tip_load(own))
-        if load is None or isinstance(load, HelicalContactLoad):
+        if load is None or self.lean.helix:
             return tip, None
         path = load.path
         low, high = load.single()
@@ -300,7 +293,7 @@ class PairUnderLoad:
         return contact_stress(pair, self.factor, force, self.width, self.module), (roots[0], roots[1])
 
     def _iso_root(self, pair: RackPair, at: int, force: float) -> IsoRoot | None:
-        wheel, form = pair.wheel(at), self.mesh.tooth_form
+        wheel, form = (pair.first, pair.second)[at], self.mesh.tooth_form
         if not self.lean.helix or not isinstance(form, Involute):
             radius = outer_single_contact(wheel, pair.angle, pair.contact_ratio)
             return root_stress(wheel, pair.angle, force, self.width, self.module, radius)

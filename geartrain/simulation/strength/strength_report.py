@@ -146,9 +146,7 @@ def describe_strength(found: StrengthReport) -> Document:
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return the document of the strength in one state, as `geartrain strength` prints it; None if the train is not
-    known.
-    """
+    """Return the document of the strength in one state, as `geartrain strength` prints it; None without the train."""
     declared = found._declaration
     return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 

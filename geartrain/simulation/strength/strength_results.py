@@ -14,7 +14,7 @@ from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 
 
 class WearRange(NamedTuple):
-    """Result for the minimum and for the maximum wear coefficient."""
+    """Values of one wear result for the minimum and for the maximum wear coefficient."""
 
     minimum: float
     """Value for the minimum wear coefficient."""
@@ -99,9 +99,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety factors; None if
-        unknown.
-        """
+        """Table with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety factors."""
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
         names = ["wheel", "material", "torque", "tip_stress", "shared_stress", "pressure"]
         names += ["root_safety", "contact_safety"]
@@ -249,8 +247,7 @@ class WheelStrength(Result):
     """Root stress if one tooth pair carries the whole load at the tip [MPa]; for pins, the bending stress of a pin."""
     shared_stress: float | None
     """Maximum root stress if tooth pairs share the load equally [MPa]; None for pins, helical teeth, and forms without
-    a path
-    of contact.
+    a path of contact.
     """
     pressure: float | None
     """Maximum contact pressure while one tooth pair is in contact [MPa]; None if the pressure is unbounded or the form
@@ -272,9 +269,7 @@ class WheelStrength(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: contact pressure at first yield below the surface divided by `pressure`; None if
-        either value is unknown.
-        """
+        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if either one is unknown."""
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
 
@@ -324,9 +319,7 @@ class WheelForce(Result):
     axial: float
     """Axial force, positive along the direction of the wheel's axis [N]."""
     radial: float | None
-    """Radial force [N], positive towards the wheel's axis, negative for a ring; None if the pressure angle is
-    unknown.
-    """
+    """Radial force [N], positive towards the axis, negative for a ring; None if the pressure angle is unknown."""
     torque: float
     """Torque on the wheel [N m]."""
 
@@ -351,9 +344,7 @@ class FlankStrength(Result):
     spread: float | None
     """Relative uncertainty of the material's strength; None if it is not known."""
     safety: float | None
-    """Safety factor of the flank: pressure at first yield below the surface divided by the contact pressure; None if
-    unknown.
-    """
+    """Safety factor of the flank: pressure at first yield divided by the contact pressure; None if unknown."""
     tip_stress: float | None = None
     """Root stress if one tooth pair carries the whole load at the tip [MPa]; None if the virtual teeth cannot be cut.
     """
@@ -433,9 +424,7 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield below the surface divided by `pressure`; None if
-        unknown.
-        """
+        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if unknown."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property

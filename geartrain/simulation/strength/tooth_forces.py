@@ -39,7 +39,7 @@ class ToothForces:
     pairs: Mapping[str, PairTorque]
     """Torques by pair."""
     meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth by name."""
+    """Pairs with a tooth form, by name."""
     swings: Mapping[str, float] = field(default_factory=dict)
     """Ratio of the design torque to the mean torque, by pair."""
 
@@ -79,9 +79,7 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
-        """Return radii with tangential forces: the larger force for both wheels, because friction reduces one
-        torque.
-        """
+        """Return radii and tangential forces: the larger one for both wheels, because friction reduces one torque."""
         pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
         maximum = max(map(abs, pushes))
         return [(radius, copysign(maximum, push)) for radius, push in zip(radii, pushes, strict=True)]
@@ -156,9 +154,7 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the radius [mm] and the forces [N] of a wheel on crossed axes, with friction of sliding along the
-        teeth.
-        """
+        """Return the radius [mm] of a wheel on crossed axes, and its forces [N] with friction along the teeth."""
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
@@ -199,22 +195,14 @@ class PitchForce(NamedTuple):
 
 
 def helical_force(tangential: float, helix: float, pressure_angle: float, friction_angle: float = 0.0) -> PitchForce:
-    """Return the force on a wheel at its pitch point: docs/strength.md (18). The helix angle is 0 for spur wheels.
+    """Return the force on a wheel at its pitch point: docs/strength.md (18).
 
-    Parameters
-    ----------
-    tangential : float
-        Torque divided by pitch radius, in any unit of force.
-    helix : float
-        Helix angle [rad], positive for a right hand; near pi/2 for a worm.
-    pressure_angle : float
-        Normal pressure angle [rad].
-    friction_angle : float
-        Friction angle along the teeth [rad], atan(mu / cos(pressure angle)); negative for the driver, positive for the
-        driven wheel, or reversed if the helix angles reverse the sliding. 0 on parallel axes.
+    tangential       torque divided by pitch radius, in any unit of force
+    helix            helix angle [rad], positive for a right hand; 0 for spur wheels, near pi/2 for a worm
+    pressure_angle   normal pressure angle [rad]
+    friction_angle   friction angle along the teeth [rad]; negative for the driver, positive for the driven wheel, or
+                     reversed if the helix angles reverse the sliding; 0 on parallel axes
 
-    Examples
-    --------
     A right-hand driver with 10 N along its pitch circle turns positively about its axis, against the mate's torque;
     the thrust is along the axis:
 

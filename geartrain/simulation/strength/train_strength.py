@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import hypot, inf, pi, sqrt
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.cut_teeth import find_cut_teeth, find_modules
-from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.dynamics.torques.train_torques import solve
 from geartrain.dynamics.wheel_teeth import CHORD, WheelTeeth
@@ -50,21 +49,16 @@ _PINS = "steel"  # material of the pins of couplings if the train declares none
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Return pressures, root stresses, safety factors and wear under the loads of one state; see
-    `GearTrain.strength`.
-    """
+    """Return pressures, root stresses, safety factors and wear in one state; see `GearTrain.strength`."""
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
     if not found.verdict or loads is None:
         return TrainStrength(found.state, found.verdict)
-    if not has_torque_units(train.declaration, found.state):
+    if not train.declaration.has_torque_units(found.state):
         what = "the loads have no unit"
-        raise QuestionError(
-            Problem(
-                what, "stresses are computed from torques in N m", "declare the loads with a unit, such as `-0.5 N m`"
-            )
-        )
+        why = "stresses are computed from torques in N m"
+        raise QuestionError(Problem(what, why, "declare the loads with a unit, such as `-0.5 N m`"))
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
     question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
@@ -100,9 +94,8 @@ class Service:
         own = WearRange(*(self.wear or WEAR_RANGE))
         if not 0 < own.minimum <= own.maximum < inf:
             what = f"{own.minimum:g} to {own.maximum:g} is not a range of wear coefficients"
-            raise QuestionError(
-                Problem(what, "K must be positive, with the minimum first", "for example, give --wear 1e-7 1e-3")
-            )
+            why = "K must be positive, with the minimum first"
+            raise QuestionError(Problem(what, why, "for example, give --wear 1e-7 1e-3"))
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
@@ -111,31 +104,16 @@ class Service:
         if turns is None and years is None:
             return None
         if turns is not None and years is not None:
-            raise QuestionError(
-                Problem(
-                    "both turns and years are given",
-                    "turns and years both define the service life",
-                    "omit --turns or --years",
-                )
-            )
+            why = "turns and years both define the service life"
+            raise QuestionError(Problem("both turns and years are given", why, "omit --turns or --years"))
         for name, value in (("turns", turns), ("years", years)):
             if value is not None and not 0 < value < inf:
-                raise QuestionError(
-                    Problem(
-                        f"a service life of {value:g} {name} is out of range",
-                        "it must be positive and finite",
-                        "give a number above 0",
-                    )
-                )
+                what = f"a service life of {value:g} {name} is out of range"
+                raise QuestionError(Problem(what, "it must be positive and finite", "give a finite number above 0"))
         speed, declared = _input_speed(train, state), train.declaration
         if not speed:
-            raise QuestionError(
-                Problem(
-                    f"'{declared.name}' does not move",
-                    "no input has a speed other than 0",
-                    "declare a non-zero speed under `inputs`",
-                )
-            )
+            fix = "declare a non-zero speed under `inputs`"
+            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input has a speed other than 0", fix))
         if turns is not None:
             return turns / speed
         case, unit = train.kinematics.case(state), declared.unit_speed
@@ -144,10 +122,8 @@ class Service:
         if case.rate is not None and case.rate.unit is not None:
             return years * _YEAR * float(case.rate.base) / speed
         if unit is None:
-            what, why = (
-                "years cannot be converted to turns",
-                "the speeds of this train are numbers without a unit",
-            )
+            what = "years cannot be converted to turns"
+            why = "the speeds of this train are numbers without a unit"
             raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
         return years * _YEAR * float(unit)
 
@@ -173,7 +149,7 @@ class StrengthQuestion:
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
-    """Pairs with real teeth, with their drivers in this load case."""
+    """Pairs with a tooth form, with their drivers in this load case."""
     scale: float | None
     """Total revolutions per unit of relative speed; None if wear is not requested. `turns` is the number for the input.
     """
@@ -269,7 +245,7 @@ class StrengthQuestion:
             wheels = {name: self.declared.wheels[name][1] for name in circuit.wheels}
             names = [self._material_name(wheel) for wheel in wheels.values()]
             if lacking := [
-                *self._missing_helix_angles(wheels),
+                *(f"'{name}' has no `helix_angle`" for name, wheel in wheels.items() if wheel.helix_angle is None),
                 *self._missing_for_any(wheels, self.torques.pairs[circuit.id]),
             ]:
                 self._leave_out(circuit.id, "; ".join(lacking))
@@ -279,12 +255,6 @@ class StrengthQuestion:
             is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
             wheels_there = forces.crossed_wheels(circuit)
             yield SkewPair(wheels_there, (both[0], both[1]), (first, second), is_worm, forces.involute_of(circuit))
-
-    @staticmethod
-    def _missing_helix_angles(wheels: Mapping[str, Wheel]) -> Iterator[str]:
-        for name, wheel in wheels.items():
-            if wheel.helix_angle is None:
-                yield f"'{name}' has no `helix_angle`"
 
     # -------------------------------------------------------------------------------------------------------- pins
 
@@ -460,8 +430,7 @@ class StrengthQuestion:
                 self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
-            load = ArborLoad.of(own, steepest)
-            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
+            yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), own, steepest)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
         """Return the names of the pairs of the given wheels that carry a torque but have no known forces."""
@@ -478,75 +447,42 @@ class StrengthQuestion:
 # ------------------------------------------------------------------------------------------ arbors between two bearings
 
 
-@dataclass(frozen=True, slots=True)
-class ArborLoad:
-    """Upper bounds of the load on an arbor by its wheels, as if all transverse forces acted in one direction."""
-
-    across: float
-    """Sum of the transverse forces [N]."""
-    along: float
-    """Maximum sum of the axial forces of one sign [N]; `thrust` is the resultant axial force on its shoulders [N]."""
-    thrust: float
-    couple: float
-    """Moment of the axial forces at their radii [N mm]; `torque` is the torque [N mm]."""
-    torque: float
-
-    @classmethod
-    def of(cls, forces: Iterable[WheelForce], steepest: Mapping[str, float]) -> ArborLoad:
-        """Return the load on an arbor by the forces on its wheels.
-
-        steepest   force of one tooth pair in single contact, by pair where it is known [N]
-        """
-        own = list(forces)
-        axial = [each.axial for each in own]
-        return cls(
-            sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in own),
-            # the arbor carries the larger sum of axial forces, its shoulders the resultant
-            max(sum(part for part in axial if part > 0), -sum(part for part in axial if part < 0)),
-            abs(sum(axial)),
-            sum(abs(each.axial) * each.radius for each in own),
-            max((abs(each.torque) * 1e3 for each in own), default=0.0),
-        )
-
-
-def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
+def arbor_strength(
+    link: str, arbor: ArborSizes, material: Material, forces: Sequence[WheelForce], steepest: Mapping[str, float]
+) -> ArborStrength:
     """Return the stresses and the strength of an arbor between two bearings: docs/strength.md (16), (17) and (26).
 
-    The stresses are upper bounds for all positions of its wheels.
+    The stresses are upper bounds for all positions of its wheels, as if all transverse forces acted in one direction.
+
+    steepest   force of one tooth pair in single contact, by pair where it is known [N]
     """
+    across = sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in forces)
+    # the arbor carries the larger sum of axial forces of one sign, its shoulders the resultant
+    along = max(sum(max(each.axial, 0.0) for each in forces), sum(max(-each.axial, 0.0) for each in forces))
+    thrust = abs(sum(each.axial for each in forces))
+    couple = sum(abs(each.axial) * each.radius for each in forces)
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
     # a pivot without a declared length is as long as its diameter
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
-    bending = bending_stress(maximum_moment(load.across, load.couple, span), diameter)
-    # axial stress adds to the bending stress
-    bending += 4 * load.along / (pi * diameter**2)
-    torsion = torsional_stress(load.torque, diameter)
+    # the axial stress adds to the bending stress of a round bar
+    bending = 32 * maximum_moment(across, couple, span) / (pi * diameter**3) + 4 * along / (pi * diameter**2)
+    torsion = 16 * max((abs(each.torque) * 1e3 for each in forces), default=0.0) / (pi * diameter**3)
     strength = None if material.strength is None else material.strength.si / 1e6
     shoulder = pi / 4 * (diameter**2 - pivot**2)
     return ArborStrength(
         link,
         arbor.material,
-        load.across,
-        load.thrust,
+        across,
+        thrust,
         bending,
         torsion,
         sqrt(bending**2 + 3 * torsion**2),
         # all transverse forces, and the reaction to their moment, on one pivot
-        (load.across + load.couple / span) / (pivot * length),
-        load.thrust / shoulder if shoulder > 0 else None,
+        (across + couple / span) / (pivot * length),
+        thrust / shoulder if shoulder > 0 else None,
         strength,
     )
-
-
-def bending_stress(moment: float, diameter: float) -> float:
-    """Return the bending stress of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
-    return 32 * moment / (pi * diameter**3)
-
-
-def torsional_stress(torque: float, diameter: float) -> float:
-    """Return the torsional stress of a round bar [MPa]: 16 T/(pi d^3), T in N mm and d in mm."""
-    return 16 * torque / (pi * diameter**3)
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:

@@ -84,9 +84,7 @@ class VirtualSpurs:
 
     @classmethod
     def of(cls, mesh: GearMesh, module: float, width: float) -> VirtualSpurs | None:
-        """Return the virtual pair for the module at the large ends and the width; None for axes that do not
-        intersect.
-        """
+        """Return the virtual pair for the module at the large ends and the width; None unless the axes intersect."""
         form = mesh.tooth_form
         if mesh.path is None or not mesh.path.pitch.bevel or not isinstance(form, ConjugateToothForm):
             return None
@@ -130,47 +128,6 @@ class VirtualSpurs:
 
 
 @dataclass(frozen=True)
-class NormalSpurs:
-    """Virtual spur pair of crossed helical wheels in their normal sections: docs/strength.md (27)."""
-
-    crossed: CrossedWheels
-    form: Involute
-
-    @cached_property
-    def _pair(self) -> ConjugatePair | None:
-        counts = self.crossed.normal_count(0), self.crossed.normal_count(1)
-        try:
-            return self.form.pair(WheelPair(*counts, module=self.crossed.module / _MM))
-        except GearTrainError:
-            return None
-
-    def root_stress(self, at: int, force: float) -> float | None:
-        """Return the root stress of a tooth under a normal force at its tip [MPa]; None if the virtual teeth cannot be
-        cut.
-
-        The force [N] is distributed over twice its lever arm, limited by the length of the tooth.
-        """
-        if self._pair is None:
-            return None
-        form, module = self.form, self.crossed.module
-        # bottom clearance of the form, or the default one
-        free = form.bottom_clearance(WheelPair(self._pair.path.pitch.z1, self._pair.path.pitch.z2), at + 1)
-        clearance = CLEARANCE if free is None else max(free, 0.0)
-        try:
-            tooth = ToothRequirement(self._pair, at + 1, CHORD, clearance).cut([])
-        except GearTrainError:
-            return None
-        side = ToothSide.of(tooth.tooth)
-        # base radius of the virtual wheel in modules
-        arm = self.crossed.normal_count(at) / 2 * cos(self.crossed.pressure_angle)
-        load = side.load_at(tooth.tip, arm)
-        section = side.weakest_section(load)
-        # the load spreads at 45 degrees to both sides of the point of contact
-        width = min(self.crossed.tooth_length(at), _SPREAD * (load.apex - section.x) * module)
-        return section.stress(force * arm * module, width, module)
-
-
-@dataclass(frozen=True)
 class SkewPair:
     """Pair on crossed axes with the forces on both wheels, in the order of the pair."""
 
@@ -203,7 +160,7 @@ class SkewPair:
     def _flank(self, at: int, pressure: float, normal: float) -> FlankStrength:
         name, material = self.materials[at]
         wheel, strength = self.forces[at].wheel, material.strength
-        bent = self._spurs.root_stress(at, normal)
+        bent = self._root_stress(at, normal)
         if strength is None:
             return FlankStrength(wheel, name, None, None, None, bent)
         # yield stress of the material
@@ -211,14 +168,44 @@ class SkewPair:
         return FlankStrength(wheel, name, bears, float(material.spread.value), YIELD_AT_POINT * bears / pressure, bent)
 
     @cached_property
-    def _spurs(self) -> NormalSpurs:
-        return NormalSpurs(self.wheels, self.form)
+    def _pair(self) -> ConjugatePair | None:
+        """Virtual spur pair in the normal sections, docs/strength.md (27); None if it does not exist."""
+        counts = self.wheels.normal_count(0), self.wheels.normal_count(1)
+        try:
+            return self.form.pair(WheelPair(*counts, module=self.wheels.module / _MM))
+        except GearTrainError:
+            return None
+
+    def _root_stress(self, at: int, force: float) -> float | None:
+        """Return the root stress of a tooth under a normal force at its tip [MPa]; None if the virtual teeth cannot be
+        cut.
+
+        The force [N] is distributed over twice its lever arm, limited by the length of the tooth.
+        """
+        if self._pair is None:
+            return None
+        form, module = self.form, self.wheels.module
+        # bottom clearance of the form, or the default one
+        free = form.bottom_clearance(WheelPair(self._pair.path.pitch.z1, self._pair.path.pitch.z2), at + 1)
+        clearance = CLEARANCE if free is None else max(free, 0.0)
+        try:
+            tooth = ToothRequirement(self._pair, at + 1, CHORD, clearance).cut([])
+        except GearTrainError:
+            return None
+        side = ToothSide.of(tooth.tooth)
+        # base radius of the virtual wheel in modules
+        arm = self.wheels.normal_count(at) / 2 * cos(self.wheels.pressure_angle)
+        load = side.load_at(tooth.tip, arm)
+        section = side.weakest_section(load)
+        # the load spreads at 45 degrees to both sides of the point of contact
+        width = min(self.wheels.tooth_length(at), _SPREAD * (load.apex - section.x) * module)
+        return section.stress(force * arm * module, width, module)
 
     def _notes(self) -> Iterator[str]:
         if self.is_worm:
             yield "its wheel is treated as helical with point contact, not as a throated one with line contact"
         if self.wheels.contact_ratio < 1:
             yield "its contact ratio is below 1: a tooth pair separates before the next one touches"
-        if any(self._spurs.root_stress(at, 1.0) is None for at in (0, 1)):
+        if any(self._root_stress(at, 1.0) is None for at in (0, 1)):
             yield "its virtual spur wheels cannot be cut, so bending is not computed"
         yield from (_WORDS[why] for why in sorted(self.wheels.bounded_by) if why in _WORDS)

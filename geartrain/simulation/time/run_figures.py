@@ -99,14 +99,11 @@ class RunFigures:
         found: Floats = self.of.speeds @ self.run.angles.T
         return found
 
-    def turns_of(self, link: str) -> Floats:
-        """Return the revolutions of a link since the start, shape (samples,)."""
-        return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
-
     @cached_property
     def turns(self) -> Floats:
         """Revolutions of the driving link, positive in its sense of rotation."""
-        return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.driving_link), dtype=np.float64)
+        turned = self.turned[self.of.index[self.of.problem.driving_link]] / tau
+        return np.asarray(self.of.problem.way * turned, dtype=np.float64)
 
     @cached_property
     def names(self) -> list[str]:
@@ -136,9 +133,7 @@ class RunFigures:
         )
 
     def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
-        """Yield the maximum torque of each contact and its maximum quasi-static torque [N m]; None for rigid
-        contacts.
-        """
+        """Yield the maximum torque and the maximum quasi-static torque of each contact [N m]; None for rigid ones."""
         if self.run.peaks is None:
             return repeat((None, None), len(self.names))
         return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
@@ -362,16 +357,12 @@ def _frozen(values: Floats) -> Floats:
 
 
 def batch_half_width(means: Floats) -> float | None:
-    """Return half the 95 % confidence interval of a mean from equal consecutive batches; None for too few batches.
+    """Return half the 95 % confidence interval of a mean from the means of equal consecutive batches, shape (n,); None
+    for too few batches.
 
     The interval is Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1
     correlation r of the batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and
     Analysis, section 9.5).
-
-    Parameters
-    ----------
-    means : array of float, (n,)
-        Mean of each batch.
     """
     from scipy.special import stdtrit
 
@@ -392,9 +383,9 @@ def batch_half_width(means: Floats) -> float | None:
 
 
 def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, float]) -> list[SpectrumPeak]:
-    """Return the strongest lines of a spectrum under a Hann window.
+    """Return the strongest lines in the spectrum of an angle under a Hann window.
 
-    time     evenly spaced [s]; `angle` [rad], whose mean motion is removed
+    time     evenly spaced times [s] of the angles `angle` [rad], whose mean motion is removed
     rate     revolutions of the driving link per second
     cycles   periods of each pair per revolution of the driving link
     """
@@ -432,9 +423,7 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return harmonic and name of the pair with the lowest harmonic at an order, within the resolution; "" if no pair
-    has one.
-    """
+    """Return the name and harmonic of the pair with the lowest harmonic near an order; "" if no pair has one."""
     near = [
         (harmonic, name)
         for name, own in cycles.items()

@@ -86,7 +86,7 @@ class Simulation(Shown):
     ) -> None:
         if not 0 < step < inf:
             what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
-            raise QuestionError(Problem(what, why, "pass a step above 0, such as step=1e-4"))
+            raise QuestionError(Problem(what, why, "pass a finite step above 0, such as step=1e-4"))
         self._of, self._outputs, self._fast = of, tuple(outputs), fast
         self.step = step
         self.drive_link, self.drive_kind = of.case.drive.link, of.case.drive.kind
@@ -111,7 +111,6 @@ class Simulation(Shown):
         self._room = empty_equations(len(model.torque), len(model.pairs), len(model.stops))
         self._rigid = compliant_teeth(len(model.pairs), None)
         self._run = run_steps.chosen(fast)
-        self._place = np.argsort(model.order.coordinates)
         self._torque = np.array(self._system.torque)
         self.time = 0.0
         self.torque = 0.0
@@ -150,10 +149,8 @@ class Simulation(Shown):
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
         if outside := [each for each in bounces.values() if not 0 <= each <= 1]:
-            what, why = (
-                f"a restitution of {outside[0]:g} is out of range",
-                "a coefficient of restitution is from 0 to 1",
-            )
+            what = f"a restitution of {outside[0]:g} is out of range"
+            why = "a coefficient of restitution is from 0 to 1"
             raise QuestionError(Problem(what, why, "pass a value from 0 to 1, such as 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
@@ -174,7 +171,7 @@ class Simulation(Shown):
     @property
     def speeds(self) -> dict[str, float]:
         """Angular speeds of the outputs by name [rad/s]."""
-        return self._by_output(self._of.speeds @ self._state.speed[self._place])
+        return self._by_output(self._of.speeds @ self._state.speed)
 
     @property
     def angle(self) -> float:
@@ -183,13 +180,14 @@ class Simulation(Shown):
 
     def _turned(self) -> Floats:
         """Return the angle through which each link has turned since the start [rad]."""
+        # the requested time may be within a step that is not computed yet
         late = self.time - float(self._state.clock[1]) * self.step
-        return self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
+        return self._of.speeds @ (self._state.angle + late * self._state.speed)
 
     @property
     def speed(self) -> float:
         """Angular speed of the link at which power enters [rad/s]."""
-        return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed[self._place])
+        return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed)
 
     @property
     def output_links(self) -> tuple[str, ...]:
@@ -219,13 +217,8 @@ class Simulation(Shown):
         if value == self.drive:
             return
         if self.drive_kind == "spring":
-            raise QuestionError(
-                Problem(
-                    "the drive is a spring",
-                    "the torque of a spring cannot be set",
-                    "declare a `drive` other than a spring",
-                )
-            )
+            why = "the torque of a spring cannot be set"
+            raise QuestionError(Problem("the drive is a spring", why, "declare a `drive` other than a spring"))
         before, self.drive = self.drive, value
         if self.drive_kind == "hand":
             self._system.spring_rate[0] = value
@@ -250,18 +243,15 @@ class Simulation(Shown):
             If the link does not exist.
         """
         if link not in self._of.index:
-            raise QuestionError(
-                Problem(
-                    f"the train has no link '{link}'", "a load acts on a declared link", suggest(link, self._of.index)
-                )
-            )
+            what = f"the train has no link '{link}'"
+            raise QuestionError(Problem(what, "a load acts on a declared link", suggest(link, self._of.index)))
         if torque != self.loads.get(link, 0.0):
             self.loads[link] = torque
             self._set_torques()
 
     def _set_torques(self) -> None:
         drive = self.drive if self.drive_kind == "torque" else 0.0
-        self._torque[:] = self._of.torque_of(self.loads, drive)[list(self._model.order.coordinates)]
+        self._torque[:] = self._of.torque_of(self.loads, drive)
         self._system.torque[:] = self._torque
 
     def advance(self, seconds: float) -> None:
@@ -278,13 +268,9 @@ class Simulation(Shown):
             If the duration is negative or not finite.
         """
         if not 0 <= seconds < inf:
-            raise QuestionError(
-                Problem(
-                    f"a duration of {seconds:g} s is out of range",
-                    "a duration must be finite and not negative",
-                    "give a duration of 0 or more",
-                )
-            )
+            what = f"a duration of {seconds:g} s is out of range"
+            why = "a duration must be finite and not negative"
+            raise QuestionError(Problem(what, why, "give a finite duration of 0 or more"))
         self.time += seconds
         # the number of steps depends only on the time, not on the calls
         steps = floor(self.time / self.step + _EARLY) - int(self._state.clock[1])
@@ -307,7 +293,7 @@ class Simulation(Shown):
             return 0
         jump = np.zeros(len(self._torque))
         for at, value in self._of.model.given.items():
-            jump[self._place[at]] = value * self._share - self._state.speed[self._place[at]]
+            jump[at] = value * self._share - self._state.speed[at]
         if not jump.any():
             return 0
         self._state.speed[:] += jump
@@ -333,7 +319,7 @@ class Simulation(Shown):
         self.unsolved += int(record.numbers[UNSOLVED])
         way = -1.0 if self._of.typical(self.drive_link) < 0 else 1.0
         if self.drive_kind == "rate":
-            self.torque = float(way * drive[self._place[self._of.coordinates.index(self.drive_link)]])
+            self.torque = float(way * drive[self._of.coordinates.index(self.drive_link)])
         elif self.drive_kind == "torque":
             self.torque = way * self.drive
         else:

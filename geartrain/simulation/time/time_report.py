@@ -109,9 +109,7 @@ def describe_time_run(found: TimeReport) -> Document:
 
 
 def time_document(run: TimeRun) -> Document | None:
-    """Return the report of a simulation run, as `geartrain dynamics` prints it; None if the run contains no declaration
-    of its train.
-    """
+    """Return the report of a run, as `geartrain dynamics` prints it; None if the run has no declaration of a train."""
     from geartrain.analysis.gear_train import GearTrain
 
     if run._declaration is None:

@@ -146,9 +146,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each sample: time, turns, angles and speeds of links, torques of contacts and drive,
-        gaps and deviations.
-        """
+        """Table with a row for each sample: time, turns, angles, speeds, torques, gaps and deviations."""
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),
@@ -210,9 +208,7 @@ class ContactInTime(Result):
     peak: float | None = None
     """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts have impulses."""
     dynamic_factor: float | None = None
-    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth, and if no speed is
-    prescribed.
-    """
+    """Dynamic factor: `peak` over the maximum quasi-static torque; None for rigid teeth or no prescribed speed."""
 
 
 @dataclass(frozen=True)
@@ -362,6 +358,4 @@ class SpectrumPeak(Result):
     amplitude: float
     """Amplitude of the output's angle at this frequency [rad]."""
     source: str
-    """Pair (or beat frequency) and harmonic at this frequency, such as `c2~d1 x1`; empty if no source has this
-    frequency.
-    """
+    """Pair (or beat) and harmonic at this frequency, such as `c2~d1 x1`; empty if no source has this frequency."""

@@ -84,10 +84,8 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
     leading = [each.output for each in run.deviations if degrees(max(each.ahead, each.behind)) > _FLAT]
     tall = [1.25] * (len(pairs) + len(stops)) + [1.875] * bool(leading) + [2.5] * bool(moving)
     if not tall:
-        what, why = (
-            f"the plot of '{run.train}' would be empty",
-            "no pair has backlash, and no output deviates from its mean motion",
-        )
+        what = f"the plot of '{run.train}' would be empty"
+        why = "no pair has backlash, and no output deviates from its mean motion"
         raise QuestionError(Problem(what, why, "declare tooth forms with backlash, or an escapement"))
     figure, panels = curve_panels(tall, 0.9, share=False)
     if moving:
@@ -124,9 +122,7 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the pairs with backlash in the order of the train: at most `_PAIRS`, which are apart for the longest
-    times.
-    """
+    """Return up to `_PAIRS` pairs with backlash that are apart for the longest times, in the order of the train."""
     names = [
         name
         for row, name in enumerate(run.gaps.labels[0])
@@ -257,9 +253,7 @@ def _minor_numbers(panel: Axes) -> None:
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines that are not close to each
-    other.
-    """
+    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines, without close neighbours."""
     taken: list[float] = []
     for peak in peaks:
         near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)

@@ -56,22 +56,16 @@ class TimeStudy:
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
             what = f"turns = {self.turns:g} or skip = {self.skip:g} is out of range"
-            raise QuestionError(
-                Problem(what, "turns must be above 0, and skip 0 or more", "for example, pass turns=10, skip=1")
-            )
+            why = "turns must be above 0, and skip 0 or more"
+            raise QuestionError(Problem(what, why, "for example, pass turns=10, skip=1"))
         if self.steps is not None and self.steps < 1:
-            raise QuestionError(
-                Problem(
-                    f"{self.steps} steps per revolution are too few",
-                    "at least 1 step per revolution is required",
-                    "for example, pass steps=200",
-                )
-            )
+            what = f"{self.steps} steps per revolution are too few"
+            why = "at least 1 step per revolution is required"
+            raise QuestionError(Problem(what, why, "for example, pass steps=200"))
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:
             what = f"the run would take {self.per_turn * (self.turns + self.skip):.3g} steps"
-            raise QuestionError(
-                Problem(what, f"the maximum is {_MOST_STEPS:.0e} steps, which take days", "give fewer turns or steps")
-            )
+            why = f"the maximum is {_MOST_STEPS:.0e} steps, which take days"
+            raise QuestionError(Problem(what, why, "give fewer turns or steps"))
 
     @cached_property
     def busiest(self) -> float:
@@ -126,26 +120,22 @@ class TimeStudy:
 
         Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
         """
-        model = self.of.model
         plans = self.plan(1), self.plan(2)
         whole = sum(plan.skip + plan.steps for plan in plans)
-        fast = self.is_fast
-        stopped = False
+        fast, peaks = self.is_fast, self.static_peaks()
 
-        def advance(steps: int) -> bool:
-            nonlocal stopped
-            stopped = on_done(steps / whole) is True
-            return stopped
+        def run(plan: StepPlan) -> RunFigures:
+            done = simulate(self.of.model, plan, fast, lambda steps: on_done(steps / whole), self.of.yields)
+            return RunFigures(self.of, self.outputs, done, peaks)
 
-        yields = self.of.yields
-        peaks = self.static_peaks()
-        first = RunFigures(self.of, self.outputs, simulate(model, plans[0], fast, advance, yields), peaks)
+        first = run(plans[0])
         if not first.plan.steps:
             raise KeyboardInterrupt
-        if stopped:
-            return first.result(None)
-        second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance, yields), peaks)
-        return first.result(None) if second.plan.steps < plans[1].steps else second.result(first)
+        if first.plan.steps == plans[0].steps:
+            second = run(plans[1])
+            if second.plan.steps == plans[1].steps:
+                return second.result(first)
+        return first.result(None)
 
     def static_peaks(self) -> Sequence[float | None]:
         """Return the maximum quasi-static torque of each pair [N m], from a rigid run with almost no inertia.

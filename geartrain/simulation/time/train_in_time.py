@@ -145,7 +145,27 @@ def find_vibration_modes(
     """
     found = model_in_time(train, state, without, None, None, yields=True, scale=1.0)
     assert isinstance(found, CompliantTrain)
-    return find_modes(found)
+    squares, modes = found.vibration
+    speeds = np.sqrt(squares)
+    # damping ratio of each mode, neglecting coupling of modes by damping
+    losses = np.einsum("im,ij,jm->m", modes, found.matrices[1], modes)
+    damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
+    shapes = found.speeds[:, found.free] @ modes
+    for column in shapes.T:
+        # the largest angle becomes +1, which fixes scale and sign
+        column /= column[np.argmax(np.abs(column))]
+    shapes += 0.0  # turns -0.0 into 0.0
+    frequencies = speeds / tau
+    frequencies.flags.writeable = damping.flags.writeable = False
+    return VibrationModes(
+        found.train.name,
+        frequencies,
+        damping,
+        labelled_array(shapes, link=found.problem.system.links, mode=[str(at + 1) for at in range(len(speeds))]),
+        {pair.name: float(k) for pair, k in zip(found.model.pairs, found.yields.stiffness, strict=True)},
+        found.notes,
+        found.assumed,
+    )
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
@@ -158,19 +178,13 @@ def radians_per_second(rate: str | float | None) -> float | None:
         try:
             rate = Quantity.parse(rate, "speed", plain=True).si
         except PydanticCustomError as error:
-            raise QuestionError(
-                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "for example, write '1 turn/s'")
-            ) from None
+            why = "a rate is a number with a unit"
+            raise QuestionError(Problem(f"rate: {error.message()}", why, "for example, write '1 turn/s'")) from None
     check_numbers(rate=rate)
     if rate is not None and not 0 < rate < inf:
         why = "a rate is positive, because the sense of rotation follows from the declared inputs"
-        raise QuestionError(
-            Problem(
-                f"a rate of {rate:g} rad/s is out of range",
-                why,
-                "give a rate above 0, or change the sign of the inputs",
-            )
-        )
+        what = f"a rate of {rate:g} rad/s is out of range"
+        raise QuestionError(Problem(what, why, "give a rate above 0, or change the sign of the inputs"))
     return rate
 
 
@@ -221,31 +235,3 @@ class VibrationModes(Tabular, Result):
             "damping": self.damping.tolist(),
             **{f"{link} angle": row for link, row in angles},
         }
-
-
-def find_modes(of: CompliantTrain) -> VibrationModes:
-    """Return the vibration modes of a train in one state."""
-    squares, modes = of.vibration
-    speeds = np.sqrt(squares)
-    # damping ratio of each mode, neglecting coupling of modes by damping
-    losses = np.einsum("im,ij,jm->m", modes, of.matrices[1], modes)
-    damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
-    shapes = of.speeds[:, of.free] @ modes
-    for column in shapes.T:
-        # the largest angle becomes +1, which fixes scale and sign
-        column /= column[np.argmax(np.abs(column))]
-    shapes += 0.0  # turns -0.0 into 0.0
-    names = [str(at + 1) for at in range(len(speeds))]
-    stiffness = {pair.name: float(k) for pair, k in zip(of.model.pairs, of.yields.stiffness, strict=True)}
-    frequencies = speeds / tau
-    frequencies.flags.writeable = damping.flags.writeable = False
-    links = of.problem.system.links
-    return VibrationModes(
-        of.train.name,
-        frequencies,
-        damping,
-        labelled_array(shapes, link=links, mode=names),
-        stiffness,
-        of.notes,
-        of.assumed,
-    )

@@ -7,7 +7,8 @@ of a pinion and its ring gear that collide after their teeth have left contact.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import acos, atan2, ceil, cos, degrees, hypot, inf, sin
+from functools import partial
+from math import acos, atan2, ceil, cos, degrees, hypot, inf, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,11 +31,8 @@ _LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
 _ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
-def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
-    """Return all faults that prevent teeth with this path of contact from running; empty if they can run.
-
-    `halves` is half the tooth thickness of each gear on its pitch surface; default a quarter pitch.
-    """
+def faults(path: PathOfContact, halves: Halves) -> tuple[ToothFault, ...]:
+    """Return all faults that prevent teeth with this path of contact from running; empty if they can run."""
     return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
@@ -79,7 +77,7 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
     return float(path.along(np.array([found]), recess).X[0])
 
 
-def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]:
+def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
     """Yield a fault where the two flanks of a tooth would intersect before its tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         if X and (thickness := tip_thickness(path, gear, halves)) < 0:
@@ -101,40 +99,28 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
             )
 
 
-def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
+def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) -> float:
     """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect from the first
     contact.
     """
-
-    def thickness(x: float) -> float:
-        return _thickness(path, gear, x, halves)
-
     foot, _ = path.ends(gear)
     foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
+    thickness = partial(_thickness, path, gear, halves)
     at_foot, at_tip = thickness(foot), thickness(X)
     return root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
 
 
-def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
-    """Return the angle of the top land of a gear's tooth [rad]; negative if its flanks cross below the tip.
-
-    `halves` is half the tooth thickness of each gear on its pitch surface; default a quarter pitch.
-    """
-    return _thickness(path, gear, path.ends(gear)[1], halves)
+def tip_thickness(path: PathOfContact, gear: int, halves: Halves) -> float:
+    """Return the angle of the top land of a gear's tooth [rad]; negative if its flanks cross below the tip."""
+    return _thickness(path, gear, halves, path.ends(gear)[1])
 
 
-def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
+def _thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
     """Return the angular thickness of a tooth of `gear` [rad] at the contact with arc X."""
-    reach = path.pitch.reach_of(gear)
-    half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
-    points = path.flank(gear, np.array([X]))[0]
-    return float(2 * (half - _azimuth(path, gear, points)))
-
-
-def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
-    """Return the azimuth of a point of a gear from the pitch point [rad], positive towards the middle of its tooth."""
-    _, forwards = path.pitch.polar(gear, point)
-    return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
+    _, forwards = path.pitch.polar(gear, path.flank(gear, X))
+    # a driver's tooth is behind its flank, a driven tooth ahead of it
+    towards_middle = -float(forwards) if gear == 1 else float(forwards)
+    return 2 * (halves[gear - 1] / path.pitch.reach_of(gear) - towards_middle)
 
 
 def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
@@ -168,8 +154,7 @@ def tip_gap(path: PathOfContact) -> float:
         return inf
     a = -pitch.R2 - pitch.R1
     (r1, start1), (r2, start2) = (
-        _polar(path.flank(gear, np.array([X]))[0], R)
-        for gear, X, R in ((1, path.arcs[1], -pitch.R1), (2, -path.arcs[0], pitch.R2))
+        map(float, pitch.polar(gear, path.flank(gear, path.ends(gear)[1]))) for gear in (1, 2)
     )
     # coaxial wheels (a = 0) have concentric tip circles, which do not intersect
     cosine = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1) if a > 0 else 2.0
@@ -178,15 +163,6 @@ def tip_gap(path: PathOfContact) -> float:
     crossing = acos(max(cosine, -1.0))
     X = pitch.R1 * (crossing - start1)
     return start2 - X / pitch.R2 - atan2(r1 * sin(crossing), a + r1 * cos(crossing))
-
-
-def _polar(point: Floats, height: float) -> tuple[float, float]:
-    """Return the distance of a point from a centre and its azimuth from the upward direction [rad], positive forwards.
-
-    The centre is at `height` above the pitch point.
-    """
-    x, y = float(point[0]), float(point[1]) - height
-    return (x * x + y * y) ** 0.5, atan2(x, y)
 
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
@@ -224,27 +200,19 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
         # the involute of a ring continues outwards from its base circle, so it has no such limit
         if own.ring or over <= _ROUNDING:
             continue
-        reach = path.pitch.reach if gear == 1 else path.pitch.reach2
+        # the line of action touches the base circle at the arc R tan(psi) from the pitch point
+        angle = degrees(tan(pair.psi))
         most = mate.addendum - over
         yield ToothFault(
             "interference",
             gear,
             X,
             f"the tips of gear {3 - gear} run into the roots of gear {gear}",
-            f"their contact would continue past {degrees(_tangent(pair, path, gear) / reach):.6g} deg from the pitch "
+            f"their contact would continue past {angle:.6g} deg from the pitch "
             f"point, where the involute of gear {gear} begins at its base circle",
             f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or use more "
             "teeth or a larger pressure angle",
         )
-
-
-def _tangent(pair: InvolutePair, path: PathOfContact, gear: int) -> float:
-    """Return the arc X = R tan(psi) from the pitch point to the point where the line of action touches the base
-    circle.
-    """
-    R = path.pitch.R1 if gear == 1 else path.pitch.R2
-    sine = sin(pair.psi)
-    return float(R * sine / (1 - sine * sine) ** 0.5)
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
@@ -271,13 +239,8 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
     """Yield a fault where tips touch the bottom of the mate's tooth spaces (bottom clearance below 0)."""
-    first, second = pair.first, pair.second
-    if second.ring:
-        # for a ring, tips are inside and roots outside
-        gaps = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
-    else:
-        gaps = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root
-    for gear, gap in zip((1, 2), gaps, strict=True):
+    for gear in (1, 2):
+        gap = pair.bottom_clearance(3 - gear)
         if gap < -_ROUNDING:
             yield ToothFault(
                 "clearance",

@@ -16,13 +16,14 @@ angles above 45 degrees only.
 from __future__ import annotations
 
 from math import acos, asin, atan, cos, degrees, inf, log, pi, sin, sqrt, tan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.roots import root
-from geartrain.teeth.conjugate.path_of_contact import CirclePiece, PathPiece, PathSide, circle_end
+from geartrain.teeth.conjugate.path_losses import peak
+from geartrain.teeth.conjugate.path_of_contact import PathPiece, PathSide
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -32,31 +33,8 @@ if TYPE_CHECKING:
     Points = NDArray[np.complex128]
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-_SCAN, _NARROWED = 129, 6  # positions in a bracket, and number of refinements, each by a factor of 64
+_SCAN = 129  # positions of a pin in the search for a cusp
 _FARTHEST = 0.6  # fraction of the angle to the far side of the lantern
-
-
-class ConeCirclePiece(PathPiece):
-    """Small circle through the pitch point: the path of contact of a rolling cone of half-angle `rho` (rad).
-
-    Its pole is above the pitch point. In the triangle of pole, pitch point and contact tan(d/2) = tan(rho) sin(psi).
-    The cone has turned by X / sin(rho) where sin(d/2) = sin(rho) sin(X / (2 sin rho)).
-    """
-
-    def __init__(self, rho: float, end: float) -> None:
-        self.rho, self.start, self.end = rho, 0.0, end
-
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle at the distance d from the pitch point [rad]: tan(d/2) / tan(rho)."""
-        return np.tan(np.asarray(d) / 2) / tan(self.rho)
-
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin(psi) with respect to d: 1 / (2 tan(rho) cos^2(d/2))."""
-        return 1 / (2 * tan(self.rho) * np.cos(np.asarray(d) / 2) ** 2)
-
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X of the pitch surfaces at the distance d [rad]: 2 sin(rho) arcsin(sin(d/2) / sin(rho))."""
-        return 2 * sin(self.rho) * np.arcsin(np.sin(np.asarray(d) / 2) / sin(self.rho))
 
 
 def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
@@ -75,12 +53,25 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
                 "use a shorter arc or a larger rolling circle",
             )
         )
-    return PathSide((ConeCirclePiece(rho, cone_end(rho, X)) if pitch.bevel else CirclePiece(rho, circle_end(rho, X)),))
-
-
-def cone_end(rho: float, X: float) -> float:
-    """Return the distance d from the pitch point [rad] at which a small circle has the arc X."""
-    return 2 * asin(sin(rho) * sin(X / (2 * sin(rho))))
+    if not pitch.bevel:
+        piece = PathPiece(
+            0.0,
+            2 * rho * sin(X / (2 * rho)),
+            lambda d: np.asarray(d) / (2 * rho),
+            lambda d: np.full(np.shape(d), 1 / (2 * rho)),
+            lambda d: 2 * rho * np.arcsin(np.asarray(d) / (2 * rho)),
+        )
+    else:
+        # the path is a small circle, whose pole is above the pitch point; in the triangle of pole, pitch point and
+        # contact tan(d/2) = tan(rho) sin(psi), and the cone has turned by X / sin(rho)
+        piece = PathPiece(
+            0.0,
+            2 * asin(sin(rho) * sin(X / (2 * sin(rho)))),
+            lambda d: np.tan(np.asarray(d) / 2) / tan(rho),
+            lambda d: 1 / (2 * tan(rho) * np.cos(np.asarray(d) / 2) ** 2),
+            lambda d: 2 * sin(rho) * np.arcsin(np.sin(np.asarray(d) / 2) / sin(rho)),
+        )
+    return PathSide((piece,))
 
 
 def circle_reach(R: float, rho: float, tip: float) -> float:
@@ -106,43 +97,31 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 # ----------------------------------------------------------------------------------------------------------- round pins
 
 
-class PinPiece(PathPiece):
-    """Path of contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L).
+def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) -> PathPiece:
+    """Return the path of contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L).
 
     L = B + d outside and B - d `inside`. Outside, beyond the pitch point, the mate's addendum works; inside, its
-    dedendum works as far as its undercut.
+    dedendum works as far as its undercut. The arc X is R times the angle of the pin's centre from the line of centres,
+    less that angle at the pitch point.
     """
+    sign = -1.0 if inside else 1.0
 
-    def __init__(self, R: float, A: float, B: float, end: float, inside: bool = False) -> None:
-        self.R, self.A, self.B, self.start, self.end = R, A, B, 0.0, end
-        self.sign = -1.0 if inside else 1.0
+    def length(d: Floats) -> Floats:
+        return B + sign * np.asarray(d, dtype=float)
 
-    def _length(self, d: Floats) -> Floats:
-        return self.B + self.sign * np.asarray(d, dtype=float)
-
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle (L^2 + R^2 - A^2) / (2 R L); it is L / 2R for pins on the pitch
-        circle.
-        """
-        L = self._length(d)
-        found: Floats = (L + (self.R - self.A) * (self.R + self.A) / L) / (2 * self.R)
-        return found
-
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin(psi) with respect to d: (1 - (R^2 - A^2) / L^2) / 2R, negated inside."""
-        L = self._length(d)
-        found: Floats = self.sign * (1 - (self.R - self.A) * (self.R + self.A) / L**2) / (2 * self.R)
-        return found
-
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X = R (beta - beta0) of the pitch circles [module].
-
-        beta is the angle of the pin's centre from the line of centres, and beta0 its value at the pitch point.
-        """
+    def travel(d: Floats) -> Floats:
         # half-angle form of the cosine rule; on the line of centres rounding may make L smaller than |A - R|
-        half = np.sqrt(np.maximum(self._length(d) ** 2 - (self.A - self.R) ** 2, 0) / (4 * self.A * self.R))
-        found: Floats = self.sign * self.R * (2 * np.arcsin(half) - pin_angle(self.R, self.A, self.B))
+        half = np.sqrt(np.maximum(length(d) ** 2 - (A - R) ** 2, 0) / (4 * A * R))
+        found: Floats = sign * R * (2 * np.arcsin(half) - pin_angle(R, A, B))
         return found
+
+    return PathPiece(
+        0.0,
+        end,
+        lambda d: (length(d) + (R - A) * (R + A) / length(d)) / (2 * R),
+        lambda d: sign * (1 - (R - A) * (R + A) / length(d) ** 2) / (2 * R),
+        travel,
+    )
 
 
 def pin_angle(R: float, A: float, B: float) -> float:
@@ -171,7 +150,7 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
             )
         )
     L = sqrt((A - R) ** 2 + 4 * A * R * sin(beta / 2) ** 2)
-    return PathSide((PinPiece(R, A, B, B - L if inside else L - B, inside),))
+    return PathSide((pin_piece(R, A, B, B - L if inside else L - B, inside),))
 
 
 def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
@@ -182,12 +161,11 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     """
 
     def off(d: float) -> float:
-        L = d + B
-        sine = (L * L + (R - A) * (R + A)) / (2 * R * L)
         # factored, because the difference of the squares of both radii would cancel
-        return d * (d + 2 * mate * sine) - (tip - abs(mate)) * (tip + abs(mate))
+        return d * (d + 2 * mate * float(sine(np.array(d)))) - (tip - abs(mate)) * (tip + abs(mate))
 
     most = A + R - B
+    sine = pin_piece(R, A, B, most).sin_psi
     at_pitch, at_most = off(0.0), off(most)
     if (at_pitch > 0) == (at_most > 0):
         raise RangeError(
@@ -202,38 +180,31 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
     """Return the arc X from the pitch point to the distance d on the mate's addendum [module]."""
-    return float(PinPiece(R, A, B, d).travel(np.array(d)))
+    return float(pin_piece(R, A, B, d).travel(np.array(d)))
 
 
 # ----------------------------------------------------------------------------------------- extremal of minimum friction
 
 
-class ExtremalPiece(PathPiece):
-    """Path of contact with minimum friction loss, docs/shapes.md (10): S = D cos psi, an extremal of the loss.
-
-    The arc is X = D ln d, or D ln tan(d/2) on cones, counted from the first contact.
+def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
+    """Return the path of contact with minimum friction loss, docs/shapes.md (10): S = D cos psi, an extremal of the
+    loss. Its arc is X = D ln d, or D ln tan(d/2) on cones, counted from the first contact.
     """
 
-    def __init__(self, pitch: PitchSurfaces, D: float, start: float, end: float) -> None:
-        self.pitch, self.D, self.start, self.end = pitch, D, start, end
-
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle: sqrt(1 - (S / D)^2)."""
-        S = self.pitch.S(d) / self.D
+    def sine(d: Floats) -> Floats:
+        S = pitch.S(d) / D
         # factored, because 1 - S^2 cancels at small pressure angles
         return np.sqrt((1 - S) * (1 + S))
 
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin(psi) with respect to d: -S S' / (D^2 sin psi)."""
-        found: Floats = -self.pitch.S(d) * self.pitch.S_slope(d) / (self.D**2 * self.sin_psi(d))
+    def slope(d: Floats) -> Floats:
+        found: Floats = -pitch.S(d) * pitch.S_slope(d) / (D**2 * sine(d))
         return found
 
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X from the first contact: D ln(d / start), or D ln(tan(d/2) / tan(start/2)) on cones."""
+    def travel(d: Floats) -> Floats:
         d = np.asarray(d, dtype=float)
-        if self.pitch.bevel:
-            return self.D * np.log(np.tan(d / 2) / tan(self.start / 2))
-        return self.D * np.log(d / self.start)
+        return D * np.log(np.tan(d / 2) / tan(start / 2) if pitch.bevel else d / start)
+
+    return PathPiece(start, end, sine, slope, travel)
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
@@ -242,7 +213,7 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
     """
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
-        return PathSide((ExtremalPiece(pitch, D, D * cos(first), D * cos(last)),))
+        return PathSide((_extremal_piece(pitch, D, D * cos(first), D * cos(last)),))
 
     def ends(D: float) -> tuple[float, float]:
         return asin(D * cos(first)), asin(D * cos(last))
@@ -255,7 +226,7 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
     high = (1 - 1e-12) / cos(last)
     # -inf replaces -X, the limit there; `root` bisects while a value is not finite
     D = root(off, 1e-9 * X, high, -inf, off(high))
-    return PathSide((ExtremalPiece(pitch, D, *ends(D)),))
+    return PathSide((_extremal_piece(pitch, D, *ends(D)),))
 
 
 # ----------------------------------------------------------------------------------------------------- undercut by pins
@@ -297,14 +268,15 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
     cusp.
     """
 
-    def speed(beta: float) -> float:
-        L = sqrt((A - R) ** 2 + 4 * A * R * float(np.sin(beta / 2)) ** 2)
-        sine = (L + (R - A) * (R + A) / L) / (2 * R)
-        rise = (1 - (R - A) * (R + A) / L**2) / (2 * R)
-        return sine + (L - B) * (rise + 1 / mate)
+    # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe
+    piece = pin_piece(R, A, B, inf)
+
+    def speed(beta: Any) -> Any:
+        d = np.sqrt((A - R) ** 2 + 4 * A * R * np.sin(beta / 2) ** 2) - B
+        return piece.sin_psi(d) + d * (piece.slope(d) + 1 / mate)
 
     grid = np.linspace(0, far, _SCAN)[1:]
-    speeds = np.array([speed(beta) for beta in grid])
+    speeds = speed(grid)
     reversed_speeds = np.flatnonzero(speeds <= 0)
     if reversed_speeds.size == 0:
         # at 0 itself L is |A - R|, which may be 0, and the speed is then undefined
@@ -316,32 +288,19 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
     """Return the point of the mate that the pin at the angle `beta` touches, relative to the mate's axle, as x + iy."""
-    at = np.array([beta])
-    G = _centre(R, A, at)
-    return complex(_turned(R, mate, G * (1 - B / np.abs(G)) + 1j * mate, at)[0])
+    G = _centre(R, A, np.array(beta))
+    return complex((G * (1 - B / np.abs(G)) + 1j * mate) * np.exp(1j * R / mate * beta))
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
     """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and
     `high`.
     """
-    distance = inf
-    for _ in range(_NARROWED):
-        t = np.linspace(low, high, _SCAN)
-        found = np.abs(_turned(R, mate, _centre(R, A, t) + 1j * mate, t) - point)
-        at = int(np.argmin(found))
-        distance = min(distance, float(found[at]))
-        low, high = float(t[max(at - 1, 0)]), float(t[min(at + 1, _SCAN - 1)])
-    return distance
+    # the mate's frame turns by R / mate t while the lantern turns by t
+    return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
     """Return the centre of the pin relative to the pitch point, as x + iy [module]."""
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
-    return found
-
-
-def _turned(R: float, mate: float, point: Points, beta: Floats) -> Points:
-    """Return a point relative to the mate's axle in the mate's frame, after the lantern has turned by `beta`."""
-    found: Points = point * np.exp(1j * R / mate * beta)
     return found

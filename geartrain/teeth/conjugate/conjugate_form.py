@@ -70,15 +70,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair, with the first wheel driving.
-
-        A ring gear is always gear 2 of the form, in either order of the pair.
-
-        Returns
-        -------
-        GearMesh
-            Mesh for the analysis of a train.
-        """
+        """Return the mesh of a pair with its first wheel driving. A ring gear is gear 2 of the form in either order."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)
@@ -376,23 +368,19 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
     """Raise `GearTrainError` if wheels of these kinds cannot have conjugate teeth of this form."""
-    why, fix = _refusal(wheels.kinds), IDEAL
-    if "helical" in wheels.kinds:
+    why, fix = "", IDEAL
+    if "worm" in wheels.kinds:
+        why = "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
+    elif set(wheels.kinds) >= {"bevel", "contrate"}:
+        why = "a bevel and a contrate wheel have no pair of pitch cones"
+    elif "helical" in wheels.kinds:
         if _are_skew(shaft_angle):
             why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
             why = "its wheels are helical, and only involute teeth are supported on helical wheels"
             fix = "give it `tooth_form: involute`"
     if why:
-        raise refused(f"it cannot have {form.words} teeth", why, fix)
-
-
-def _refusal(kinds: tuple[str, str]) -> str:
-    if "worm" in kinds:
-        return "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
-    if set(kinds) >= {"bevel", "contrate"}:
-        return "a bevel and a contrate wheel have no pair of pitch cones"
-    return ""
+        raise refused(f"these wheels cannot have {form.words} teeth", why, fix)
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
@@ -428,7 +416,7 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
     angle = shaft_angle()
     if angle is None and "bevel" in wheels.kinds:
         raise refused(
-            f"it cannot have {form.words} teeth",
+            f"these wheels cannot have {form.words} teeth",
             "the shaft angle of its bevel wheels is not declared",
             f"declare `axes` with the `direction` of both axes, or {IDEAL}",
         )

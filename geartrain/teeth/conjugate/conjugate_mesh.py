@@ -140,7 +140,10 @@ class ConjugateMesh(GearMesh):
         free = self.tooth_form.bottom_clearance(wheels, own)
         if cut.clearance is None and free is not None:
             if free < 0:
-                raise QuestionError(_shallow_root(own, -free))
+                what = f"the root of gear {own} interferes with its mate's tip"
+                fix = "give a larger dedendum or a smaller addendum"
+                why = f"they overlap by {-free:.4g} modules at this centre distance"
+                raise QuestionError(Problem(what, why, fix, "dedendum"))
             cut = replace(cut, clearance=free * cut.module)
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
@@ -169,16 +172,6 @@ class ConjugateMesh(GearMesh):
         """Return a report of arcs, contact ratio, transmission error, backlash and efficiency."""
         figures = _figures(self)
         return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
-
-
-def _shallow_root(gear: int, overlap: float) -> Problem:
-    """Return the problem of a root that overlaps with the mate's tip by `overlap` [module]."""
-    return Problem(
-        f"the root of gear {gear} interferes with its mate's tip",
-        f"they overlap by {overlap:.4g} modules at this centre distance",
-        "give a larger dedendum or a smaller addendum",
-        "dedendum",
-    )
 
 
 # ----------------------------------------------------------------------------------------------------------- properties
@@ -218,13 +211,12 @@ def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
     """
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
-    approach, recess = _driver_arcs(transmission)
     return ConjugateFigures(
         mesh.counts,
         mesh.verdict,
         *motion_figures(transmission, mesh.rigid or runs),
         mesh.efficiency(mesh.driver) if runs else None,
-        arcs=(approach / pitch.p, recess / pitch.p),
+        arcs=path.pitches if transmission.driver == 1 else path.pitches[::-1],
         contact_ratio=path.contact_ratio,
         pressure_angle=float(path.at(0.0).psi),
         shaft_angle=pitch.R1 + pitch.R2 if pitch.bevel else None,
@@ -252,12 +244,6 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
         *mesh.efficiency_texts,
         mesh.verdict.kind,
     )
-
-
-def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
-    """Return the arcs of approach and recess of the driver as arcs X [module]."""
-    approach, recess = transmission.path.arcs
-    return (approach, recess) if transmission.driver == 1 else (recess, approach)
 
 
 # ----------------------------------------------------------------------------------------------------- design of a pair
@@ -359,8 +345,7 @@ class PairDesign(Result):
     @property
     def arcs(self) -> tuple[float, float]:
         """Arcs of approach and recess with gear 1 driving [pitch]; one may be negative."""
-        approach, recess = self.path.arcs
-        return approach / self.path.pitch.p, recess / self.path.pitch.p
+        return self.path.pitches
 
     @property
     def pressure_angles(self) -> tuple[float, float, float]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.admissibility import faults, ring_tips
-from geartrain.teeth.conjugate.path_losses import efficiency, locking_friction, powers
+from geartrain.teeth.conjugate.path_losses import locking_friction, powers
 from geartrain.teeth.pair_results import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.tooth_transmission import ToothTransmission
 from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.admissibility import Halves
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
-# 8 nodes give 1e-11 and 16 give rounding on usual teeth; twice as many for steep ones
-_GAUSS = np.polynomial.legendre.leggauss(32)
 _TOUCH = 1e-12  # of a pitch: smaller gaps between two contacts are rounding error
 
 
@@ -171,18 +169,6 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     # ------------------------------------------------------------------------------------------------------- friction
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN if no teeth touch or friction locks them."""
-        X = self.contacts(S)
-        touching = ~np.isnan(X)
-        each = np.zeros(X.shape)
-        at = X[touching] if self.driver == 1 else -X[touching]
-        each[touching] = efficiency(self.path.pitch, self.path.at(at), self.friction, self.driver) if at.size else 0.0
-        count = touching.sum(axis=0)
-        with np.errstate(invalid="ignore"):
-            found: Floats = np.where(count > 0, each.sum(axis=0) / np.maximum(count, 1), nan)
-        return found
-
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return the sliding speeds and the friction terms of all tooth pairs in contact, at driver angles S [rad].
 
@@ -203,47 +189,3 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
     def locking_friction(self) -> float:
         """Minimum friction coefficient at which a contact locks; infinite if no contact locks."""
         return locking_friction(self.path, self.driver)
-
-    @cached_property
-    def _sampled(self) -> tuple[Floats, Floats]:
-        """Efficiency at the Gauss-Legendre nodes of one period and their normalised weights; gaps in contact are
-        omitted.
-        """
-        x, w = _GAUSS
-        S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in self.smooth_intervals()])
-        weights = np.concatenate([(high - low) / 2 * w for low, high in self.smooth_intervals()])
-        found = self.efficiency(S)
-        touching = ~np.isnan(found)
-        return found[touching], weights[touching] / weights[touching].sum()
-
-    @property
-    def _locks(self) -> bool:
-        return self.friction >= self.locking_friction
-
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angles with contact, at constant driver torque; NaN if friction
-        locks the teeth.
-        """
-        if self._locks:
-            return nan
-        found, weights = self._sampled
-        return float(weights @ found)
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
-        teeth.
-        """
-        if self._locks:
-            return nan
-        found, weights = self._sampled
-        # at a constant ratio and constant load torque, the input power is proportional to 1/efficiency
-        return 1 / float(weights @ (1 / found))
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, from 201 samples of each smooth interval; NaN if friction locks the teeth."""
-        if self._locks:
-            return nan
-        # the ends belong also to the next tooth pair or to the other side of the pitch point
-        inside = np.linspace(1e-9, 1 - 1e-9, 201)
-        S = np.concatenate([low + (high - low) * inside for low, high in self.smooth_intervals()])
-        return float(np.nanmin(self.efficiency(S)))

@@ -118,16 +118,13 @@ class CornerLag:
     step: float
     """Step of the driver's angle beyond the end of the path [rad]."""
     lags: Floats
+    """Lag of the driven wheel at these steps [rad], from 0 at the end of the path."""
 
     def __call__(self, beyond: Floats) -> Floats:
         """Return the lag [rad] at driver angles beyond the end [rad]; 0 before it, infinite where the corner no longer
         touches.
         """
-        at = np.maximum(beyond, 0.0) / self.step
-        low = np.minimum(at.astype(np.int64), len(self.lags) - 2)
-        first = self.lags[low]
-        found = first + (self.lags[low + 1] - first) * (at - low)
-        return np.where(at <= len(self.lags) - 1, found, inf)
+        return np.interp(beyond, self.step * np.arange(len(self.lags)), self.lags, left=0.0, right=inf)
 
     @property
     def most(self) -> float:
@@ -140,6 +137,7 @@ class DisplacedWheelSizes:
     """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
 
     z: int
+    """Number of teeth."""
     depth: float
     """Radial extent of the active flank [module; rad for bevel gears]."""
     half_angle: float
@@ -165,7 +163,9 @@ class DisplacedContact:
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
     """Sizes of the driver and of the driven wheel."""
     start: float
+    """Driver angle at which a tooth pair comes into contact [rad]."""
     end: float
+    """Driver angle at which it leaves contact [rad]."""
     across: tuple[Floats, Floats]
     """Lag [rad] per unit displacement of the teeth across the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
@@ -284,6 +284,7 @@ def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
     """Return the increase of the arc of contact X per unit increase of the tip radius of `gear`."""
+    # a one-sided difference, because the path is undefined beyond the tip
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)
     radius, _ = path.pitch.polar(gear, path.flank(gear, np.array([tip, tip + step])))

@@ -7,7 +7,7 @@ external wheel. A shift of the ring also counts outwards, so that it widens thes
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, asin, atan, atan2, cos, pi, sin, sqrt, tan
+from math import acos, atan, atan2, cos, pi, sin, sqrt, tan
 
 from geartrain.errors import GearTrainError, Problem, RangeError
 from geartrain.numerics.roots import root
@@ -131,6 +131,15 @@ class InvolutePair:
         """Backlash on the operating pitch circle as an arc X [module]; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
+    def bottom_clearance(self, gear: int) -> float:
+        """Return the distance from the root of one wheel to the tip of its mate [module]; negative if they overlap."""
+        own, mate = (self.first, self.second) if gear == 1 else (self.second, self.first)
+        if not self.second.ring:
+            return self.distance - mate.tip - own.root
+        # for a ring, tips are inside and roots outside
+        free = own.root - mate.tip if gear == 2 else mate.tip - own.root
+        return free - self.distance
+
     @property
     def arcs(self) -> tuple[float, float]:
         """Arcs X of approach and recess that the tip circles give [module].
@@ -146,7 +155,12 @@ class InvolutePair:
             # an arc that is 0 except for rounding must not be negative
             found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
-            raise _no_contact_error(self.first, self.second, self.distance)
+            why = (
+                f"at a centre distance of {self.distance:.6g} modules the tip circles, of radii {self.first.tip:.6g} "
+                f"and {self.second.tip:.6g}, leave no contact on the line of action"
+            )
+            fix = "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer"
+            raise RangeError(Problem("the teeth do not reach each other", why, fix))
         return found[0], found[1]
 
 
@@ -169,25 +183,6 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
             )
         )
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
-
-
-def _no_contact_error(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
-    return RangeError(
-        Problem(
-            "the teeth do not reach each other",
-            f"at a centre distance of {distance:.6g} modules the tip circles, of radii {first.tip:.6g} and "
-            f"{second.tip:.6g}, leave no contact on the line of action",
-            "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer",
-        )
-    )
-
-
-def base_cone(R: float, psi: float) -> float:
-    """Return the half-angle of the base cone of a spherical involute [rad]: sin base = sin R cos psi.
-
-    R is the half-angle of the pitch cone and psi the pressure angle [rad].
-    """
-    return asin(sin(R) * cos(psi))
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:

@@ -12,7 +12,6 @@ pieces are optimal under the conditions in docs/shapes.md, section 15.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from math import atan, cos, degrees, inf, sin, sqrt
 from typing import TYPE_CHECKING
 
@@ -21,15 +20,7 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.chebyshev import ChebyshevSeries, differentiation, points
 from geartrain.numerics.roots import root
-from geartrain.teeth.conjugate.path_of_contact import (
-    PathPiece,
-    PathSide,
-    RayPiece,
-    SampledPiece,
-    SteadySpeedPiece,
-    circle_end,
-    ray_end,
-)
+from geartrain.teeth.conjugate.path_of_contact import PathPiece, PathSide, ray, sampled, steady_speed
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -41,7 +32,7 @@ if TYPE_CHECKING:
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
 _NODES = (24, 48, 96, 192)  # doubled until the last coefficients are small
-FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding error
+_FALLEN = 1e-14  # of the largest coefficient: smaller values are rounding error
 _UNFINISHED = 1e-5  # upper bound of the last coefficients at the maximum number of nodes; exceeded above about 84 deg
 _STEPS = 25  # maximum number of Newton steps
 _ROUGH = 1e-9  # residuals below this are rounding error
@@ -54,8 +45,11 @@ _GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad]."""
-    return PathSide((RayPiece(psi, ray_end(psi, X)),))
+    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad].
+
+    With the arc 0, the path begins or ends at the pitch point.
+    """
+    return PathSide((ray(psi, X * cos(psi)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
@@ -63,7 +57,7 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 
     w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0.
     """
-    return PathSide((_piece_over_arc(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
+    return PathSide((_piece_over_arc(_solutions(pitch, stress_law(pitch, a, b, psi), sin(psi)), X * cos(psi), X),))
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
@@ -85,52 +79,50 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
     return f
 
 
-def _piece_over_arc(
-    pitch: PitchSurfaces,
-    f: ValueAndSlope,
-    first: float,
-    guess: float,
-    X: float,
-    start: float = 0.0,
-    piece_maker: PieceMaker | None = None,
-) -> PathPiece:
-    """Solve S v' + f = 0 for the piece that ends at the arc X, by Newton's method for its end d.
+def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
+    """Return the piece that ends at the arc X, by Newton's method for its end d.
 
-    If an end cannot be reached, it is bisected towards the last end that was reached, whose solution is a better start.
+    `made` returns the piece with a given end. An end that cannot be reached is bisected towards the last end that was
+    reached.
     """
-    piece_maker = piece_maker or _sine_piece
-    v: ChebyshevSeries | None = None
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
         try:
-            v = solved(pitch, f, first, end, start, v)
+            piece = made(end)
         except RangeError:
             if end - low < _GIVEN_UP * end:
                 raise
             end = (low + end) / 2
             continue
-        piece = piece_maker(pitch, f, v, end)
-        step = _end_step(piece, X)
-        if _at_rounding(step, last, end):
+        # the derivative of the arc is 1 / cos psi
+        step = (float(piece.travel(np.array(end))) - X) * sqrt(1 - float(piece.sin_psi(np.array(end))) ** 2)
+        # rounding error, or nearly so once steps no longer decrease
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             return piece
         low, end, last = end, end - step, abs(step)
     raise unreachable_end(end)
 
 
-def _end_step(piece: PathPiece, X: float) -> float:
-    """Return Newton's step of the end of a piece towards the arc X: the derivative of the arc is 1 / cos psi."""
-    end = np.array(piece.end)
-    return (float(piece.travel(end)) - X) * sqrt(1 - float(piece.sin_psi(end)) ** 2)
+def _solutions(
+    pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
+) -> Callable[[float], PathPiece]:
+    """Return a function from the end of a piece to the piece that solves S v' + f = 0.
 
+    Each solution is the initial guess of the next one.
+    """
+    last: ChebyshevSeries | None = None
 
-def _at_rounding(step: float, last: float, end: float) -> bool:
-    """Return True if a step is rounding error, or nearly so once steps no longer decrease; False otherwise."""
-    return abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last)
+    def made(end: float) -> PathPiece:
+        nonlocal last
+        last = solved(pitch, f, first, end, start, last)
+        return (piece_maker or _sine_piece)(pitch, f, last, end)
+
+    return made
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
     """Return the piece for a solution v = sin psi."""
-    return SampledPiece(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
+    return sampled(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
@@ -148,25 +140,16 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
     return slope
 
 
-def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
-    """Return the piece that ends at the arc X, by Newton's method for its end."""
-    end, last = guess, inf
-    for _ in range(30):
-        piece = piece_maker(end)
-        step = _end_step(piece, X)
-        if _at_rounding(step, last, end):
-            break
-        end, last = end - step, abs(step)
-    return piece
-
-
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
     """Return the side with uniform heat and the arc X: w = beta S + gamma S / cos psi, psi = 0 at the pitch point.
 
     beta is the curvature b of the hotter surface, as read in docs/shapes.md.
     """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
-    return PathSide((_piece_over_arc(pitch, f, first, _guess_end(beta, gamma, X), X, piece_maker=_quotient_piece),))
+    # initial guess of the end: the cycloid tangent to the path at the pitch point
+    rho = 1 / (beta + gamma)
+    guess = 2 * rho * sin(min(X / (2 * rho), 1.0))
+    return PathSide((_piece_over_arc(_solutions(pitch, f, first, piece_maker=_quotient_piece), guess, X),))
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
@@ -184,16 +167,10 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
     return f
 
 
-def _guess_end(beta: float, gamma: float, X: float) -> float:
-    """Return an initial guess of the end d, from the cycloid tangent to the path at the pitch point."""
-    rho = 1 / (beta + gamma)
-    return circle_end(rho, min(X, 2 * rho))
-
-
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
     """Return the piece for a solution g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
     steep = _slope(pitch, f, g)
-    return SampledPiece(
+    return sampled(
         lambda d: pitch.S(d) * g(d),
         lambda d: pitch.S_slope(d) * g(d) + pitch.S(d) * steep(d),
         0.0,
@@ -209,7 +186,7 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
-    if first >= ray_end(psi, X):
+    if first >= X * cos(psi):
         return involute(X, psi)
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
@@ -218,8 +195,9 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
             cosine = np.sqrt(1 - v * v)
             return pitch.S_slope(d) * v - b * S - gamma * S / cosine, pitch.S_slope(d) - gamma * S * v / cosine**3
 
-    rest = X - first / cos(psi)
-    return PathSide((RayPiece(psi, first), _piece_over_arc(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
+    before = first / cos(psi)
+    second = _piece_over_arc(_solutions(pitch, f, sin(psi), first), X * cos(psi), X - before, first)
+    return PathSide((ray(psi, first), second))
 
 
 def least_friction(
@@ -233,12 +211,12 @@ def least_friction(
     both bounds can reach, or if a shape other than these two pieces would have less loss.
     """
     loss = pitch.S if weight is None else weight
-    longest = ray_end(psi, X)
+    longest = X * cos(psi)
 
     def second_piece(first: float) -> PathPiece:
-        rest = X - first / cos(psi)
-        made = partial(SteadySpeedPiece, pitch, b, u, first, sin(psi))
-        return _ended_at_arc(made, first + rest * cos(psi), rest)
+        return _piece_over_arc(
+            lambda end: steady_speed(pitch, b, u, first, sin(psi), end), longest, X - first / cos(psi), first
+        )
 
     def variation(first: float) -> float:
         return _first_variation(pitch, second_piece(first), loss)
@@ -261,7 +239,7 @@ def least_friction(
         first = root(above, minimum, first, above(minimum), above(first))
     elif weight is not None:
         check_pieces(pitch, second_piece(first), weight)
-    return PathSide((RayPiece(psi, first), second_piece(first)))
+    return PathSide((ray(psi, first), second_piece(first)))
 
 
 def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
@@ -312,7 +290,7 @@ def solved(
         if near and nodes < len(near.coefficients):
             continue
         series = fitted(pitch, f, first, end, start, nodes, series)
-        if series.tail < FALLEN:
+        if series.tail < _FALLEN:
             break
     if series.tail > _UNFINISHED:
         raise unreachable_end(end)
@@ -333,46 +311,44 @@ def fitted(
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
     guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
-    return ChebyshevSeries.through(_Collocated(pitch, f, first, d).newton(guess), start, end)
+    return ChebyshevSeries.through(_collocated(pitch, f, first, d, guess), start, end)
 
 
-class _Collocated:
-    """Collocation equations at the nodes d, with the initial condition at the first node."""
+def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats, v: Floats) -> Floats:
+    """Return the solution at the Chebyshev nodes d with the value `first` at the first node.
 
-    def __init__(self, pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats) -> None:
-        self.f, self.first, self.d = f, first, d
-        self.matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
-        # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
-        self.matrix[0] = 0.0
+    Starts at the guess v and takes damped Newton steps until rounding limits them.
+    """
+    matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
+    # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
+    matrix[0] = 0.0
 
-    def residual(self, v: Floats) -> tuple[Floats, Floats]:
+    def residual(v: Floats) -> tuple[Floats, Floats]:
         """Return the residual at each node, and the diagonal entries df/dv of the Jacobian."""
-        off, slope = self.f(self.d, v)
-        off[0], slope[0] = v[0] - self.first, 1.0
-        return self.matrix @ v + off, slope
+        off, slope = f(d, v)
+        off[0], slope[0] = v[0] - first, 1.0
+        return matrix @ v + off, slope
 
-    def newton(self, v: Floats) -> Floats:
-        """Return the solution by damped Newton steps, iterated until rounding limits them."""
-        left, slope = self.residual(v)
-        for _ in range(_STEPS):
-            step = np.linalg.solve(self.matrix + np.diag(slope), left)
-            part, size = 1.0, np.abs(left).max()
-            trial, (left, slope) = v - step, self.residual(v - step)
-            # halve a step that leaves the domain of f, or, down to a thousandth, that increases the residual
-            while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
-                part /= 2
-                # so short a step has no effect: the equation has no solution up to this end
-                if part < 1e-9:
-                    raise unreachable_end(float(self.d[-1]))
-                trial, (left, slope) = v - part * step, self.residual(v - part * step)
-            # stop at rounding error, or where the residual no longer decreases
-            done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
-            v = trial
-            if done:
-                break
-        if not np.abs(left).max() < _ROUGH:
-            raise unreachable_end(float(self.d[-1]))
-        return v
+    left, slope = residual(v)
+    for _ in range(_STEPS):
+        step = np.linalg.solve(matrix + np.diag(slope), left)
+        part, size = 1.0, np.abs(left).max()
+        trial, (left, slope) = v - step, residual(v - step)
+        # halve a step that leaves the domain of f, or, down to a thousandth, that increases the residual
+        while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
+            part /= 2
+            # so short a step has no effect: the equation has no solution up to this end
+            if part < 1e-9:
+                raise unreachable_end(float(d[-1]))
+            trial, (left, slope) = v - part * step, residual(v - part * step)
+        # stop at rounding error, or where the residual no longer decreases
+        done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
+        v = trial
+        if done:
+            break
+    if not np.abs(left).max() < _ROUGH:
+        raise unreachable_end(float(d[-1]))
+    return v
 
 
 def unreachable_end(end: float) -> RangeError:

@@ -17,9 +17,9 @@ sliding. A contact line of a bevel pair has these ratios at every distance from 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import floor, inf, nan
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ import numpy as np
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.results import Key, Result, finite
 from geartrain.numerics.roots import root
-from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact, PathSide
+from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -39,6 +39,7 @@ _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # grid points of one piece in the search for a maximum
 _NARROWED, _ACROSS = 5, 33  # number of refinements of its bracket, and grid points of each
 _ROUNDING = 1e-12  # of a pitch: shorter intervals are rounding error
+_NEARLY_0 = 1e-14  # of a pitch: rounding error of an arc
 
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
@@ -77,8 +78,8 @@ class PathLosses(Result):
     at a contact.
     """
     off_pitch: float
-    """Maximum of the quantity in `stress` over contacts that are more than a tenth of a pitch away from the pitch
-    point; 0 without such contacts.
+    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0
+    without such contacts.
     """
     heat: float
     """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force: max
@@ -205,8 +206,9 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
     """Return the losses and loads if the tooth pairs in contact in each interval share the load equally."""
     pitch = path.pitch
-    # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch
-    bound = 0.1 * pitch.p
+    # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch; less
+    # rounding, so that a change of the number of tooth pairs exactly there counts for every form
+    bound = (0.1 - _NEARLY_0) * pitch.p
 
     # H (pressure squared) and heat are proportional to the force on a pair, flash to its power 3/4
     def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:
@@ -217,54 +219,32 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
         assumption=assumption,
         loss=(pitch.A + pitch.B) * total / sum((high - low) / count for low, high, count in stretches),
         stress=most(lambda c: c.H, 1.0) ** 0.5,
-        off_pitch=_square_root(most(lambda c: c.H, 1.0, bound)),
+        # a maximum over no contact is -inf
+        off_pitch=max(most(lambda c: c.H, 1.0, bound), 0.0) ** 0.5,
         heat=most(lambda c: np.maximum(c.Q1, c.Q2), 1.0),
         flash=most(lambda c: c.flash, 0.75),
     )
 
 
-def _square_root(value: float) -> float:
-    """Return the square root, or 0 for a negative value: a maximum over no contact is -inf."""
-    return float(max(value, 0.0) ** 0.5)
-
-
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J of the contacts with arcs X from `low` to `high`, summed over both sides."""
-    total = 0.0
-    for recess in (False, True):
-        if span := path.span(recess, low, high):
-            total += sliding_integral(path.pitch, path.recess if recess else path.approach, *span)
-    return total
-
-
-def sliding_integral(pitch: PitchSurfaces, side: PathSide, start: float = 0.0, end: float = inf) -> float:
-    """Return the sliding integral J, docs/shapes.md (7): S / cos^2 psi integrated over d from `start` to `end` of one
-    side.
+    """Return the sliding integral J, docs/shapes.md (7): S / cos^2 psi integrated over d, for arcs X from `low` to
+    `high`.
     """
     x, weights = _GAUSS
     total = 0.0
-    for piece in side.pieces:
-        first, last = max(piece.start, start), min(piece.end, end)
-        if last > first:
-            d = first + (last - first) * (x + 1) / 2
-            total += float(weights @ (pitch.S(d) / (1 - piece.sin_psi(d) ** 2))) * (last - first) / 2
+    for _, piece, first, last in path.legs(low, high):
+        d = first + (last - first) * (x + 1) / 2
+        total += float(weights @ (path.pitch.S(d) / (1 - piece.sin_psi(d) ** 2))) * (last - first) / 2
     return total
 
 
 def depth(path: PathOfContact) -> float:
     """Return the working depth [module]: height of the last contact above the first, summed over both sides."""
-    spans = ((side, path.span(recess)) for recess, side in ((False, path.approach), (True, path.recess)))
-    return sum(height(path.pitch, side, *span) for side, span in spans if span)
-
-
-def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end: float | None = None) -> float:
-    """Return the height |eta| of the last contact of a side above its first contact [module].
-
-    The first contact is on the pitch line except for paths that do not reach the pitch point.
-    """
-    ends = np.array([side.start if start is None else start, side.end if end is None else end])
-    low, high = pitch.S(ends) * side.sin_psi(ends)
-    return float(high - low)
+    total = 0.0
+    for _, piece, first, last in path.legs():
+        ends = np.array([first, last])
+        total += float(np.diff(path.pitch.S(ends) * piece.sin_psi(ends))[0])
+    return total
 
 
 def sliding(path: PathOfContact) -> tuple[float, float]:
@@ -288,37 +268,24 @@ def maximum(
 
     Each piece is scanned on a grid, and the bracket of its maximum is then refined.
     """
+    bounds = ((low, min(high, -beyond)), (max(low, beyond), high)) if beyond else ((low, high),)
     best = -inf
-    for recess, side in ((False, path.approach), (True, path.recess)):
-        for first, last in _search_intervals(path, recess, beyond, low, high):
-            best = max(best, _peak(lambda d, recess=recess: what(path.along(d, recess)), first, last, side.end))  # type: ignore[misc]
+    for recess, piece, first, last in chain.from_iterable(path.legs(*each) for each in bounds):
+        # at a joint itself the methods of a side evaluate the next piece
+        last = min(last, float(np.nextafter(piece.end, 0.0)))
+        best = max(best, peak(lambda d, recess=recess: what(path.along(d, recess)), first, last))  # type: ignore[misc]
     return best
 
 
-def _search_intervals(
-    path: PathOfContact, recess: bool, beyond: float, low: float, high: float
-) -> Iterator[tuple[float, float]]:
-    """Yield the intervals of distance d on one side in which a maximum is searched, piece by piece."""
-    if beyond:
-        low, high = (max(low, beyond), high) if recess else (low, min(high, -beyond))
-    if not (span := path.span(recess, low, high)):
-        return
-    for piece in (path.recess if recess else path.approach).pieces:
-        # at a joint itself the methods of a side evaluate the next piece
-        first, last = max(piece.start, span[0]), min(float(np.nextafter(piece.end, 0.0)), span[1])
-        if last > first:
-            yield first, last
-
-
-def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float) -> float:
+def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
     """Return the maximum of f on [first, last] by repeated grid refinement.
 
-    At the pitch point f may be 0/0; it is evaluated at a small distance from it.
+    At 0, the pitch point of a path, f may be 0/0; it is evaluated at a small distance from it.
     """
     d = np.linspace(first, last, _SCAN)
     if first == 0.0:
         # close enough for the limit, far enough that a quotient 0/0 keeps half its digits
-        d[0] = min(1e-7 * scale, float(d[1]))
+        d[0] = min(1e-7 * last, float(d[1]))
         at_pitch = f(np.zeros(1))[0]
         if np.isposinf(at_pitch):
             return inf
@@ -418,18 +385,11 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
             high, at_high, low = low, at_low, low / _STEP
             at_low = off(low)
     if not (at_low <= 0 <= at_high):
-        what = f"no value of `heat` gives these teeth a working depth of {wanted:.6g}"
+        why = "before that depth, the pressure angle would reach 90 deg or the contact speed would be 0"
+        fix = "use another depth, shorter arcs or more teeth, or give `heat`"
         if at_low > 0:
-            raise GearTrainError(
-                Problem(
-                    what, "even the maximum `heat` gives deeper teeth", "use more depth or shorter arcs, or give `heat`"
-                )
-            )
-        raise GearTrainError(
-            Problem(
-                what,
-                "before that depth, the pressure angle would reach 90 deg or the contact speed would be 0",
-                "use another depth, shorter arcs or more teeth, or give `heat`",
-            )
-        )
+            why = "even the maximum `heat` gives deeper teeth"
+            fix = "use more depth or shorter arcs, or give `heat`"
+        what = f"no value of `heat` gives these teeth a working depth of {wanted:.6g}"
+        raise GearTrainError(Problem(what, why, fix))
     return root(off, low, high, at_low, at_high)

@@ -6,7 +6,6 @@ Each piece is a function of d that gives the pressure angle.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,135 +19,68 @@ from geartrain.numerics.results import Shown
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import ArrayLike
 
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Indices
+
+    Curve = Callable[[Floats], Floats]
 
 
-class PathPiece(ABC):
-    """Piece of a path of contact: sin psi as a function of the distance d from the pitch point, from `start` to `end`.
+@dataclass(frozen=True)
+class PathPiece:
+    """Piece of a path of contact from the distance `start` to the distance `end` from the pitch point.
 
-    Methods take and return arrays.
+    Its three functions take and return arrays.
     """
 
     start: float
     end: float
-
-    @abstractmethod
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle at distances d."""
-
-    @abstractmethod
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin psi with respect to d, which equals d(psi)/dX."""
-
-    @abstractmethod
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
+    sin_psi: Curve
+    """Sine of the pressure angle at distances d."""
+    slope: Curve
+    """Derivative of sin psi with respect to d, which equals d(psi)/dX."""
+    travel: Curve
+    """Arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
 
 
-class RayPiece(PathPiece):
-    """Straight piece of constant pressure angle: the path of contact of an involute."""
-
-    def __init__(self, psi: float, end: float, start: float = 0.0) -> None:
-        self.psi, self.start, self.end = psi, start, end
-
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the constant pressure angle."""
-        return np.full(np.shape(d), sin(self.psi))
-
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin psi with respect to d, which is zero."""
-        return np.zeros(np.shape(d))
-
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X from `start` to d: (d - start) / cos psi."""
-        return (np.asarray(d) - self.start) / cos(self.psi)
+def ray(psi: float, end: float) -> PathPiece:
+    """Return the piece of constant pressure angle `psi` [rad] up to the distance `end`: the path of an involute."""
+    return PathPiece(
+        0.0,
+        end,
+        lambda d: np.full(np.shape(d), sin(psi)),
+        lambda d: np.zeros(np.shape(d)),
+        lambda d: np.asarray(d) / cos(psi),
+    )
 
 
-class CirclePiece(PathPiece):
-    """Circle through the pitch point, centred on the line of centres: the path of contact of a spur pair of cycloids.
-
-    d = 2 rho sin psi and X = 2 rho psi, where `rho` is the radius of the rolling circle (modules).
-    """
-
-    def __init__(self, rho: float, end: float) -> None:
-        self.rho, self.start, self.end = rho, 0.0, end
-
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle: d / (2 rho)."""
-        return np.asarray(d) / (2 * self.rho)
-
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin psi with respect to d, the constant 1 / (2 rho)."""
-        return np.full(np.shape(d), 1 / (2 * self.rho))
-
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X from the pitch point to d: 2 rho psi."""
-        return 2 * self.rho * np.arcsin(np.asarray(d) / (2 * self.rho))
-
-
-class SampledPiece(PathPiece):
-    """Piece of a path of contact whose sin psi is a given function; X is an integrated Chebyshev series of 1 / cos
+def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
+    """Return the piece with a given sine of the pressure angle; its arc X is an integrated Chebyshev series of 1 / cos
     psi.
     """
-
-    def __init__(
-        self,
-        sin_psi: Callable[[Floats], Floats],
-        slope: Callable[[Floats], Floats],
-        start: float,
-        end: float,
-        nodes: int = 64,
-    ) -> None:
-        self._sin, self._slope, self.start, self.end = sin_psi, slope, start, end
-        self._travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
-
-    def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle at d from the given function."""
-        return self._sin(d)
-
-    def slope(self, d: Floats) -> Floats:
-        """Return the derivative of sin psi with respect to d from the given function."""
-        return self._slope(d)
-
-    def travel(self, d: Floats) -> Floats:
-        """Return the arc X from `start` to d from the integrated Chebyshev series."""
-        return self._travel(d)
+    travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
+    return PathPiece(start, end, sin_psi, slope, travel)
 
 
-class SteadySpeedPiece(SampledPiece):
-    """Piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S in closed form.
+def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> PathPiece:
+    """Return the piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S.
 
     By docs/shapes.md (12), eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
     pitch surface of the gear whose dedendum works.
     """
+    first, below = float(pitch.S(start)) * sin_start, float(pitch.S_integral(start))
 
-    def __init__(self, pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> None:
-        first = float(pitch.S(start)) * sin_start
-        below = float(pitch.S_integral(start))
+    def sine(d: Floats) -> Floats:
+        return (first + u * (d - start) + b * (pitch.S_integral(d) - below)) / pitch.S(d)
 
-        def sine(d: Floats) -> Floats:
-            return (first + u * (d - start) + b * (pitch.S_integral(d) - below)) / pitch.S(d)
+    def slope(d: Floats) -> Floats:
+        S = pitch.S(d)
+        found: Floats = (u + b * S - pitch.S_slope(d) * sine(d)) / S
+        return found
 
-        def slope(d: Floats) -> Floats:
-            S = pitch.S(d)
-            found: Floats = (u + b * S - pitch.S_slope(d) * sine(d)) / S
-            return found
-
-        super().__init__(sine, slope, start, end)
-
-
-def ray_end(psi: float, X: float) -> float:
-    """Return the distance d at which a ray of pressure angle `psi` has the arc X."""
-    return X * cos(psi)
-
-
-def circle_end(rho: float, X: float) -> float:
-    """Return the distance d at which a rolling circle of radius `rho` has the arc X."""
-    return 2 * rho * sin(X / (2 * rho))
+    return sampled(sine, slope, start, end)
 
 
 @dataclass(frozen=True)
@@ -184,24 +116,25 @@ class PathSide:
 
     def sin_psi(self, d: Floats) -> Floats:
         """Return the sine of the pressure angle at distances d in [start, end]."""
-        return self._by_piece(d, lambda piece, at: piece.sin_psi(at))
+        return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
         """Return the derivative of sin psi with respect to d."""
-        return self._by_piece(d, lambda piece, at: piece.slope(at))
+        return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
         """Return the arc X from `start` to d."""
-        return self._by_piece(d, lambda piece, at: self._offsets[id(piece)] + piece.travel(at))
+        found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
+        return found
 
     @cached_property
-    def _offsets(self) -> dict[int, float]:
-        """Arc X at the start of each piece, with the `id` of the piece as key."""
-        total, starts = 0.0, {}
-        for piece in self.pieces:
-            starts[id(piece)] = total
-            total += float(piece.travel(np.array(piece.end)))
-        return starts
+    def _offsets(self) -> Floats:
+        """Arc X at the start of each piece [module]."""
+        return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
+
+    def _which(self, d: Floats) -> Indices:
+        """Return the index of the piece that contains each distance; a joint belongs to the piece that follows it."""
+        return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
         """Return the distance d at the arc X, by Newton's method with dd/dX = cos psi."""
@@ -217,24 +150,10 @@ class PathSide:
                 break
         return d
 
-    def _by_piece(self, d: Floats, evaluate: Callable[[PathPiece, Floats], Floats]) -> Floats:
-        d = np.asarray(d, dtype=float)
-        if len(self.pieces) == 1:
-            return evaluate(self.pieces[0], d)
-        found = np.empty(d.shape)
-        which = np.clip(np.searchsorted(self.joints[:-1], d, side="right"), 0, len(self.pieces) - 1)
-        for at, piece in enumerate(self.pieces):
-            here = which == at
-            if here.any():
-                found[here] = evaluate(piece, d[here])
-        return found
-
-
-def none(psi: float) -> PathSide:
-    """Return a side without contact, for a path that begins or ends at the pitch point with pressure angle `psi`
-    [rad].
-    """
-    return PathSide((RayPiece(psi, 0.0),))
+    def _by_piece(self, d: Floats, curves: Sequence[Curve]) -> Floats:
+        # a curve is evaluated on its own piece only, since its formula may be invalid beyond
+        d, which = np.asarray(d, dtype=float), self._which(d)
+        return np.piecewise(d, [which == at for at in range(len(curves))], list(curves))
 
 
 # ------------------------------------------------------------------------------------------------------- the whole path
@@ -334,6 +253,12 @@ class PathOfContact(Shown):
         """Arcs X of approach and recess in which the teeth touch [module]. One of them may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
+    @property
+    def pitches(self) -> tuple[float, float]:
+        """Arcs of approach and recess in which the teeth touch [pitch]. One of them may be negative."""
+        approach, recess = self.arcs
+        return approach / self.pitch.p, recess / self.pitch.p
+
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
         """Return the range of distances d in which the teeth touch on one side; None if the teeth do not touch on that
         side.
@@ -354,6 +279,26 @@ class PathOfContact(Shown):
         # a complete side ends exactly at its end, without the rounding of an inversion
         end = side.end if far >= side.arc else float(side.distance(np.array(far)))
         return (start, end) if end > start else None
+
+    def legs(self, low: float = -inf, high: float = inf) -> Iterator[tuple[bool, PathPiece, float, float]]:
+        """Yield each piece on which the teeth touch, with its side and the range of distances d.
+
+        Parameters
+        ----------
+        low, high : float
+            Bounds of X.
+
+        Yields
+        ------
+        tuple
+            True for the recess side, piece, and first and last distance d of contact on the piece.
+        """
+        for recess, side in ((False, self.approach), (True, self.recess)):
+            start, end = self.span(recess, low, high) or (0.0, 0.0)
+            for piece in side.pieces:
+                first, last = max(piece.start, start), min(piece.end, end)
+                if last > first:
+                    yield recess, piece, first, last
 
     @property
     def contact_ratio(self) -> float:

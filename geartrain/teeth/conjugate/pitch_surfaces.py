@@ -86,11 +86,6 @@ class PitchSurfaces:
         """Circular pitch as an arc X [module; rad for bevel gears]."""
         return 2 * pi * self.reach / self.z1
 
-    @property
-    def exchanged(self) -> PitchSurfaces:
-        """Pitch surfaces of the same pair with gear 2 driving, which exchanges approach and recess."""
-        return PitchSurfaces(self.z2, self.z1, self.R2, self.R1, self.bevel)
-
     def S(self, d: ArrayLike) -> Floats:
         """Return S(d): d on cylinders, sin d on cones; d is the distance from the pitch point."""
         # with S instead of d, docs/shapes.md (2) to (5) hold for spur and bevel gears

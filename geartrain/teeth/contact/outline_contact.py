@@ -40,14 +40,9 @@ class OutlinePair:
         self.first, self.second, self.sign = first, second, 1 if side == "front" else -1
         axles = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
         # the back side is computed as the front side of the mirrored wheels
-        driving_side, driven_side = (
-            (first.ahead, second.behind)
-            if side == "front"
-            else (
-                first.behind.mirrored,
-                second.ahead.mirrored,
-            )
-        )
+        driving_side, driven_side = first.ahead, second.behind
+        if side == "back":
+            driving_side, driven_side = first.behind.mirrored, second.ahead.mirrored
         self.touch_search = FirstTouchSearch(driving_side, driven_side, axles)
         low, high, behind, ahead = driving_side.reach
         minimum, most, _, _ = driven_side.reach
@@ -128,10 +123,8 @@ class OutlinePair:
         angle, speed, pair, kinds, r1, r2, _, curves = _no_contact(count)
         angle[where], speed[where], kinds[where] = best[where], found.speed[chosen], kind[chosen]
         pair[where], r1[where], r2[where] = j[found.tooth_pair[chosen]], found.radius1[chosen], found.radius2[chosen]
-        curves[:, where] = (
-            touch_search.first.curve[found.piece1[chosen]],
-            touch_search.second.curve[found.piece2[chosen]],
-        )
+        curves[0, where] = touch_search.first.curve[found.piece1[chosen]]
+        curves[1, where] = touch_search.second.curve[found.piece2[chosen]]
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
@@ -156,18 +149,10 @@ def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
 
 
 def _no_contact(count: int) -> tuple[Any, ...]:
-    nan = np.full(count, np.nan)
-    none = np.full(count, -1)
-    return (
-        nan,
-        nan.copy(),
-        np.zeros(count, int),
-        none,
-        nan.copy(),
-        nan.copy(),
-        np.zeros(count, int),
-        -np.ones((2, count), int),
-    )
+    angle, speed, radius1, radius2 = np.full((4, count), np.nan)
+    pair, sharing = np.zeros((2, count), int)
+    kind, *curves = np.full((3, count), -1)
+    return angle, speed, pair, kind, radius1, radius2, sharing, np.stack(curves)
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:

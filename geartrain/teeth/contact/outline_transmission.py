@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.transmission_fit import PiecewiseTransmission
 
-_GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the fitted polynomials have degree 30
 _NEAR_PITCH_POINT = 1e-7  # of the centre distance: uncertainty of roots of differences of squares
 _FLAT = 1e-9  # smaller friction slopes against a contact are rounding error, and do not lock
 _SAMPLES = 256  # angles of a pitch at which backlash is evaluated
@@ -39,7 +38,9 @@ class OutlineGears:
     """Outlines of two wheels at a centre distance, lengths in modules."""
 
     first: GearOutline
+    """Outline of gear 1 [module]."""
     second: GearOutline
+    """Outline of gear 2 [module]."""
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float
@@ -62,6 +63,8 @@ class OutlineTransmission(ToothTransmission):
     `driver` is the driving wheel, 1 or 2; `direction` -1 reverses the motion. At S = 0 a driver's tooth is on the
     line of centres; the driven angle is 0 where flanks touch.
     """
+
+    slow = True
 
     def __init__(self, gears: OutlineGears, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
         self.gears, self.distance = gears, gears.distance
@@ -127,23 +130,20 @@ class OutlineTransmission(ToothTransmission):
         """Return the driver angles [rad] at which the contact changes to another tooth or curve."""
         return [self.direction * float(at) for at in self.table.kinks]
 
+    def smooth_intervals(self) -> list[tuple[float, float]]:
+        """Return the intervals of driver angle in which the driven angle is one polynomial [rad]."""
+        edges = sorted((self.direction * self.table.breaks).tolist())
+        return list(pairwise(edges))
+
     def error_range(self) -> tuple[float, float]:
         """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
         # reversed motion changes the sign and so exchanges minimum and maximum
         low, high = sorted(float(self._in_direction(each)) for each in self.table.extremes())
         return low, high
 
-    @property
-    def _nodes(self) -> tuple[Floats, Floats]:
-        """Quadrature nodes [rad of the driver] and weights of a whole period, front flanks driving."""
-        return _nodes(self.gears, self.driver)
-
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio, among 16 angles and both ends of each smooth interval."""
-        ends = self.table.breaks
-        # at a kink the speed has two values, one on either side
-        found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
-        return float(np.nanmin(found)), float(np.nanmax(found))
+        """Return the minimum and the maximum speed ratio."""
+        return self.table.speed_range()
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""
@@ -152,78 +152,30 @@ class OutlineTransmission(ToothTransmission):
 
     # ------------------------------------------------------------------------------------------------------- friction
 
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN without contact or if friction locks the teeth.
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """Return sliding speed and friction terms of the contact at driver angles S [rad].
 
         The common normal passes through the instantaneous pitch point, which divides the centre distance in the ratio
         of the speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
         """
-        return self._efficiency_of(_friction_terms(self.gears, self.driver, self._forward(S)))
-
-    def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speed and friction terms of the contact at driver angles S [rad]."""
         forward = self._forward(S)
-        return self._rubbing(_friction_terms(self.gears, self.driver, forward), self.table.speed(forward))
-
-    def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing]:
-        """Return the nodes of `efficiency_mean` [rad], their weights, and sliding speed and friction terms there."""
-        S, weights = self._nodes
-        rubbing = self._rubbing(_friction_terms_at_nodes(self.gears, self.driver), self.table.speed(S))
-        return self.direction * S, weights, rubbing
-
-    def _rubbing(self, terms: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
-        cosine, into, out = terms
+        cosine, into, out = _friction_terms(self.gears, self.driver, forward)
         # the instantaneous pitch point divides the distance by speeds, the nominal pitch point by tooth numbers
         first, second = self._wheels
-        mean, same = float(self.ratio), -1 if first.ring or second.ring else 1
+        speed, mean = self.table.speed(forward), float(self.ratio)
+        same = -1 if first.ring or second.ring else 1
         share = np.abs(speed / (speed + same) * (mean + same) / mean)
         with np.errstate(divide="ignore", invalid="ignore"):
             found = np.abs(into - out) * share, into / cosine, out / cosine
         return ContactRubbing(*(each[None] for each in found))
-
-    def _efficiency_of(self, terms: tuple[Floats, Floats, Floats]) -> Floats:
-        cosine, into, out = terms
-        with np.errstate(divide="ignore", invalid="ignore"):
-            into, out = cosine + self.friction * into, cosine + self.friction * out
-            found: Floats = np.where(out > 0, out / into, nan)
-        return found
 
     @cached_property
     def locking_friction(self) -> float:
         """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if no contact
         locks.
         """
-        cosine, _, out = _friction_terms_at_nodes(self.gears, self.driver)
-        steepest = float(np.nanmax(-out / cosine))
+        steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
-
-    @cached_property
-    def _sampled(self) -> tuple[Floats, Floats, Floats]:
-        """Efficiency, speed ratio and weights at the quadrature nodes with contact."""
-        S, weights = self._nodes
-        speed = self.table.speed(S)
-        touching = ~np.isnan(speed)
-        cosine, into, out = _friction_terms_at_nodes(self.gears, self.driver)
-        found = self._efficiency_of((cosine[touching], into[touching], out[touching]))
-        return found, speed[touching], weights[touching] / weights[touching].sum()
-
-    def efficiency_mean(self) -> float:
-        """Return the mean of the efficiency over the driver angles with contact, at constant driver torque; NaN if
-        friction locks.
-        """
-        found, _, weights = self._sampled
-        return float(weights @ found)
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return the work output divided by the work input of one pitch at constant load torque; NaN if friction
-        locks.
-        """
-        found, speed, weights = self._sampled
-        return float((weights @ speed) / (weights @ (speed / found)))
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency among the quadrature nodes; NaN if friction locks."""
-        return float(self._sampled[0].min())
 
 
 def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
@@ -275,20 +227,6 @@ def _backlashes(gears: OutlineGears, driver: int) -> Floats:
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash
-
-
-@lru_cache(maxsize=64)
-def _nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats]:
-    x, w = _GAUSS
-    table = _tabulated(gears, driver)
-    edges = list(pairwise(table.breaks.tolist()))
-    S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in edges])
-    return S, np.concatenate([(high - low) / 2 * w for low, high in edges]) / table.period
-
-
-@lru_cache(maxsize=64)
-def _friction_terms_at_nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats, Floats]:
-    return _friction_terms(gears, driver, _nodes(gears, driver)[0])
 
 
 def _apart(distance: float, share: float) -> ToothFault:

@@ -8,16 +8,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev as cheb
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import joined, some
-from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.polynomial_pieces import COUNT, POWERS, ends, extremes, moments, value
-from geartrain.teeth.contact.outline_contact import KINDS, OutlinePair
+from geartrain.teeth.contact.outline_contact import OutlinePair
 from geartrain.teeth.transmission import SpeedLeap
 
 if TYPE_CHECKING:
@@ -36,9 +35,7 @@ _ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
 _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
 _PARTS = 4  # initial stretches of a pitch
 _OFFSET = 0.1180339887498949  # of a stretch: an irrational offset, so that a kink is unlikely to be at an end
-_THIN = (
-    1e-9  # of a pitch: thinner stretches are not divided, as where a tip is tangent to a side and the speed is infinite
-)
+_THIN = 1e-9  # of a pitch: thinner stretches are not divided; a tip tangent to a side makes the speed infinite
 _CUTS = 17  # subdivisions of a gap with a kink; one call for many angles costs little more than for one
 _SAFETY = 2.0  # reported error divided by the maximum found
 _FLAT = 1e-7  # of the ratio: kinks with a smaller change of speed are not refined
@@ -67,7 +64,9 @@ class PiecewiseTransmission:
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
-    """Kind of contact in each interval, shape (n,): an index into `KINDS`, or -1 if no tooth is within range."""
+    """Kind of contact in each interval, shape (n,): an index into `outline_contact.KINDS`; -1 if no tooth is within
+    range.
+    """
     kinks: Floats
     """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
@@ -128,22 +127,6 @@ class PiecewiseTransmission:
         gaps.
         """
         return moments(self.errors, self.halves)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
-        low, high = self.extremes()
-        return {
-            "ratio": fraction_text(self.ratio),
-            "period": self.period,
-            "breaks": self.breaks.tolist(),
-            "pair": self.pair.tolist(),
-            "kind": np.array([*KINDS, "none"])[self.kind].tolist(),
-            "kinks": self.kinks.tolist(),
-            "error_min": low,
-            "error_max": high,
-            "uncertainty": self.uncertainty,
-            "speed_uncertainty": self.speed_uncertainty,
-        }
 
 
 # -------------------------------------------------------------------------------------------------------------- fitting
@@ -237,6 +220,8 @@ def tabulate(
 
 
 class _Fitter:
+    """Adaptive fit of polynomials: intervals are divided at their kinks, or bisected, until the fit is accurate."""
+
     def __init__(self, pair_contact: OutlinePair, tolerance: float) -> None:
         self.pair_contact, self.tolerance = pair_contact, tolerance
         self.ratio = Fraction(pair_contact.first.z, pair_contact.second.z)

@@ -4,7 +4,7 @@ follows.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import acos, atan, ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING
@@ -81,6 +81,10 @@ class Contour(Shown):
         """True if the contour consists of two half circles, as made by `circle`."""
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
+    def _edges(self) -> Iterator[tuple[Floats, Floats, float]]:
+        """Yield both ends and the bulge of every edge."""
+        return zip(self.points, np.roll(self.points, -1, axis=0), self.bulges.tolist(), strict=True)
+
     def moments(self) -> tuple[float, float]:
         """Return the enclosed area [mm2] and its polar second moment about the origin [mm4], computed exactly by
         Green's theorem.
@@ -92,9 +96,9 @@ class Contour(Shown):
         cross = x * v - y * u
         area = float(cross.sum() / 2)
         polar = float((cross * (x * x + x * u + u * u + y * y + y * v + v * v)).sum() / 12)
-        for start, end, bulge in zip(self.points, np.roll(self.points, -1, axis=0), self.bulges, strict=True):
+        for start, end, bulge in self._edges():
             if bulge:
-                own = _segment_moments(start, end, float(bulge))
+                own = _segment_moments(start, end, bulge)
                 area, polar = area + own[0], polar + own[1]
         return area, polar
 
@@ -115,8 +119,8 @@ class Contour(Shown):
             Points, shape (m, 2); the first point is not repeated.
         """
         parts = []
-        for start, end, bulge in zip(self.points, np.roll(self.points, -1, axis=0), self.bulges, strict=True):
-            parts.append(_arc(start, end, float(bulge), tolerance) if bulge else start[None, :])
+        for start, end, bulge in self._edges():
+            parts.append(_arc(start, end, bulge, tolerance) if bulge else start[None, :])
         return np.concatenate(parts)
 
 
@@ -158,7 +162,6 @@ def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
     return float(np.hypot(*(end - start))) * (1 + bulge**2) / (4 * abs(bulge))
 
 
-def bulge_about(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]) -> float:
-    """Return the bulge of the shorter arc about `centre` from `start` to `end`."""
-    a, b = (complex(x - centre[0], y - centre[1]) for x, y in (start, end))
-    return tan(float(np.angle(b / a)) / 4)
+def bulge_about(start: complex, end: complex, centre: complex = 0j) -> float:
+    """Return the bulge of the shorter arc about `centre` from `start` to `end`, points x + iy."""
+    return tan(float(np.angle((end - centre) / (start - centre))) / 4)

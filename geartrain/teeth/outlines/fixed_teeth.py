@@ -10,13 +10,11 @@ tooth clear each other while n (1 - cos u) tan a > u - sin u (docs/reducers.md, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.outlines.tooth_outline import Vertex
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 
 if TYPE_CHECKING:
@@ -63,25 +61,18 @@ def escape_tooth(z: int, sense: int) -> FixedTooth:
     depth = min(_DEPTH * pitch, _DEEPEST) * radius
     root = hypot(radius - depth, depth * tan(UNDERCUT))
     face = atan2(depth * tan(UNDERCUT), radius - depth)  # angle of the tip ahead of the foot of its face
-    tooth = tuple(_vertices(pitch, radius, root, face))
-    if sense < 0:  # mirrored and in reverse order, so the bulge of an edge belongs to its other end
-        tooth = tuple((x, -y, tooth[at - 1][2]) for at, (x, y, _) in reversed([*enumerate(tooth)]))
-    return FixedTooth("external", radius, root, tooth)
-
-
-def _vertices(pitch: float, radius: float, root: float, face: float) -> Iterator[Vertex]:
-    """Yield the vertices counter-clockwise: foot of the back, both ends of the tip, foot of the face.
-
-    The last edge lies on the root circle.
-    """
     half = _BASE * pitch / 2
-    for distance, angle, bulge in (
+    # counter-clockwise: foot of the back, both ends of the tip, foot of the face; the last edge is on the root circle
+    polar = (
         (root, -half, 0.0),
         (radius, half + face - _LAND * pitch, tan(_LAND * pitch / 4)),
         (radius, half + face, 0.0),
         (root, half, tan((1 - _BASE) * pitch / 4)),
-    ):
-        yield distance * cos(angle), distance * sin(angle), bulge
+    )
+    tooth = tuple((distance * cos(angle), distance * sin(angle), bulge) for distance, angle, bulge in polar)
+    if sense < 0:  # mirrored and in reverse order, so the bulge of an edge belongs to its other end
+        tooth = tuple((x, -y, tooth[at - 1][2]) for at, (x, y, _) in reversed([*enumerate(tooth)]))
+    return FixedTooth("external", radius, root, tooth)
 
 
 # --------------------------------------------------------------------------------------------------------- strain waves

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, ceil, cos, hypot, pi, sin, sqrt
+from math import atan2, ceil, cos, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,18 +25,18 @@ _STRAIGHT = 1e-9  # modules, or rad: pieces with smaller deviation count as stra
 _MEETING = 1e-9  # rad: fillets closer to each other meet in the middle of the space
 
 
-Point = tuple[float, float]
-
-
 @dataclass(frozen=True, slots=True)
 class RootFillet:
-    """Root fillet in the frame of the tooth: x along its centre line, y towards the tooth space; lengths in modules."""
+    """Root fillet in the frame of the tooth, as complex numbers: x along its centre line, y towards the tooth space.
 
-    start: Point
+    Lengths are in modules.
+    """
+
+    start: complex
     """Point at which the straight root flank ends and the fillet begins [module]."""
-    end: Point
+    end: complex
     """Point at which the fillet touches the root circle [module]."""
-    centre: Point
+    centre: complex
     """Centre of the fillet [module]."""
     radius: float
     """Radius of the fillet [module]."""
@@ -44,7 +44,7 @@ class RootFillet:
     @property
     def half(self) -> float:
         """Angle between the centre line of the tooth and the point where its root circle begins [rad]."""
-        return atan2(self.end[1], self.end[0])
+        return atan2(self.end.imag, self.end.real)
 
 
 def fillet(
@@ -56,34 +56,25 @@ def fillet(
     widening   half angle of the tooth at the pitch circle (rad)
     relief     angle (rad) by which the straight line is turned from the flank's tangent into the tooth
     """
-    r, half = float(flank.r[0]), widening + float(flank.angle[0])
-    E = (r * cos(half), r * sin(half))
+    half = widening + float(flank.angle[0])
+    turn = complex(cos(half), sin(half))
     along, across = flank.tangent
     # the flank continues along its tangent, turned into the tooth by the relief
     lean = atan2(across, abs(along)) - relief
-    along, across = (cos(lean) if along > 0 else -cos(lean)), sin(lean)
-    T = (along * cos(half) - across * sin(half), along * sin(half) + across * cos(half))
-    N = (-T[1], T[0])
-    # the normal points into the space
-    if -N[0] * sin(half) + N[1] * cos(half) < 0:
-        N = (-N[0], -N[1])
+    way = complex(cos(lean) if along > 0 else -cos(lean), sin(lean))
+    E, T = float(flank.r[0]) * turn, way * turn
+    # of the two normals the one that points into the space, away from the centre line of the tooth
+    N = 1j * T if way.real > 0 else -1j * T
     s = flank.outward
     # the centre is on a line parallel to the flank, at a distance of one radius from the root circle
-    base = (E[0] + radius * N[0], E[1] + radius * N[1])
-    b = base[0] * T[0] + base[1] * T[1]
-    c = base[0] ** 2 + base[1] ** 2 - (root + s * radius) ** 2
+    base = E + radius * N
+    b, c = (base.conjugate() * T).real, abs(base) ** 2 - (root + s * radius) ** 2
     under = b * b - c
     # the arc would not touch the root circle
-    if s * c < 0 or under < 0:
+    if s * c < 0 or under < 0 or (t := -b - s * sqrt(under)) < 0:
         return None
-    t = -b - s * sqrt(under)
-    if t < 0:
-        return None
-    centre = (base[0] + t * T[0], base[1] + t * T[1])
-    far = hypot(*centre)
-    found = RootFillet(
-        (E[0] + t * T[0], E[1] + t * T[1]), (centre[0] * root / far, centre[1] * root / far), centre, radius
-    )
+    centre = base + t * T
+    found = RootFillet(E + t * T, centre * root / abs(centre), centre, radius)
     # an arc across the middle of the space would intersect the arc of the next tooth
     return found if found.half <= pi / z else None
 
@@ -127,8 +118,7 @@ class ToothOutline:
         edge = np.angle(start + np.clip(t, 0.0, 1.0) * along)
         if not self.fillet.radius:
             return np.asarray(edge)
-        centre = complex(*self.fillet.centre)
-        far = abs(centre)
+        centre, far = self.fillet.centre, abs(self.fillet.centre)
         # avoids a division by 0
         cosine = (radius**2 + far**2 - self.fillet.radius**2) / (2 * np.maximum(radius, 1e-300) * far)
         on_fillet = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
@@ -137,13 +127,13 @@ class ToothOutline:
     def _half(self) -> list[tuple[float, float, float]]:
         """Return vertices (x, y, bulge) from root to tip, on the side of positive y."""
         fillet = self.fillet
-        half = self.widening + self.flank.angle
-        flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
+        flank = self.flank.r * np.exp(1j * (self.widening + self.flank.angle))
         bulge = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
         end = fillet.end
         if pi / self.z - fillet.half < _MEETING:  # two fillets meet in the middle of the space
-            end = self.root * cos(pi / self.z), self.root * sin(pi / self.z)
-        return [(*end, bulge), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
+            end = self.root * complex(cos(pi / self.z), sin(pi / self.z))
+        points = [end, fillet.start, *flank.tolist()]
+        return [(at.real, at.imag, turn) for at, turn in zip(points, [bulge, *[0.0] * len(flank), 0.0], strict=True)]
 
     def whole(self) -> Contour:
         """Return the contour of all teeth, counter-clockwise, with the first tooth about the x axis [module]."""
@@ -154,9 +144,8 @@ class ToothOutline:
         circle.
         """
         half = self._half()
-        origin = (0.0, 0.0)
         x, y, _ = half[-1]
-        land = bulge_about((x, -y), (x, y), origin)
+        land = bulge_about(complex(x, -y), complex(x, y))
         gap = pi / self.z - self.fillet.half
         ground = np.tan(gap / 2) if gap >= _MEETING else 0.0
         up = [(x, -y, -bulge) for x, y, bulge in half[:-1]] + [(x, -y, float(land))]

@@ -17,7 +17,7 @@ from geartrain.teeth.outlines.tooth_outline import FlankCurve, ToothOutline, fil
 from geartrain.teeth.outlines.wheel_requirement import CutTooth, LanternPins, WheelRequirement
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -27,15 +27,11 @@ _STEPS = 120  # positions of the mate in a pitch
 _MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves between two positions
 
 
-@dataclass(frozen=True, slots=True)
-class MatePassage:
-    """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel."""
+MatePassage = tuple["Floats", "Floats"]
+"""Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel.
 
-    radius: Floats
-    """Radii about the wheel's axle [module]; `aside` holds the angles from the centre line of the nearest tooth
-    [rad].
-    """
-    aside: Floats
+Radii about the wheel's axle [module], and angles from the centre line of the nearest tooth [rad].
+"""
 
 
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
@@ -44,12 +40,13 @@ def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     The depth is measured along the circle at the flank and the fillet, and along the radius at the root circle. At the
     fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
     """
-    if not mate.radius.size:
+    radius, aside = mate
+    if not radius.size:
         return -inf
     s = tooth.flank.outward
-    deep = (tooth.half_at(mate.radius) - mate.aside) * mate.radius
-    below = (tooth.root - mate.radius) * s
-    on_fillet = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
+    deep = (tooth.half_at(radius) - aside) * radius
+    below = (tooth.root - radius) * s
+    on_fillet = (radius - abs(tooth.fillet.start)) * s < 0
     return float(np.where(below > 0, below, deep + np.where(on_fillet, _MARGIN, 0.0)).max())
 
 
@@ -67,7 +64,9 @@ class ToothRequirement(WheelRequirement):
     """Required teeth of gear 1 or 2 of a conjugate pair, lengths in modules."""
 
     pair: ConjugatePair
+    """Pair at its design distance."""
     gear: int
+    """Number of the gear, 1 or 2."""
     tolerance: float
     """Maximum deviation of a chord from the flank [module]."""
     clearance: float = CLEARANCE
@@ -172,7 +171,7 @@ class ToothRequirement(WheelRequirement):
         turned = turn * other.z / self.z * (1 if self.internal else -1)
         pitch = 2 * pi / self.z
         aside = np.abs((np.angle(place) - turned) % pitch - pitch / 2)  # a tooth space faces the mate's tooth
-        return MatePassage(radius[inside], aside[inside])
+        return radius[inside], aside[inside]
 
 
 @lru_cache(maxsize=4096)
@@ -245,12 +244,17 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     root = min((each.root for each in demands), key=lambda radius: radius * s)
     own = deepest.flank
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
-        raise _no_root(deepest)
+        what = f"gear {deepest.gear} cannot have a root circle"
+        why = (
+            f"with a clearance of {deepest.clearance:.4g} modules, the flanks of neighbouring teeth meet before they "
+            "reach it"
+        )
+        fix = "reduce the clearance, or increase the backlash, which makes the teeth thinner"
+        raise QuestionError(Problem(what, why, fix, "--blank clearance"))
     passages = [each.passage for each in demands]
     # every relief is tried at the strict tolerance before the loose one
     for most, degree in ((most, degree) for most in _TOLERATED_DEPTHS for degree in _RELIEFS):
-        made = _tooth_builder(deepest, root, passages, radians(degree), most)
-        found = made(_FILLET if wanted is None else wanted) or _largest(made, _FILLET if wanted is None else wanted)
+        found = _largest_fillet(deepest, root, passages, radians(degree), most, _FILLET if wanted is None else wanted)
         if found is not None:
             return found, radians(degree)
     raise QuestionError(
@@ -263,43 +267,25 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     )
 
 
-def _no_root(demand: ToothRequirement) -> QuestionError:
-    return QuestionError(
-        Problem(
-            f"gear {demand.gear} cannot have a root circle",
-            f"with a clearance of {demand.clearance:.4g} modules, the flanks of neighbouring teeth meet before they "
-            "reach it",
-            "reduce the clearance, or increase the backlash, which makes the teeth thinner",
-            "--blank clearance",
-        )
-    )
+def _largest_fillet(
+    own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
+) -> ToothOutline | None:
+    """Return the tooth with the largest fillet radius up to `wanted` [module], by bisection.
 
-
-def _tooth_builder(
-    own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
-) -> Callable[[float], ToothOutline | None]:
-    """Return a function from a fillet radius to a tooth, or to None if a mate interferes by more than `most`
-    [module].
+    Return None if even with a small fillet a mate interferes by more than `most` [module].
     """
-    flank, widening, z = own.flank, own.widening, own.z
 
     def made(radius: float) -> ToothOutline | None:
-        root_fillet = fillet(flank, widening, root, radius, z, relief)
+        root_fillet = fillet(own.flank, own.widening, root, radius, own.z, relief)
         if root_fillet is None:
             return None
-        tooth = ToothOutline(z, flank, root_fillet, widening, root)
+        tooth = ToothOutline(own.z, own.flank, root_fillet, own.widening, root)
         return tooth if all(interference_depth(tooth, mate) <= most for mate in mates) else None
 
-    return made
-
-
-def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius up to `wanted`, by bisection; None if not even a small fillet
-    fits.
-    """
-    found = made(_MINIMUM_FILLET)
     low, high = _MINIMUM_FILLET, wanted
-    if found is None or wanted <= low:
+    if (largest := made(wanted)) is not None:
+        return largest
+    if (found := made(low)) is None or wanted <= low:
         return found
     for _ in range(_HALVINGS):
         middle = (low + high) / 2

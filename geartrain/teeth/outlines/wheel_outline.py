@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.tooth_outline import ToothOutline, repeated
+from geartrain.teeth.outlines.tooth_outline import repeated
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
@@ -58,18 +58,12 @@ class BlankSizes:
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` if a value is not a valid size."""
-        above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
-        minimum = {"fillet": self.fillet, "clearance": self.clearance}
-        problems = [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--blank {name}")
-            for name, value in above.items()
-            if value is not None and not (isfinite(value) and value > 0)
-        ]
-        problems += [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--blank {name}")
-            for name, value in minimum.items()
-            if value is not None and not (isfinite(value) and value >= 0)
-        ]
+        problems = []
+        for name in ("module", "bore", "rim", "tolerance", "fillet", "clearance"):
+            value, may_be_0 = getattr(self, name), name in ("fillet", "clearance")
+            if value is not None and not (isfinite(value) and (value > 0 or (may_be_0 and value == 0))):
+                fix = f"give a {name} {'of 0 or more' if may_be_0 else 'above 0'}"
+                problems.append(Problem(f"a {name} of {value:g} mm is out of range", "", fix, f"--blank {name}"))
         if problems:
             raise QuestionError(problems)
 
@@ -178,8 +172,11 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
         tooth, relief = cut_tooth([demand], wanted)
         kind, root, fillet = "ring" if tooth.flank.outward < 0 else "external", tooth.root, tooth.fillet.radius
         if cut.fillet is not None and wanted is not None and fillet < wanted:
-            raise _fillet_too_large(gear, cut.fillet, fillet * scale)
-        contours = _contours(tooth, cut)
+            what = f"a fillet of {cut.fillet:g} mm does not fit the root of gear {gear}"
+            why = "a larger fillet would touch the mate's tips or the next tooth"
+            fix = f"give at most {fillet * scale:.4g} mm, or more clearance"
+            raise QuestionError(Problem(what, why, fix, "--blank fillet"))
+        contours = blank_contours(tooth.whole(), kind, root, cut)
     return WheelOutline(
         gear=gear,
         z=int(demand.z),
@@ -226,27 +223,19 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
     return Contour.of(repeated(seat, z))
 
 
-def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError:
-    return QuestionError(
-        Problem(
-            f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
-            "a larger fillet would touch the mate's tips or the next tooth",
-            f"give at most {fits:.4g} mm, or more clearance",
-            "--blank fillet",
-        )
-    )
+def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> list[Contour]:
+    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth.
 
-
-def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
-    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth."""
-    teeth = tooth.whole().scaled(cut.module)
-    if tooth.flank.outward > 0:
+    teeth, root   contour of the teeth and radius of the root circle [module]
+    """
+    teeth = teeth.scaled(cut.module)
+    if kind != "ring":
         if cut.rim is not None:
             raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --blank rim", "--blank rim"))
-        return [teeth, *bore(cut, tooth.root * cut.module)]
+        return [teeth, *bore(cut, root * cut.module)]
     if cut.bore is not None:
         raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))
-    return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
+    return [Contour.circle(root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import degrees, inf
-from typing import Literal
+from types import ModuleType
+from typing import Any, Literal
 
 from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import bracketed_root, root
@@ -39,22 +41,18 @@ class TriangularContact:
         """Drive intervals in order of time."""
         return self.dragged.intervals
 
-    def lag(self, t: float) -> float:
-        """Return the lag y(t) - (z1/z2) t of the driven wheel [rad] at the driver position t [rad]."""
-        return self._height(*self.locate(t))
-
     def locate(self, t: float) -> tuple[DriveInterval, float]:
         """Return the interval that contains the driver position t [rad], and the angle alpha_1 there [rad]."""
         return _locate(self.intervals, t, self.sizes.p1)
 
-    def _height(self, interval: DriveInterval, x: float) -> float:
-        if interval.held is None:
-            return self.path.g(interval.phase, x)
-        return interval.held - self.sizes.ratio * x
+    def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
+        """Return the lag of the driven wheel behind its mean motion [rad] at alpha_1 = x [rad], number or array."""
+        y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
+        return y - self.sizes.ratio * x
 
-    def speed(self, interval: DriveInterval, x: float) -> float:
-        """Return the speed ratio tau, which is 0 during a dwell."""
-        return 0.0 if interval.held is not None else float(self.path.tooth_pair.speed(interval.phase, x))
+    def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
+        """Return the speed ratio tau at alpha_1 = x [rad], a number or an array; 0 during a dwell."""
+        return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
@@ -95,7 +93,7 @@ class TriangularContact:
         start, back = start - half, back + half
 
         def backlash(step: float) -> float:
-            return self._height(ours, start + step) + self.path.g(theirs.phase, back - step)
+            return self.lag(ours, start + step) + self.path.g(theirs.phase, back - step)
 
         def slope(step: float) -> float:
             return self.speed(ours, start + step) - self.speed(theirs, back - step)
@@ -127,9 +125,8 @@ class TriangularContact:
             return "overhang", self.overhang
         if self.backlash < -_ROUNDING * self.sizes.p2:
             return "jam", (
-                f"the coast flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven "
-                f"wheel too thick for "
-                "the spaces at this clearance"
+                f"the coast flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven wheel too thick "
+                "for the spaces at this clearance"
             )
         if self.dragged.clash > 0:
             return "clash", (
@@ -177,8 +174,7 @@ class TriangularContact:
                 x = interval.start if interval.phase == APPROACH else interval.end
                 return (
                     f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), "
-                    "where "
-                    "it cannot drive"
+                    "where it cannot drive"
                 )
         return ""
 
@@ -312,8 +308,9 @@ def find_window(sizes: TriangularSizes) -> ClearanceWindow:
 @lru_cache(maxsize=8192)
 def _window(sizes: TriangularSizes) -> ClearanceWindow:
     reach = sizes.maximum_excess
-    jam = _minimum_excess(sizes)
-    overhang = _overhang_excess(sizes, jam)
+    jam = _start_of_range(lambda excess: TriangularContact(sizes.at(excess)).backlash, reach * _NEARLY_0, reach)
+    # at the jam limit itself the backlash is 0 except for rounding
+    overhang = _overhang_excess(sizes, max(jam * (1 + 1e-9), reach * _NEARLY_0))
     low = max(jam, overhang)
     clash = _first_range(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
     dwell = _first_range(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
@@ -325,29 +322,20 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
     return ClearanceWindow(starts[jam_kind], min(clash[1], dwell[1]), run_kind, reach, jam_kind, sizes.side)
 
 
-def _minimum_excess(sizes: TriangularSizes) -> float:
-    reach = sizes.maximum_excess
+def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
+    """Return the excess from which `margin` is positive; 0 if it is positive at `low`."""
+    return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
-    def backlash(excess: float) -> float:
-        return TriangularContact(sizes.at(excess)).backlash
 
-    if backlash(reach * _NEARLY_0) > 0:
+def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
+    """Return the excess up to which an overhanging flank touches; 0 if none touches at the excess `low`."""
+    if low >= sizes.maximum_excess or not any(sizes.at(low).lean):
         return 0.0
-    return _first_sign_change(backlash, reach * _NEARLY_0, reach)
-
-
-def _overhang_excess(sizes: TriangularSizes, jam: float) -> float:
-    """Return the excess up to which an overhanging flank touches; 0 if none touches at the excess `jam`."""
-    reach = sizes.maximum_excess
-    # at the jam limit itself the backlash is 0 except for rounding
-    low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
     def margin(excess: float) -> float:
         return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step function: `root` bisects
 
-    if low >= reach or not any(sizes.at(low).lean) or margin(low) > 0:
-        return 0.0
-    return _first_sign_change(margin, low, reach)
+    return _start_of_range(margin, low, sizes.maximum_excess)
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:

@@ -14,7 +14,7 @@ tip (a clash). A collision is a step of the speed ratio as another tooth pair ta
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
@@ -96,26 +96,19 @@ class RealPath:
         """
         if not self.sizes.has_valleys:
             return []
-        first, last = self.sizes.entry, self.sizes.exit
-        matching = min(max(self.sizes.matching, last), first)
-        found: list[MonotonePiece] = []
-        for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
-            if high > low:
-                found += self._cut(phase, low, high)
-        return [*self._slip_pieces(), *found] if self.slips else found
-
-    def _slip_pieces(self) -> Iterator[MonotonePiece]:
-        """Yield the contacts with overhanging flanks beyond the exit."""
         sizes = self.sizes
-        for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
-            if high > low:
-                yield from self._cut(phase, low, high)
+        matching = min(max(sizes.matching, sizes.exit), sizes.entry)
+        ranges = [(RECESS, sizes.exit, matching), (APPROACH, matching, sizes.entry)]
+        if self.slips:
+            ranges = [(RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit), *ranges]
+        return [piece for phase, low, high in ranges if high > low for piece in self._cut(phase, low, high)]
 
     def _cut(self, phase: str, low: float, high: float) -> list[MonotonePiece]:
         def slope(x: float) -> float:
             return float(self.tooth_pair.slope(phase, x))
 
         first, last = slope(low) > 0, slope(high) > 0
+        # the curvature changes its sign at most once on such a range
         if first == last:
             return [MonotonePiece(phase, low, high, first)]
         a, b = low, high
@@ -289,15 +282,12 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
-
-    `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth.
-    """
+    """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27)."""
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """Phase that begins, or "matching"."""
+    """Phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth."""
     alpha1: float
     """Driver angle alpha_1 at the impact [rad]."""
     before: float
@@ -332,21 +322,47 @@ class DraggedPath:
 
 
 def drag(path: RealPath) -> DraggedPath:
-    """Return the real path with a dwell of the driven wheel wherever no tooth pair drives it."""
-    envelope = path.envelope
+    """Return the real path with a dwell of the driven wheel wherever no tooth pair drives it.
+
+    The envelope is followed over one pitch from its lowest point to the same point again. The first interval of the
+    result begins after the last dwell.
+    """
+    envelope, angle = path.envelope, path.tooth_pair.angle
     if not envelope:
         return DraggedPath((), 0.0, inf)
     # start at the minimum of g, which the driven wheel reaches whatever its earlier position
     first = min(range(len(envelope)), key=lambda at: _minimum(path, envelope[at])) if len(envelope) > 1 else 0
-    order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
-    traversal = _PitchTraversal(path, order[0])
-    for interval in (*order[1:], _next_pitch(order[0])):
-        traversal.append(interval)
-    return traversal.result()
-
-
-def _next_pitch(interval: DriveInterval) -> DriveInterval:
-    return DriveInterval(interval.phase, interval.start, interval.end, interval.tooth_pair + 1, interval.held)
+    following = (replace(each, tooth_pair=each.tooth_pair + 1) for each in envelope[: first + 1])
+    small, wide = _SMALL * path.sizes.p2, _SMALL * path.pitch
+    done, arrested, clash, lost = [envelope[first]], False, 0.0, 0.0
+    held: DriveInterval | None = None  # the interval whose tooth pair let go
+    for interval in (*envelope[first + 1 :], *following):
+        last = held or done[-1]
+        let_go = float(angle(last.phase, last.end))
+        # angle at which `last` left the driven wheel, as alpha_2 of the tooth pair of `interval`
+        y = let_go + (interval.tooth_pair - last.tooth_pair) * path.sizes.p2
+        step = angle(interval.phase, interval.start) - y
+        gap = last.end - interval.start + (interval.tooth_pair - last.tooth_pair) * path.pitch
+        if step < -small:
+            # a tooth that enters ahead of its mate while no other touches passes it, and its push ends
+            arrested |= gap > wide
+            clash = clash if gap > wide else max(clash, -step)
+        if held is None and (step > small or gap > wide):
+            held = last
+            lost += max(step, 0.0)
+        if held is not None:
+            if step > small:
+                # an interval that ends above the driven wheel never reaches it
+                if angle(interval.phase, interval.end) >= y:
+                    continue
+                interval = replace(interval, start=_arrival(path, interval, y))
+            end = interval.start + (last.tooth_pair - interval.tooth_pair) * path.pitch
+            done.append(DriveInterval(DWELL, last.end, end, last.tooth_pair, let_go))
+            held = None
+        done.append(interval)
+    closing = done.pop()
+    opening = replace(closing, end=envelope[first].end, tooth_pair=closing.tooth_pair - 1)
+    return DraggedPath((opening, *done[1:]), clash, lost, arrested)
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
@@ -355,63 +371,11 @@ def _minimum(path: RealPath, interval: DriveInterval) -> float:
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
-class _PitchTraversal:
-    """Traversal of one pitch, from the lowest point of the envelope to the same point again."""
-
-    def __init__(self, path: RealPath, first: DriveInterval) -> None:
-        self.path, self.first = path, first
-        self.small, self.gap = _SMALL * path.sizes.p2, _SMALL * path.pitch
-        self.done: list[DriveInterval] = [first]
-        self.held: DriveInterval | None = None  # the tooth pair that let go
-        self.clash = self.lost = 0.0
-        self.arrested = False
-
-    def append(self, interval: DriveInterval) -> None:
-        """Append the next interval of the envelope.
-
-        The interval joins the last interval, follows a dwell until its tooth reaches the driven wheel, or clashes with
-        a tip.
-        """
-        last = self.held or self.done[-1]
-        y = self._dwell_angle(last, interval)
-        step = self.path.tooth_pair.angle(interval.phase, interval.start) - y
-        gap = last.end - interval.start + (interval.tooth_pair - last.tooth_pair) * self.path.pitch
-        if step < -self.small:
-            # a tooth that enters ahead of its mate while no other touches passes it, and its push ends
-            self.arrested |= gap > self.gap
-            self.clash = self.clash if gap > self.gap else max(self.clash, -step)
-        if self.held is None and (step > self.small or gap > self.gap):
-            self.held = last
-            self.lost += max(step, 0.0)
-        if self.held is not None and step > self.small:
-            # an interval that ends above the driven wheel never reaches it
-            if self.path.tooth_pair.angle(interval.phase, interval.end) >= y:
-                return
-            start = bracketed_root(
-                lambda x: self.path.tooth_pair.angle(interval.phase, x) - y,
-                lambda x: self.path.tooth_pair.speed(interval.phase, x),
-                interval.end,
-                interval.start,
-            )
-            interval = DriveInterval(interval.phase, start, interval.end, interval.tooth_pair)
-        if self.held is not None:
-            self._dwell_until(interval)
-        self.done.append(interval)
-
-    def _dwell_angle(self, last: DriveInterval, interval: DriveInterval) -> float:
-        """Return the angle at which `last` left the driven wheel, as alpha_2 of the tooth pair of `interval` [rad]."""
-        y = self.path.tooth_pair.angle(last.phase, last.end)
-        return float(y + (interval.tooth_pair - last.tooth_pair) * self.path.sizes.p2)
-
-    def _dwell_until(self, interval: DriveInterval) -> None:
-        last, self.held = self.held, None
-        assert last is not None
-        end = interval.start + (last.tooth_pair - interval.tooth_pair) * self.path.pitch
-        held = self.path.tooth_pair.angle(last.phase, last.end)
-        self.done.append(DriveInterval(DWELL, last.end, end, last.tooth_pair, float(held)))
-
-    def result(self) -> DraggedPath:
-        """Return the closed path; its first interval begins after the last dwell."""
-        last = self.done.pop()
-        first = DriveInterval(last.phase, last.start, self.first.end, last.tooth_pair - 1)
-        return DraggedPath((first, *self.done[1:]), self.clash, self.lost, self.arrested)
+def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
+    """Return the angle alpha_1 at which the tooth pair of an interval reaches a driven wheel at rest at alpha_2 = y."""
+    return bracketed_root(
+        lambda x: path.tooth_pair.angle(interval.phase, x) - y,
+        lambda x: path.tooth_pair.speed(interval.phase, x),
+        interval.end,
+        interval.start,
+    )

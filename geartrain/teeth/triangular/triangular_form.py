@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
@@ -100,16 +101,14 @@ class Triangular(ToothForm):
 
     def _check_clearance(self) -> None:
         bounds = (
-            (self.clearance_factor, 0, None, "give a clearance factor above 1, or between 0 and 1 with a ring"),
-            (self.excess, 0, None, "give an excess above 0; at 0 a tip touches the bottom of a space"),
-            (self.window, 0, 1, "give a fraction between 0 (jamming) and 1 (loss of contact)"),
+            ("clearance_factor", inf, "give a clearance factor above 1, or between 0 and 1 with a ring"),
+            ("excess", inf, "give an excess above 0; at 0 a tip touches the bottom of a space"),
+            ("window", 1, "give a fraction between 0 (jamming) and 1 (loss of contact)"),
         )
-        for figure, low, high, fix in bounds:
-            if figure is None:
-                continue
-            inside = figure.value > low if high is None else low <= figure.value <= high
-            if not inside:
-                name = next(name for name in CLEARANCES if getattr(self, name) is figure)
+        for name, most, fix in bounds:
+            figure = getattr(self, name)
+            # a position in the window may be 0
+            if figure is not None and not (0 <= figure.value <= most and (figure.value or name == "window")):
                 raise bad("clearance", f"{name} {figure.text} is out of range", fix)
 
     def _check_lengths(self) -> None:
@@ -177,20 +176,14 @@ class Triangular(ToothForm):
 
         del shaft_angle
         if why := refusal(wheels.kinds, any(wheels.internal)):
-            raise refused("it cannot have triangular teeth", why, f"{TRIANGULAR_SCOPE}; {IDEAL}")
+            raise refused("these wheels cannot have triangular teeth", f"{why}; {TRIANGULAR_SCOPE}", IDEAL)
         transmission = self.transmission(
             *wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring
         )
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
-
-        Returns
-        -------
-        Problem
-            Reason: the backlash follows from the clearance factor.
-        """
+        """Return the reason: the backlash of triangular teeth follows from their clearance."""
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "their backlash follows from their clearance, and thinner teeth would move differently",
@@ -238,6 +231,7 @@ class Triangular(ToothForm):
         sizes = self._sizes_at_deepest(z1, z2, ring)
         # less distance only makes an overlap worse, and the backlash of such teeth is undefined
         sizes = sizes if sizes.surrounds else self._sizes_at_clearance(sizes, pitch_distance)
+        # the clearance reduces the centre distance of an internal pair, which may make the circles overlap
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",

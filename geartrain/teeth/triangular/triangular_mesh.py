@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, pi, sin
+from math import cos, nan, pi, sin
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -21,6 +21,7 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval, SpeedJump
 
 if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
     from geartrain.teeth.pair_results import PairVerdict
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -130,15 +131,21 @@ class TriangularMesh(GearMesh):
         The normal makes the angle psi with the pitch line. The sum of its distances from both centres is n1 + n2 =
         D cos(psi); with a ring gear, the difference: (31) of docs/strength.md.
         """
-        sizes, arms = self.transmission.sizes, self.transmission.contact.path.tooth_pair.normal_arms
-        radius, total, whole = sizes.D * sizes.z2 / sizes.pitch_sum, 0.0, 0.0
-        s1, s2 = sizes.signs
-        for interval, x, weights in self.transmission.nodes:
-            if interval.held is None:
-                n1, n2 = arms(interval.phase, x, np)
-                total += float(weights @ (radius / n2 * np.sqrt(1 - ((s1 * n1 + s2 * n2) / sizes.D) ** 2)))
-                whole += float(weights.sum())
-        return total / whole
+        transmission = self.transmission
+        sizes, arms = transmission.sizes, transmission.contact.path.tooth_pair.normal_arms
+        radius, (s1, s2) = sizes.D * sizes.z2 / sizes.pitch_sum, sizes.signs
+
+        def ratio(interval: DriveInterval, x: Floats) -> Floats | float:
+            if interval.held is not None:
+                return nan
+            n1, n2 = arms(interval.phase, x, np)
+            found: Floats = radius / n2 * np.sqrt(1 - ((s1 * n1 + s2 * n2) / sizes.D) ** 2)
+            return found
+
+        S, weights = transmission.graded_nodes(transmission.speed)
+        each = transmission.mapped(S, ratio)
+        touching = ~np.isnan(each)
+        return float((weights * each)[touching].sum() / weights[touching].sum())
 
     @property
     def has_cut_sizes(self) -> bool:
@@ -162,10 +169,8 @@ class TriangularMesh(GearMesh):
     def own_faults(self) -> Iterator[Problem]:
         """Yield all problems of these teeth, each with its fix."""
         yield from (fault.problem for fault in self.verdict.faults)
-        if self.wheels.friction_law is not None:
+        if self.verdict:
             yield from self.friction_faults()
-        elif self.verdict and self.transmission.locks:
-            yield Problem(*explain_friction_lock(self.transmission))
 
 
 # ----------------------------------------------------------------------------------------------------------- properties
@@ -263,14 +268,4 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
         f"the clearance factor {factor:.6g} is {end} the window of this pair, {jam:.6g} "
         f"({window.jam_kind}) to {run:.6g} ({window.run_kind})",
         f"give a clearance factor between these limits, or `window: 0.5`, which is {window.factor(window.at(0.5)):.6g}",
-    )
-
-
-def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, str, str]:
-    """Return problem, cause and remedy for teeth that friction locks."""
-    return (
-        f"a coefficient of friction of {transmission.friction:g} locks these teeth",
-        "before the line of centres sliding opposes the push on the driven apex: the coefficient times the tangent "
-        f"of the flank's inclination reaches 1 at a coefficient of {transmission.locking_friction:.6g}",
-        f"give a coefficient of friction below {transmission.locking_friction:.4g}, or let the other wheel drive",
     )

@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_results import PairVerdict
 
 _USUAL = 5  # rows for each interval of the real path
-_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights for each smooth stretch
-_ROUNDING = 1e-14  # of the mean of tau: quadrature tolerance of a stretch
-_DEEPEST = 40  # maximum number of bisections of a stretch
 
 
 @lru_cache(maxsize=4096)
@@ -92,16 +89,12 @@ class TriangularTransmission(ToothTransmission):
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the driven wheel] at driver angles S [rad]."""
-        lag = self._map(S, self._lag)
+        lag = self.mapped(S, self._lag)
         return -lag if self.direction > 0 else self.sizes.p2 + lag
 
     def speed(self, S: ArrayLike) -> Floats:
         """Return the speed ratio tau at driver angles S [rad]."""
-        return self._map(S, self._tau)
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the sliding efficiency at driver angles S [rad]; NaN during a dwell."""
-        return self._map(S, self._eta)
+        return self.mapped(S, self._tau)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Return sliding speed and friction terms of the tooth pair in contact; NaN during a dwell."""
@@ -162,9 +155,18 @@ class TriangularTransmission(ToothTransmission):
         S : array_like
             Driver angles [rad], any shape.
         """
-        return self._map(S, lambda interval, x: x)
+        return self.mapped(S, lambda interval, x: x)
 
-    def _map(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
+    def mapped(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
+        """Return a function of the contact at driver angles S.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+        what : callable
+            Function of a drive interval and of angles alpha_1 in it [rad].
+        """
         return self._map_all(S, lambda interval, x: (what(interval, x),), 1)[0]
 
     def _map_all(
@@ -211,17 +213,10 @@ class TriangularTransmission(ToothTransmission):
         return [self.direction * angle for angle in angles]
 
     def _lag(self, interval: DriveInterval, x: Any) -> Any:
-        if interval.held is not None:
-            return interval.held - self.sizes.ratio * x
-        return self.contact.path.tooth_pair.angle(interval.phase, x, np) - self.sizes.ratio * x
+        return self.contact.lag(interval, x, np)
 
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
-        return 0.0 if interval.held is not None else self.contact.path.tooth_pair.speed(interval.phase, x, np)
-
-    def _eta(self, interval: DriveInterval, x: Any) -> Any:
-        if interval.held is not None:
-            return nan
-        return self.contact.path.tooth_pair.efficiency(interval.phase, x, self.friction, np)
+        return self.contact.speed(interval, x, np)
 
     # ----------------------------------------------------------------------------------------- values over the pitch
 
@@ -254,37 +249,6 @@ class TriangularTransmission(ToothTransmission):
         angle, speed = (partial(function, APPROACH) for function in (tooth_pair.angle, tooth_pair.speed))
         return bracketed_root(angle, speed, low, high) if angle(low) < 0 < angle(high) else inf
 
-    @cached_property
-    def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Quadrature nodes alpha_1 of each smooth interval [rad], and their weights; the sum of all weights is 1."""
-        return [node for stretch in self.stretches for node in self._adaptive_nodes(self._tau, *stretch)]
-
-    def _adaptive_nodes(
-        self,
-        what: Callable[[DriveInterval, Floats], Any],
-        interval: DriveInterval,
-        high: float,
-        low: float,
-        depth: int = 0,
-    ) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Return Gauss-Legendre nodes on one smooth interval, bisected until `what` is integrated to rounding error.
-
-        tau is steep near a flank tangent to the tip circle.
-        """
-        x, weights = self._gauss(high, low)
-        middle = (high + low) / 2
-        halves = [self._gauss(high, middle), self._gauss(middle, low)]
-        whole = float(weights @ np.broadcast_to(what(interval, x), x.shape))
-        finer = sum(float(w @ np.broadcast_to(what(interval, y), y.shape)) for y, w in halves)
-        if abs(finer - whole) <= _ROUNDING * max(self.sizes.ratio, abs(finer)) or depth == _DEEPEST:
-            return [(interval, x, weights)]
-        ends = ((high, middle), (middle, low))
-        return [node for pair in ends for node in self._adaptive_nodes(what, interval, *pair, depth + 1)]
-
-    def _gauss(self, high: float, low: float) -> tuple[Floats, Floats]:
-        points, weights = _GAUSS
-        return (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights
-
     def _end_values(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
 
@@ -305,53 +269,17 @@ class TriangularTransmission(ToothTransmission):
 
     def error_moments(self) -> tuple[float, float]:
         """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""
-        lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
-        mean = sum(float(weights @ lag) for lag, weights in lags)
+        S, weights = self.graded_nodes(self.speed)
+        error = self.error(S)
+        mean = float(weights @ error)
         # two passes: the mean of squares minus the square of the mean would cancel
-        square = sum(float(weights @ (lag - mean) ** 2) for lag, weights in lags)
-        return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
+        return mean, sqrt(float(weights @ (error - mean) ** 2))
 
-    def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angles with contact at constant driver torque, Eq. (34).
-
-        The mean is NaN if friction locks the teeth.
-        """
-        if self.friction >= self.locking_friction:
-            return nan
-        return self._contact_mean(self._eta)
-
-    def efficiency_at_constant_load(self) -> float:
-        """Return work output divided by work input over one pitch at constant load torque; NaN if friction locks the
-        teeth.
-        """
-        if self.friction >= self.locking_friction:
-            return nan
-        # at constant load torque, the output power is proportional to tau and the input power to tau / eta
-        work = self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
-        return self._contact_mean(self._tau) / work
-
-    def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
-        """Return the mean of `what` over the driver angles with contact.
-
-        Nodes are graded for `what` itself, because 1/eta is steeper than tau near the locking friction.
-        """
-        stretches = [stretch for stretch in self.stretches if stretch[0].held is None]
-        held = [node for stretch in stretches for node in self._adaptive_nodes(what, *stretch)]
-        whole = sum(float(weights.sum()) for _, _, weights in held)
-        return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
-
-    def efficiency_minimum(self) -> float:
-        """Return the minimum sliding efficiency, from 1001 samples of each smooth interval; meaningless if friction
-        locks the teeth.
-        """
-        minimum = inf
+    def _samples(self) -> Iterator[tuple[str, Floats]]:
+        """Yield the phase and 101 angles alpha_1 [rad] of each smooth interval in which a tooth pair drives."""
         for interval, high, low in self.stretches:
             if interval.held is None:
-                # the line of centres itself, where nothing is lost, belongs to both sides and is excluded
-                x = np.linspace(high, low, 1001)
-                x[[0, -1]] = high - 1e-12 * (high - low), low + 1e-12 * (high - low)
-                minimum = min(minimum, float(self._eta(interval, x).min()))
-        return minimum
+                yield interval.phase, np.linspace(high, low, 101)
 
     @cached_property
     def locking_friction(self) -> float:
@@ -361,13 +289,11 @@ class TriangularTransmission(ToothTransmission):
         Friction locks the pair at a point before the line of centres where f tan = 1.
         """
         steepest = 0.0
-        for interval, high, low in self.stretches:
-            if interval.held is None:
-                x = np.linspace(high, low, 101)
-                side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
-                # the middle sample of 101 gives the side, because stretches end at the line of centres
-                inner = side[50] > 0
-                steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
+        for phase, x in self._samples():
+            side, tan2, tan1 = self.contact.path.tooth_pair.friction(phase, x, np)
+            # the middle sample of 101 gives the side, because stretches end at the line of centres
+            if side[50] > 0:
+                steepest = max(steepest, float(np.maximum(tan2, tan1).max()))
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
@@ -376,12 +302,8 @@ class TriangularTransmission(ToothTransmission):
 
         As alpha_1 decreases with time, tau decreases where this derivative is positive.
         """
-        tooth_pair = self.contact.path.tooth_pair
-        steepest = 0.0
-        for interval, high, low in self.stretches:
-            if interval.held is None:
-                steepest = max(steepest, float(tooth_pair.slope(interval.phase, np.linspace(high, low, 101), np).max()))
-        return steepest
+        slope = self.contact.path.tooth_pair.slope
+        return max(0.0, *(float(slope(phase, x, np).max()) for phase, x in self._samples()))
 
     @cached_property
     def jumps(self) -> list[SpeedJump]:

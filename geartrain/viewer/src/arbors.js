@@ -25,7 +25,7 @@ export function armBetween(from, to, direction, ends, thickness) {
   return { shape, matrix: frameAt(from.toArray(), direction, between.toArray()), boss: { shape: bosses, matrix: frameAt(to.toArray(), direction, between.toArray()) } };
 }
 
-/** Spans of bodies along their axes (mm), over all that they bear. */
+/** Extent of each body along its axis (mm), including all bodies that it carries. */
 export function spans(scene) {
   const places = scene.bodies.map(() => []);
   for (const wheel of scene.wheels) {
@@ -43,7 +43,7 @@ export function spans(scene) {
   return places.map((list) => (list.length ? [Math.min(...list), Math.max(...list)] : null));
 }
 
-/** Radii of arbors: bodies on one axis are tubes round each other, the longest innermost. */
+/** Radii of arbors: bodies on one axis are coaxial tubes, the longest innermost. */
 export function hubs(scene, reach, size) {
   const radii = scene.bodies.map(() => 0.012 * size);
   const done = new Set();
@@ -63,7 +63,7 @@ export function hubs(scene, reach, size) {
   return radii;
 }
 
-/** What holds the wheels of a train that is not built: {body, colour, shape, matrix, at}, `at` being null for bars, which stretch; arms are plates. */
+/** Arbors and arms of a train without structural parts: {body, colour, shape, matrix, at}; `at` is null for bars, which the exploded view stretches; arms are plates. */
 export function supports(scene, reach, radii, size) {
   const parts = [];
   const thick = typical(scene.wheels.map(({ thickness }) => thickness)) || 0.01 * size;

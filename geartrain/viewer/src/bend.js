@@ -1,21 +1,21 @@
-// Thin wheels that a wave bends, and the walls of their cups: their corners move as docs/reducers.md, (8) has it. A wall
-// is bent as its wheel where they meet, and not at all at the bottom of its cup.
+// Flexible wheels bent by a strain wave, and the walls of their cups (docs/reducers.md, equation 8). A wall is bent like its
+// wheel where they meet, and not at all at the bottom of its cup.
 
 import { Vector3 } from "three";
 
 import { frameAt } from "./space.js";
 
 export class Bend {
-  /** wave   of the scene; `wheel`, as drawn; `walls`, parts that go on from it */
+  /** wave   strain wave of the scene; `wheel`, its `WheelPart`; `walls`, the cup walls that continue the wheel */
   constructor(machine, wave, wheel, walls) {
     const { body, centre, direction } = wheel.wheel;
     Object.assign(this, { machine, wave, body, slots: wheel.slots, walls: new Map(walls.map((part) => [part.slot, part.bottom])) });
     this.frame = frameAt(centre, direction, wave.towards);
     this.back = this.frame.clone().invert();
-    this.cast = new Map(); // of each casting its corners as they were, and in the frame of the wave
+    this.cast = new Map(); // for each casting: its undeformed vertices, also in the frame of the wave
   }
 
-  /** Bends the `castings` to the present position of the wave. */
+  /** Bends the `castings` to the current position of the wave. */
   turn(castings) {
     const { machine, wave, body } = this;
     this.where = machine.moves ? machine.angle(wave.by) - machine.angle(body) : 0;
@@ -35,7 +35,7 @@ export class Bend {
     }
   }
 
-  /** Corners of the wheel and of its walls in a casting, before they are bent; `share` of the bending at a height. */
+  /** Undeformed vertices of the wheel and its walls in a casting; `share` is the fraction of the deflection at a height. */
   #corners({ parts, geometry }) {
     const own = parts.filter(({ slot }) => this.slots.includes(slot) || this.walls.has(slot));
     return own.map(({ slot, first, last }) => {
@@ -47,7 +47,7 @@ export class Bend {
     });
   }
 
-  /** Where a point goes that is at x, y in the round wheel, x towards the first lobe in the zero pose. */
+  /** Deflected position of the point (x, y) of the round wheel; x is towards the first lobe in the zero pose. */
   bent(x, y, share = 1) {
     const { middle, lobes } = this.wave;
     const rise = share * this.wave.rise;

@@ -2,10 +2,10 @@
 
 import { band, plate, Shape, swept } from "./shape.js";
 
-/** Corners that a circle is drawn with: enough for its part of the picture. */
+/** Number of vertices of a circle, according to its radius relative to the size of the train. */
 const rounds = (radius, size) => Math.round(Math.min(84, Math.max(18, 125 * Math.sqrt(radius / size))));
 
-/** A disc with a hub; with arms where there is room between hub and rim. `depth`, of its teeth (mm) */
+/** A disc with a hub, with arms if there is space between hub and rim; `depth`, height of its teeth (mm) */
 export function discShape(radius, thickness, hub, depth, size) {
   const [shape, half] = [new Shape(), thickness / 2];
   const rim = radius - Math.max(1.3 * depth, 0.09 * radius);
@@ -19,7 +19,7 @@ export function discShape(radius, thickness, hub, depth, size) {
   return shape;
 }
 
-/** An arm of a wheel, from its boss to its rim: slimmer outwards, wider where it springs from them. */
+/** An arm of a wheel, from its hub to its rim: narrower outwards, with fillets at both ends. */
 function arm(shape, angle, from, to, width, half) {
   const [cosine, sine] = [Math.cos(angle), Math.sin(angle)];
   const flare = [[0, 1.75], [0.07, 1.25], [0.18, 1], [0.8, 0.72], [0.93, 0.95], [1, 1.5]];
@@ -32,13 +32,13 @@ export function rimShape(inner, outer, thickness, size) {
   return swept(new Shape(), band(inner, outer, -thickness / 2, thickness / 2), rounds(outer, size));
 }
 
-/** The same with sharp edges, in place of teeth. */
+/** The same with sharp edges, which replaces the teeth. */
 export function plainRimShape(inner, outer, thickness, size) {
   const half = thickness / 2;
   return swept(new Shape(), [[inner, -half], [outer, -half], [outer, half], [inner, half]], rounds(outer, size));
 }
 
-/** The body of a bevel or crown wheel: under its teeth, from the wide end to the narrow one, with a back. */
+/** The body of a bevel or crown wheel below its teeth, from the wide end to the narrow end, with a back. */
 export function coneShape(at, base, apex, thickness, hub) {
   const [wide, narrow] = [0, 1].map((end) => at(base, 0, end));
   const behind = Math.min(wide[2] * apex, narrow[2] * apex) - 0.35 * thickness;
@@ -65,7 +65,7 @@ export function wormShape(wheel, lead, length) {
 
 /** One thread: a trapezium of a third of the pitch, wound along the worm. */
 function thread(shape, radius, pitch, lead, length, turn) {
-  const profile = [[-0.55, -0.36], [0.32, -0.13], [0.32, 0.13], [-0.55, 0.36]]; // out and along, over the pitch
+  const profile = [[-0.55, -0.36], [0.32, -0.13], [0.32, 0.13], [-0.55, 0.36]]; // [radial, axial] coordinates divided by the pitch
   const steps = Math.ceil((length / Math.abs(lead)) * 32) + 4;
   const across = Math.sqrt(0.87 ** 2 + 0.23 ** 2);
   const facing = [[0.23 / across, -0.87 / across], [1, 0], [0.23 / across, 0.87 / across]];
@@ -75,7 +75,7 @@ function thread(shape, radius, pitch, lead, length, turn) {
       const z = length * (n / steps - 0.5);
       const angle = turn + (2 * Math.PI * z) / lead;
       const [c, s] = [Math.cos(angle), Math.sin(angle)];
-      const run = Math.min(1, (length / 2 - Math.abs(z)) / (0.7 * pitch)); // it runs out at both ends
+      const run = Math.min(1, (length / 2 - Math.abs(z)) / (0.7 * pitch)); // the thread fades out at both ends
       for (const [out, on] of [profile[k], profile[k + 1]]) {
         const r = radius + (run * (out + 0.55) - 0.55) * pitch;
         shape.corner([r * c, r * s, Math.max(-length / 2, Math.min(length / 2, z + on * pitch))], [outward * c, outward * s, upward], [-s, c, 0]);

@@ -1,5 +1,5 @@
-// Dates and Julian days, exactly, as geartrain/train/periods.py has them: years are astronomical (0 is 1 BC), a
-// day begins at midnight, and years that begin in March have their leap day at their end.
+// Exact dates and Julian days, as in geartrain/train/periods.py: years are astronomical (0 is 1 BC), a day begins at
+// midnight, and years are counted from March, so that the leap day is the last day of a year.
 
 import { Fraction } from "./fraction.js";
 
@@ -22,7 +22,7 @@ export function julianDay({ year, month, day, part, calendar }) {
   return MARCH[calendar].plus(days + centuries).plus(part);
 }
 
-/** The date of a Julian day; without a calendar Julian before the reform, Gregorian from then on. */
+/** The date of a Julian day; without a given calendar, Julian before the reform and Gregorian from then on. */
 export function dateOf(julian, given = null) {
   const calendar = given ?? (julian.minus(REFORM).numerator < 0n ? "julian" : "gregorian");
   const since = julian.minus(MARCH[calendar]);
@@ -53,7 +53,7 @@ function ofGregorian(days) {
   return [400n * rounds + 100n * hundreds + years, left];
 }
 
-/** A date as typed, `-204-05-12`, `2000-01-01 18:30` or `12 May 205 BC`; noon without an hour; null where it is none. */
+/** A date from text such as `-204-05-12`, `2000-01-01 18:30` or `12 May 205 BC`, at noon without a time; null for other text. */
 export function readDate(text, given = null) {
   const found = parts(text.trim().replace("\u2212", "-"));
   if (!found) return null;
@@ -85,7 +85,7 @@ export function inWords({ year, month, day, part }) {
   return `${day} ${MONTHS[Number(month) - 1]} ${counted}, ${clock}`;
 }
 
-/** The dates of a scene with an epoch: of turns of its lead, and turns of a date. */
+/** Conversion between turns of the driving link and dates, for a scene with an epoch. */
 export class Epoch {
   constructor({ julian_day: day, turns, days, calendar, source, note }) {
     Object.assign(this, { calendar, source, note });

@@ -1,4 +1,4 @@
-// Castings: positioned shapes merged into one geometry, which is drawn by one call.
+// Castings: positioned shapes merged into one geometry, which one draw call draws.
 
 import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Sphere, Vector3 } from "three";
 
@@ -8,12 +8,11 @@ export class Casting {
   }
 
   /**
-   * A shape, `count` times round its z axis.
+   * Adds a shape, repeated `count` times around its z axis.
    *
    * matrix       its position in the zero pose
    * body, slot   by index
-   * lift         how far it goes along the main direction when the picture is taken apart, a number or a function of
-   *              each point
+   * lift         displacement along the main direction in the exploded view, a number or a function of each point
    */
   add(shape, matrix, { body, slot, lift, count = 1 }) {
     turnOut(shape);
@@ -21,8 +20,8 @@ export class Casting {
   }
 
   /**
-   * Meshes of all that was added: what is seen, what is half seen, and what is cut open of slots that `canOpen`; `parts`
-   * say where each stands in it.
+   * Creates the meshes of all added shapes: opaque, transparent, and cut open (slots with `canOpen`). `parts` gives the
+   * range of each shape in the geometry.
    */
   cast([seen, ghosts, cut], canOpen) {
     const total = (key) => this.jobs.reduce((sum, job) => sum + job.count * key(job.shape), 0);
@@ -57,7 +56,7 @@ export class Casting {
     return this.meshes;
   }
 
-  /** The same corners, with the triangles of what can be cut open or of the rest. */
+  /** The same vertices, with the triangles of parts that can be cut open, or of the other parts. */
   only(opened) {
     const { attributes, index } = this.geometry;
     const shape = new BufferGeometry();
@@ -72,7 +71,7 @@ export class Casting {
     return shape.setIndex(new BufferAttribute(to, 1));
   }
 
-  /** Cut open, or closed. */
+  /** Shows the parts cut open, or closed. */
   open(opened) {
     if (opened) this.halves ??= [false, true].map((each) => this.only(each));
     this.meshes[0].geometry = opened ? this.halves[0] : this.geometry;
@@ -80,7 +79,7 @@ export class Casting {
     this.meshes[2].visible = opened;
   }
 
-  /** What a ray meets: [distance, part], in no order. `seenBy(body)`, the ray as a body sees it; `shift(lift)`, in mm. */
+  /** Intersections of a ray, unordered: [distance, part]. `seenBy(body)`: the ray in the frame of a body; `shift(lift)`: mm. */
   *met(seenBy, shift) {
     if (!this.geometry) return;
     const { position, lift } = this.geometry.attributes;
@@ -104,7 +103,7 @@ export class Casting {
   }
 }
 
-/** Makes all triangles go counter-clockwise as one sees them from where they face, so that what looks away is not drawn. */
+/** Orients all triangles counter-clockwise as seen from outside, so that back faces are not drawn. */
 function turnOut({ points: p, normals: n, indices }) {
   for (let at = 0; at < indices.length; at += 3) {
     const [a, b, c] = [3 * indices[at], 3 * indices[at + 1], 3 * indices[at + 2]];
@@ -117,7 +116,7 @@ function turnOut({ points: p, normals: n, indices }) {
   }
 }
 
-/** One copy of a shape into the arrays, from corner `first` on. */
+/** Writes one copy of a shape into the arrays, from vertex `first` on. */
 function set({ position, normal, grain, place, lift }, { shape, matrix, body, slot, lift: height, count }, copy, first) {
   const turned = copy ? matrix.clone().multiply(new Matrix4().makeRotationZ((2 * Math.PI * copy) / count)) : matrix;
   move(position.array, 3 * first, 3, turned.elements, 1, 1, shape.points);
@@ -132,7 +131,7 @@ function set({ position, normal, grain, place, lift }, { shape, matrix, body, sl
   else for (let to = first; to < last; to += 1) lift.array[to] = height(new Vector3().fromBufferAttribute(position, to));
 }
 
-/** Triples through a matrix `e`, times `scale`, into an array; `shift` is 1 for points and 0 for directions. */
+/** Writes vectors, transformed by a matrix `e` and scaled, into an array; `shift` is 1 for points and 0 for directions. */
 function move(array, to, stride, e, shift, scale, triples) {
   for (let i = 0; i < triples.length; i += 3, to += stride) {
     const [x, y, z] = [triples[i], triples[i + 1], triples[i + 2]];

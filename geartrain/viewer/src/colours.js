@@ -6,8 +6,8 @@ import { FAULT, LINE, QUIET, SERIES } from "./series.js";
 export const NEEDLES = SERIES;
 export const BROKEN = FAULT;
 export const HANDLE = SERIES[0];
-export const CHOSEN = SERIES[6]; // apart from what turns fast
-// metals, and what is made of other things
+export const CHOSEN = SERIES[6]; // distinct from the colours of high speeds
+// metals and other materials
 export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
 export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", plate: "#a98a55", pipe: "#b98f4e", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", silver: "#dfe2e6", bezel: "#b08d4c", mark: "#2b261d" };
 
@@ -17,18 +17,18 @@ const mix = (one, other, share) =>
     return Math.round(a + share * (b - a)).toString(16).padStart(2, "0");
   }).join("")}`;
 
-const GREY = mix(LINE, QUIET, 0.5); // of what nothing is said of
-export const SECTION = mix(FAULT, LINE, 0.35); // of faces where a train is cut open
+const GREY = mix(LINE, QUIET, 0.5); // for wheels without a value
+export const SECTION = mix(FAULT, LINE, 0.35); // of section faces
 export const STATUS = { surviving: SERIES[3], reconstructed: SERIES[1], hypothetical: SERIES[2], "": GREY };
 
-/** Faster is stronger, on a logarithmic scale over six decades; blue for positive turns, orange for negative ones. */
+/** Colour of a speed: stronger for higher speeds, on a logarithmic scale over six decades; blue if positive, orange if negative. */
 export function speedColour(speed, fastest) {
   if (!speed) return GREY;
   const share = 1 + Math.log10(Math.abs(speed) / fastest) / 6;
   return mix(LINE, SERIES[speed > 0 ? 0 : 1], Math.min(1, Math.max(0.15, share)));
 }
 
-/** From none lost to the most lost. */
+/** Colour of a loss, relative to the maximum loss. */
 export const lossColour = (loss, most) => (loss === null ? GREY : mix(LINE, FAULT, most ? loss / most : 0));
 
 function speedColours({ bodies }) {
@@ -37,9 +37,9 @@ function speedColours({ bodies }) {
   return speeds.map((speed) => speedColour(speed, fastest));
 }
 
-const OF_BRASS = [PARTS.arm, PARTS.plate, PARTS.pipe, PARTS.bezel]; // which would be taken for what a colour says
+const OF_BRASS = [PARTS.arm, PARTS.plate, PARTS.pipe, PARTS.bezel]; // colours that could be mistaken for values
 
-/** The colour of a part that is no wheel, in one of the modes. */
+/** Colours of the structural parts in a mode. */
 export function partColours(scene, mode) {
   const bodies = mode === "speed" ? speedColours(scene) : null;
   return ({ colour, body }) => (mode === "plain" || !OF_BRASS.includes(colour) ? colour : (bodies?.[body] ?? GREY));

@@ -1,19 +1,19 @@
-// A quarter cut out of rings, drums and plates, as in cutaway models, where rings hide the stages of a train. What is cut
-// is as it is built: only what lies in the quarter is not drawn, and the faces where it was cut are.
+// A quarter cut out of rings, drums and plates, as in cutaway models, for trains whose rings hide their stages. Parts are
+// unchanged: only their portion in the quarter is not drawn, and section faces are drawn instead.
 
 import { isParallel, offAxis, vector } from "./space.js";
 
 const OPENED = ["frame", "carrier", "wall", "post", "pillar", "foot"]; // kinds of parts that are cut; arbors, studs and wheels within rings stay whole
-const LEVEL = 1e-3; // of a train's size: rings nearer than that along their axis stand in one stage
+const LEVEL = 1e-3; // relative to the train's size: rings closer than this along their axis are in one stage
 
-/** Whether a part of a built train is cut; pins are where they stand in a ring. */
+/** True if a part of a built train is cut; pins are cut if they are fixed in a ring. */
 export const isOpened = (scene, { kind, body }) =>
   OPENED.includes(kind) || (kind === "pin" && scene.wheels.some((wheel) => wheel.body === body && wheel.kind === "ring"));
 
 /**
- * The quarter: its edge goes through `at` along the axis of most rings, its sides lie along `right` and `up` from there,
- * as seen from the front; null for a train without rings. `hides`, whether its rings stand before each other, or a cup's
- * wall round one.
+ * The quarter that is cut out: its edge passes through `at` along the axis of most rings, and its sides extend along `right`
+ * and `up`, as seen from the front; null for a train without rings. `hides` is true if rings hide each other, or if the wall
+ * of a cup surrounds one.
  */
 export function quarterOf(scene, size) {
   const rings = scene.wheels.filter(({ kind }) => kind === "ring");

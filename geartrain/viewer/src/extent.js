@@ -5,17 +5,17 @@ import { Box3, Sphere, Vector3 } from "three";
 import { across, along, isParallel, onAxis, vector } from "./space.js";
 
 const ROUND = 16; // points of a circle
-const LEAST_DEEP = 0.6; // of a train taken apart, over its width
+const LEAST_DEEP = 0.6; // depth of an exploded view divided by its width
 const MOST_DEEP = 1.3;
 const LAYER = 0.14; // thickness reserved for each layer
-const PARTED = [0.8, 12]; // how far layers may go, over their distance
+const PARTED = [0.8, 12]; // minimum and maximum displacement of layers divided by their distance
 
 const STILL = () => new Vector3();
 
 /**
- * The circles that hold all wheels, wherever they are carried, and all dials: {at, direction, radius, body}.
+ * Circles that contain all wheels, in all positions to which carriers move them, and all dials: {at, direction, radius, body}.
  *
- * shiftOf   by what a body is moved as a whole, in its zero pose
+ * shiftOf   displacement of a body as a whole in the exploded view, in its zero pose
  */
 export function circlesOf(scene, shiftOf = STILL) {
   const dials = scene.dials.map(({ body, centre, normal, radius }) => ({ at: vector(centre).add(shiftOf(body)), direction: normal, radius: 1.08 * radius, body }));
@@ -23,13 +23,13 @@ export function circlesOf(scene, shiftOf = STILL) {
   return [...wheels, ...dials];
 }
 
-/** The circles that hold the middle plane of a wheel wherever it is carried, as `circlesOf`. */
+/** Circles that contain the middle plane of a wheel in all its positions, as in `circlesOf`. */
 export const discsOf = (scene, wheel) => carriedRound(scene, wheel, { at: vector(wheel.centre), direction: wheel.direction, radius: rimOf(wheel), body: wheel.body }, STILL);
 
 /** Outer radius of a ring wheel [mm], which is not declared. */
 export const ringRim = ({ root, radius, module }) => Math.max(root, radius) + 2 * Math.max(module, 0.02 * radius);
 
-/** How far a wheel reaches from its axis. */
+/** Outer radius of a wheel. */
 export const rimOf = (wheel) => (wheel.kind === "ring" ? ringRim(wheel) : Math.max(wheel.tip, wheel.radius));
 
 function bothFaces(radius, { body, centre, direction, thickness, cone }, shift) {
@@ -37,7 +37,7 @@ function bothFaces(radius, { body, centre, direction, thickness, cone }, shift) 
   return [off, -off].map((height) => ({ at: vector(centre).add(shift).addScaledVector(vector(direction), height), direction, radius, body }));
 }
 
-/** The circles that hold a circle of a wheel, wherever the wheel's axis is carried to. */
+/** Circles that contain a circle of a wheel in all positions of the wheel's axis. */
 function carriedRound(scene, wheel, circle, shiftOf) {
   const bears = scene.bodies[wheel.body].parent ?? 0;
   const bearer = { ...scene.bodies[bears], point: vector(scene.bodies[bears].point).add(shiftOf(bears)) };
@@ -59,7 +59,7 @@ export function pointsOf({ at, direction, radius }) {
   });
 }
 
-/** The ball that holds all circles and corners; of a train without wheels, its axes. */
+/** The sphere that contains all circles and corners; for a train without wheels, its axes. */
 export function ballOf(scene, circles, corners = []) {
   const box = new Box3().setFromPoints([...circles.flatMap(pointsOf), ...corners]);
   if (box.isEmpty()) for (const { point } of scene.bodies) box.expandByPoint(vector(point).addScalar(10)).expandByPoint(vector(point).subScalar(10));
@@ -73,9 +73,10 @@ export function outlineOf(scene, poses) {
 }
 
 /**
- * How far layers go from the middle when all is apart, over their distance from it: so far that each is seen by itself.
+ * Displacement of layers from the middle in a full exploded view, divided by their distance from it, so that each layer
+ * is visible separately.
  *
- * points   that hold the train; those of its axes, where it has no wheels
+ * points   points that contain the train; points of its axes for a train without wheels
  */
 export function partingOf(scene, points, main) {
   if (!points.length) return PARTED[0];
@@ -90,7 +91,7 @@ export function partingOf(scene, points, main) {
   return Math.max(PARTED[0], Math.min(PARTED[1], wanted / deep - 1));
 }
 
-/** The direction across the plates of the frame; where there are none, that about which most turns, each wheel by its size; on the side of z. */
+/** The normal of the frame plates; without plates, the axis direction of most wheels, weighted by their size; towards +z. */
 export function mainDirection(scene) {
   const plate = scene.parts.find(({ kind }) => kind === "frame");
   const sizes = new Map();

@@ -1,14 +1,14 @@
-// Dials: their scales, spirals included, and the hands that move over them.
+// Dials with circular or spiral scales, and the hands that move over them.
 
 import { NEEDLES, PARTS } from "./colours.js";
 import { band, halfBall, plate, Shape, swept } from "./shape.js";
 import { frameAt, vector } from "./space.js";
 
-const WIDER = 1.45; // lines on metal, which are seen from afar
+const WIDER = 1.45; // width factor of lines on metal, which are seen from a distance
 const UP = [0, 0, 1];
-const ALONG = [0, 0, 0]; // ink is not brushed
+const ALONG = [0, 0, 0]; // ink has no brushing direction
 
-/** A dial's plate and what is engraved on it: [{body, colour, shape, matrix, at, dial}]. */
+/** A dial's plate and its engraving: [{body, colour, shape, matrix, at, dial}]. */
 export function dialParts(scene, index) {
   const dial = scene.dials[index];
   if (dial.look === "ball") return [socket(scene, index)];
@@ -27,19 +27,19 @@ export function dialParts(scene, index) {
   ];
 }
 
-/** How far inwards from the middle of its dial a plate goes. */
+/** Inner radius of a plate. */
 function holeOf({ radius, scale }) {
   const band = scale.turns > 1 ? scale.outer - scale.inner + (scale.outer - scale.inner) / scale.turns + 0.02 : 0.26;
   return Math.max(0.05, scale.outer - band) * radius;
 }
 
-/** Points of an engraved line over the radius of its dial, from steps in 4,000ths: to the right, and to the zero mark. */
+/** Points of an engraved line relative to the dial's radius, from differences in 1/4000: to the right, and to the zero mark. */
 export function engraved(steps) {
   let [x, y] = [0, 0];
   return Array.from({ length: steps.length / 2 }, (_, n) => [(x += steps[2 * n]) / 4000, (y += steps[2 * n + 1]) / 4000]);
 }
 
-/** What is engraved, as thin strips just over the plate; a dial's own y looks to the reader's left. */
+/** The engraving as thin strips just above the plate; the y axis of a dial points to the reader's left. */
 function marks({ radius, engraving }) {
   const shape = new Shape();
   for (const [kind, own, lines] of engraving) {
@@ -52,7 +52,7 @@ function marks({ radius, engraving }) {
   return shape;
 }
 
-/** A thin flat strip, a little longer than its line, for corners. */
+/** A thin flat strip, slightly longer than its line, so that corners are closed. */
 function stroke(shape, [x0, y0], [x1, y1], width, z) {
   const length = Math.hypot(x1 - x0, y1 - y0) || 1;
   const [u, v] = [((x1 - x0) * width) / 2 / length, ((y1 - y0) * width) / 2 / length];
@@ -68,7 +68,7 @@ function socket(scene, index) {
   return { body, colour: PARTS.bezel, gloss: 0.8, shape, matrix, at: vector(centre), dial: index };
 }
 
-/** What shows an output on its dial: a hand, or the two halves of a ball, black towards the reader at zero: [{colour, shape, matrix, at, dial}]. */
+/** Parts of a pointer: a hand, or the two halves of a ball, of which the black one faces the reader at zero: [{colour, shape, matrix, at, dial}]. */
 export function pointerParts(scene, index, order) {
   const { dial } = scene.pointers[index];
   const { look, centre, normal, radius } = scene.dials[dial];
@@ -81,9 +81,9 @@ export function pointerParts(scene, index, order) {
   ];
 }
 
-const SHORTER = 0.07; // of hands of one dial, the next one
+const SHORTER = 0.07; // relative difference in length of successive hands of one dial
 
-/** The pointer whose hand shows a pointer on its dial: of those on one end of an arbor the one that is longest. */
+/** The pointer whose hand represents a pointer on its dial: of several on one end of an arbor, the longest. */
 export function shownBy({ pointers, dials }, index) {
   const own = pointers[index];
   const reach = ({ dial }) => dials[dial].radius;
@@ -91,7 +91,7 @@ export function shownBy({ pointers, dials }, index) {
   return pointers.reduce((best, each, at) => (isAlike(each) && reach(each) > reach(pointers[best]) ? at : best), index);
 }
 
-/** Which hand of its dial shows a pointer, from 0: by that it has its colour. */
+/** Number of the hand that represents a pointer on its dial, from 0; it determines the colour. */
 export function orderOf(scene, index) {
   const { pointers } = scene;
   if (pointers[index].dial === null) return 0;
@@ -99,13 +99,13 @@ export function orderOf(scene, index) {
   return pointers.slice(0, by).filter(({ dial }) => dial === pointers[by].dial).length;
 }
 
-/** Stations of a hand: [x, half width], as long as its scale asks; each that stands over others a little shorter. */
+/** Outline of a hand: [x, half width], as long as its scale requires; each hand above others is slightly shorter. */
 export function handOf({ outline, reach }, size, order) {
   const length = size * reach * (1 - SHORTER * (order % 4));
   return outline.map(([x, w]) => [length * x, length * w]);
 }
 
-/** A hand from the middle of its dial: {colour, shape, matrix, at, dial}; over a spiral an arm, and a slide in it whose pin follows the groove. */
+/** A hand from the middle of its dial: {colour, shape, matrix, at, dial}; on a spiral, an arm with a slide whose pin follows the groove. */
 function handParts(scene, index, order) {
   const pointer = scene.pointers[index];
   const dial = scene.dials[pointer.dial];

@@ -16,12 +16,12 @@ export class CountFormulas {
     this.driven = Fraction.of(this.given.input);
   }
 
-  /** The count that a wheel of the scene has, by index; null where it cannot be changed. */
+  /** Index of the tooth count of a wheel among the counts; null if it cannot be changed. */
   at(wheel) {
     return this.given.count[wheel];
   }
 
-  /** Exact speeds at some counts: of bodies and pointers in the train's unit, null where there are none; what is broken. */
+  /** Exact speeds of bodies and pointers for given counts, in the train's unit, null if undetermined; and conditions not satisfied. */
   solve(counts) {
     const broken = this.given.conditions.filter(({ formula, zero }) => isZero(formula, counts) !== zero);
     const found = this.given.formulas.map((formula) => quotient(formula, counts));
@@ -31,7 +31,7 @@ export class CountFormulas {
     return { bodies: this.given.bodies.map(of), pointers: this.given.pointers.map(of), broken };
   }
 
-  /** The scene with other counts: speeds by the formulas, wheels of their declared modules, mean motion. */
+  /** The scene with other counts: speeds from the formulas, wheels with their declared modules, mean motion. */
   changed(counts) {
     const { scene } = this;
     const { bodies, pointers, broken } = this.solve(counts);
@@ -57,7 +57,7 @@ export class CountFormulas {
     return { speed: speed.over(this.driven).toString(), shown: this.given.exact ? speed.toString() : text, decimal: text };
   }
 
-  /** Profiles and wheels of the scene with other counts, all modules as they are. */
+  /** Profiles and wheels of the scene with other counts and unchanged modules. */
   #wheels(counts) {
     const profiles = [...this.scene.profiles];
     const wheels = this.scene.wheels.map((wheel, index) => {
@@ -67,7 +67,7 @@ export class CountFormulas {
       if (wheel.kind === "worm") return { ...wheel, teeth };
       const factor = teeth / wheel.teeth;
       const { points, ...profile } = profiles[wheel.profile];
-      // a tooth keeps its size, so that it takes another part of its circle
+      // a tooth keeps its size, so its angle and relative radius change
       profiles.push({ ...profile, points: points.map(([radius, angle]) => [1 + (radius - 1) / factor, angle / factor]) });
       const [radius, tip, root] = [factor * wheel.radius, wheel.tip, wheel.root];
       const off = radius - wheel.radius;
@@ -77,8 +77,8 @@ export class CountFormulas {
   }
 
   /**
-   * How each pair of wheels stands on the axes it has: {pair, off, module}. `off`, in modules and exact, is how much
-   * further apart its axes ought to be, `apart` the same of skew axes in mm as drawn; both are null where axes meet.
+   * Misfit of each pair with its axes: {pair, off, apart, module}. `off` is the exact change of the axis distance that the
+   * pair requires, in modules; `apart` is that of skew axes, in mm as drawn; both are null for intersecting axes.
    */
   meshes(counts) {
     const { scene } = this;
@@ -97,7 +97,7 @@ export class CountFormulas {
     });
   }
 
-  /** By how much further apart two skew axes ought to be (mm as drawn). */
+  /** Change of the distance of two skew axes that a pair requires (mm as drawn). */
   #apart({ wheels }, grown) {
     return wheels.reduce((sum, index, k) => sum + (Number(grown[k]) * this.scene.wheels[index].radius) / this.scene.wheels[index].teeth, 0);
   }
@@ -106,7 +106,7 @@ export class CountFormulas {
 const skewed = (...wheels) => wheels.every(({ cone, kind }) => !cone && kind !== "contrate");
 export const MEAN = "The motion of teeth and pins was computed only for the declared counts, so mean motion is shown.";
 
-/** A count that a wheel can have, of a number or of text; null for others. */
+/** A valid tooth count from a number or text; null for other values. */
 export function countOf(value) {
   const text = String(value).trim();
   const count = /^\d{1,13}$/.test(text) ? BigInt(text) : 0n;
@@ -130,7 +130,7 @@ function quotient({ wheels, numerator, denominator }, counts) {
 
 const isZero = ({ wheels, numerator }, counts) => total(numerator, wheels, counts) === 0n;
 
-/** Ten significant digits, without zeros at the end. */
+/** Ten significant digits, without trailing zeros. */
 export function decimals(value) {
   const [digits, power] = Number(value).toPrecision(10).split("e");
   const short = digits.includes(".") ? digits.replace(/\.?0+$/, "") : digits;
@@ -143,7 +143,7 @@ function asRead(sense, speed) {
   return `${speed.numerator > 0n === sense > 0 ? "clockwise" : "counter-clockwise"} as read`;
 }
 
-/** Why the formulas do not hold; of a loop that no longer closes, what it holds. */
+/** The verdict if the formulas do not hold; for a loop that no longer closes, with the parts that it locks. */
 function verdictOf(scene, broken) {
   const still = ({ carrier }) => carrier !== null && scene.bodies[carrier].parent === null;
   const said = broken.map((condition) => {
@@ -157,7 +157,7 @@ function verdictOf(scene, broken) {
   return { kind, text: `${[...new Set(said)].join("; ")}. Save the train and run \`geartrain solve\` to see which links still turn.`, links: [], loops: [], advice: [] };
 }
 
-/** A circuit in words with other counts, where its words are its counts. */
+/** The equation of a circuit with other counts, if its coefficients are the counts. */
 function restated({ text, wheels }, before, after) {
   let at = 0;
   return text.replace(/(?<= [+-] |^)(\d+) \(/g, (whole, count) => {
@@ -166,7 +166,7 @@ function restated({ text, wheels }, before, after) {
   });
 }
 
-/** Wheels turned on their arbors so that teeth meet gaps, along the pairs of all trains of wheels in which one changed. */
+/** Wheels rotated on their arbors so that teeth mesh, along all pairs connected with a changed wheel. */
 function phased(scene, wheels) {
   const turned = [...wheels];
   const near = wheels.map(() => []);
@@ -193,7 +193,7 @@ function phased(scene, wheels) {
   return turned;
 }
 
-/** A wheel turned so that its teeth meet the gaps of another, where both axes are parallel. */
+/** A wheel rotated so that its teeth mesh with those of another wheel, if both axes are parallel. */
 function engaged(wheel, other) {
   const between = vector(other.centre).sub(vector(wheel.centre));
   const axis = vector(wheel.direction);
@@ -203,7 +203,7 @@ function engaged(wheel, other) {
   const towards = between.normalize().multiplyScalar(other.kind === "ring" ? -1 : 1);
   const across = inside ? towards : towards.clone().negate();
   const same = axis.dot(vector(other.direction)) > 0 ? 1 : -1;
-  // places of teeth from the pitch point, in pitches along one tangent
+  // positions of teeth relative to the pitch point, in pitches along a common tangent
   const theirs = (inside ? same : -same) * place(other, across);
   const wanted = theirs + 0.5;
   return { ...wheel, turn: angleTo(wheel, towards) + (2 * Math.PI * wanted) / wheel.teeth };

@@ -1,6 +1,6 @@
-// Exact rational numbers. A float is one too: its 53 bits over a power of two.
+// Exact rational numbers. A float is also rational: an integer of 53 bits divided by a power of two.
 
-const SHORT = 1n << 900n; // longer numbers are cut before they become floats
+const SHORT = 1n << 900n; // longer numbers are shortened before conversion to floats
 
 export class Fraction {
   /** numerator over denominator (BigInt, denominator not 0), in lowest terms. */
@@ -18,7 +18,7 @@ export class Fraction {
     return typeof value === "number" ? fromFloat(value) : fromText(String(value));
   }
 
-  /** The same; null where the text is no number, or there is none. */
+  /** The same; null if the text is not a number or is missing. */
   static parse(text) {
     try {
       return text === null || text === undefined ? null : Fraction.of(text);
@@ -60,13 +60,13 @@ export class Fraction {
     return this.numerator === numerator && this.denominator === denominator;
   }
 
-  /** The whole number below. */
+  /** The largest integer that is not greater. */
   get floor() {
     const whole = this.numerator / this.denominator;
     return whole * this.denominator > this.numerator ? whole - 1n : whole;
   }
 
-  /** What is left over the whole turns, as a float in [0, 1]. */
+  /** The fractional part, as a float in [0, 1]. */
   get part() {
     return quotient(this.numerator - this.floor * this.denominator, this.denominator);
   }
@@ -80,7 +80,7 @@ export class Fraction {
   }
 }
 
-/** The part of speed x turns over whole turns, in [-1/2, 1/2), without making a Fraction of the product. */
+/** The product of speed and turns minus the nearest integer, in [-1/2, 1/2), without a Fraction of the product. */
 export function partOfProduct(speed, turns) {
   const denominator = speed.denominator * turns.denominator;
   let rest = (speed.numerator * turns.numerator) % denominator;

@@ -5,14 +5,14 @@ import { vector } from "./space.js";
 /**
  * Target point and distance of the camera.
  *
- * points    that must be seen
- * towards   unit vector from what is seen to the camera
- * wide, high   tangents of half the field, across and upwards
+ * points       points that must be visible
+ * towards      unit vector from the target to the camera
+ * wide, high   tangents of half the field of view, horizontally and vertically
  */
 export function frame(points, towards, wide, high) {
   const right = vector([0, 1, 0]).cross(towards).normalize();
   const up = towards.clone().cross(right);
-  // a point at (x, z) is in the field of a camera over x = c at distance d where |x - c| <= (d - z) wide
+  // a point (x, z) is in the field of view of a camera at x = c and distance d if |x - c| <= (d - z) wide
   const fit = (axis, slope) => {
     const most = (sign) => Math.max(...points.map((point) => sign * point.dot(axis) + slope * point.dot(towards)));
     const [over, under] = [most(1), most(-1)];

@@ -2,8 +2,8 @@
 
 import { CircleGeometry, GLSL3, Mesh, RawShaderMaterial } from "three";
 
-const BELOW = 0.012; // of the train's size, from its lowest point
-const SOFT = 0.32; // of the size: how far the shadow fades
+const BELOW = 0.012; // distance below the train's lowest point, relative to its size
+const SOFT = 0.32; // width of the edge of the shadow, relative to the size
 const DARK = 0.34;
 
 const corner = `
@@ -32,13 +32,13 @@ void main() {
   colour = vec4(0.0, 0.0, 0.0, dark * shade);
 }`;
 
-/** A mesh below the points of an outline; `fit` moves it under others. */
+/** A mesh below the points of an outline; `fit` moves it below other points. */
 export class Ground {
   constructor(size) {
     const number = (value) => ({ value });
     this.uniforms = { middle: number([0, 0]), half_wide: number([1, 1]), soft: number(SOFT * size), low: number(0), dark: number(DARK) };
     const about = { glslVersion: GLSL3, vertexShader: corner, fragmentShader: point, uniforms: this.uniforms, transparent: true, depthWrite: false };
-    // clockwise seen from above, so that it is not there for who looks from below
+    // clockwise seen from above, so that it is invisible from below
     this.mesh = new Mesh(new CircleGeometry(1.05, 48), new RawShaderMaterial({ ...about, side: 1 }));
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = -1;

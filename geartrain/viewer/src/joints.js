@@ -43,7 +43,7 @@ function holesParts(coupling, pinBody, slotBody, height) {
   ];
 }
 
-/** Two rails between which the pin slides, and what ties them to their axis. */
+/** Two rails between which the pin slides, and the arm that connects them with their axis. */
 function slot(coupling, body, slotAt, pinAt, radius) {
   const { pin_radius: reach, offset } = coupling;
   const [near, far] = [Math.max(0, Math.abs(reach - offset) - 2 * radius), reach + offset + 2 * radius];
@@ -59,8 +59,8 @@ function slot(coupling, body, slotAt, pinAt, radius) {
 }
 
 /**
- * The crank at one end of its arbor, on one of its sides (1 or -1): where its foot (`at`), its knob and the middle of
- * the circle of its far end stand in the zero pose, how near to the knob a finger finds it, and its parts.
+ * The crank at one end of its arbor, on side 1 or -1: positions of its foot (`at`), its knob and the centre of the circle
+ * of its far end in the zero pose, the radius around the knob in which a finger grips it, and its parts.
  */
 export function crankOf(scene, index, end, side, reach, size) {
   const body = scene.bodies[index];
@@ -81,7 +81,7 @@ export function crankOf(scene, index, end, side, reach, size) {
   return { body: index, at, end: onAxis(body, end + 2 * out), knob, touch: 0.06 * size, reach, parts };
 }
 
-/** The turned parts of what hangs, or a line: {colour, shape, matrix, at}. */
+/** The turned parts of a hanging part, or its line: {colour, shape, matrix, at}. */
 export function hangerParts({ point, direction, down, length, wide, parts }) {
   const at = vector(point);
   if (!parts.length) return [{ colour: PARTS.pin, shape: bar(wide, 0, length), matrix: frameAt(point, down, direction), at }];

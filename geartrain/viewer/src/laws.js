@@ -1,9 +1,9 @@
 // Transmission errors of pairs as piecewise polynomials, and pairs that depend on each other.
 
-const SETTLED = 2e-15; // rad, over the scale of the angles added
+const SETTLED = 2e-15; // relative to the magnitude of the added angles [rad]
 const MOST_STEPS = 120;
 
-/** error (rad of the driven side) over the driver's forward angle, repeating with `period`. */
+/** Transmission error (rad of the driven side) as a function of the driver's forward angle, with period `period`. */
 export class Law {
   constructor({ period, breaks, coefficients }) {
     this.period = period;
@@ -13,7 +13,7 @@ export class Law {
     this.terms = this.coefficients.length / cells;
   }
 
-  /** [error, its slope] at an angle (rad). */
+  /** [error, derivative of the error] at an angle (rad). */
   at(angle) {
     const inside = angle - Math.floor(angle / this.period) * this.period;
     const cell = this.cell(inside);
@@ -41,8 +41,8 @@ export class Law {
 }
 
 /**
- * Errors of pairs that shift each other's drivers: delta = sense law(base + gain delta), by Newton's iteration.
- * Laws have corners, so a step that does not lessen the residual is halved.
+ * Errors of pairs that move each other's drivers: delta = sense e(base + gain delta), by Newton's method. Error functions
+ * have kinks, so a step that does not decrease the residual is halved.
  */
 export function settle(laws, senses, base, gain) {
   const evaluate = (delta) => laws.map((law, m) => law.at(base[m] + dot(gain[m], delta)).map((v) => senses[m] * v));
@@ -58,7 +58,7 @@ export function settle(laws, senses, base, gain) {
     const left = Math.max(...residual.map(Math.abs));
     if (left >= size) {
       length /= 2;
-      if (length < 1e-9) break; // rounding, or the last of a corner
+      if (length < 1e-9) break; // rounding, or a kink
       continue;
     }
     [now, size, length] = [trial, left, 1];
@@ -71,7 +71,7 @@ export function settle(laws, senses, base, gain) {
 
 const dot = (row, column) => row.reduce((sum, value, n) => sum + value * column[n], 0);
 
-/** A small linear system, by elimination with the largest pivot first. */
+/** Solution of a small linear system, by Gaussian elimination with partial pivoting. */
 function solve(matrix, right) {
   const rows = matrix.map((row, m) => [...row, right[m]]);
   for (let at = 0; at < rows.length; at += 1) {
@@ -92,5 +92,5 @@ function solve(matrix, right) {
 
 function floats(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  return new Float64Array(bytes.buffer); // little-endian, as every browser's machine
+  return new Float64Array(bytes.buffer); // little-endian, as on all machines with browsers
 }

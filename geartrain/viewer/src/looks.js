@@ -1,17 +1,17 @@
-// Appearance of the parts of a train: colours, highlights, hidden parts.
+// Appearance of the parts of a train: colours, highlights, and hidden parts.
 
 import { Color } from "three";
 
 import { BROKEN, CHOSEN, colours, partColours } from "./colours.js";
 import { vector } from "./space.js";
 
-const GHOST = 0.14; // opacity of what is not highlighted
-const GLASS = 0.07; // of a plate or a pillar before the wheels
-const HIDDEN = 0.05; // of the wheels, behind a plate that then is of glass
+const GHOST = 0.14; // opacity of parts that are not highlighted
+const GLASS = 0.07; // opacity of a plate or a pillar in front of the wheels
+const HIDDEN = 0.05; // fraction of the wheels hidden by a plate, above which the plate is transparent
 const GLOSS = 0.75;
 
 export class Looks {
-  /** wheels   `WheelPart`s; `parts`, all else: {slot, body, at, dial, plate, cover, pane, bar} */
+  /** wheels   `WheelPart`s; `parts`, all other parts: {slot, body, at, dial, plate, cover, pane, bar} */
   constructor(scene, palette, wheels, parts, sight) {
     Object.assign(this, { scene, palette, wheels, parts, sight });
     this.chosen = null;
@@ -21,7 +21,7 @@ export class Looks {
     this.broken = this.wheelsOf({ pairs: scene.pairs.flatMap(({ broken }, at) => (broken ? [at] : [])) });
   }
 
-  /** data.wheels   a colour by wheel; else those of the mode */
+  /** data.wheels   a colour for each wheel; by default the colours of the mode */
   paint(mode, data) {
     this.mode = mode;
     this.base = data?.wheels ?? colours(this.scene, mode);
@@ -53,7 +53,7 @@ export class Looks {
       const colour = new Color(broken ? BROKEN : this.base[index]);
       if (lit) colour.lerp(new Color(chosen.colour), 0.8);
       if (selected) colour.set(CHOSEN);
-      const plain = this.mode !== "plain" || broken || lit || selected; // what a colour says is not lost in a glint
+      const plain = this.mode !== "plain" || broken || lit || selected; // reflections must not hide a colour that has a meaning
       part.paint({ colour, gloss: plain ? 0.35 : GLOSS, opacity: chosen && !lit && !selected ? GHOST : 1 });
     });
     const bodies = new Set([...(chosen?.wheels ?? [])].map((index) => this.scene.wheels[index].body));
@@ -64,7 +64,7 @@ export class Looks {
     }
   }
 
-  /** Covers on the camera's side are of glass, and plates and pillars of the frame behind which wheels stand. */
+  /** Makes covers on the camera's side transparent, and plates and pillars of the frame that hide wheels. */
   glaze(eye, middle) {
     if (this.eye?.equals(eye)) return;
     this.eye = eye.clone();
@@ -80,13 +80,13 @@ export class Looks {
     return Boolean(this.glass?.includes(part));
   }
 
-  /** What stands before the middle, as seen along `front`, is out of the way: dials, then wheels; null: nothing is. */
+  /** Hides parts in front of the middle, seen along `front`: dials, then wheels; with null, nothing is hidden. */
   hideBefore(front) {
     this.front = front;
     const heights = this.scene.wheels.map(({ centre }) => (front ? vector(centre).dot(front) : 0));
     const [low, high] = [Math.min(...heights), Math.max(...heights)];
     const before = ({ at }) => front !== null && at !== null && at.dot(front) > (low + high) / 2 + 1e-9;
-    const level = high - low < 1e-6; // all in one layer: only dials go
+    const level = high - low < 1e-6; // all wheels in one layer: only dials are hidden
     this.wheels.forEach((part) => part.show(level || !before(part), this.toothed));
     for (const part of this.parts) if (part.dial !== undefined || part.cover) this.palette.paint(part.slot, { shown: !before(part) });
   }

@@ -16,13 +16,13 @@ const app = {
   scenes,
   machines,
   options,
-  /** The stages of the scenes shown, plans where the browser has no WebGL; null for the others. */
+  /** The stages of the displayed scenes, or plans if the browser has no WebGL; null for the others. */
   stages: scenes.map(() => null),
-  /** Turns of each scene's lead for one turn of the crank's. */
+  /** Turns of each scene's driving link for one turn of the crank's driving link. */
   gears: scenes.map(() => Fraction.of(1)),
-  /** Turns of the crank's lead, as last given. */
+  /** Turns of the crank's driving link, as last set. */
   turns: 0,
-  /** Told after every change. */
+  /** Called with the turns after every change. */
   onTurns: null,
   setTurns(turns) {
     const exact = Fraction.of(turns);
@@ -31,7 +31,7 @@ const app = {
     app.stages.forEach((stage, index) => stage?.setTurns(machines[index].turns));
     app.onTurns?.(turns);
   },
-  /** A stage for a scene on a canvas of its own; where the browser has no WebGL, a plan. */
+  /** Opens a stage for a scene on its own canvas, or a plan if the browser has no WebGL. */
   open(index) {
     try {
       app.stages[index] = new Stage(document.createElement("canvas"), machines[index], options);
@@ -62,21 +62,21 @@ globalThis.geartrain = {
   get turns() {
     return app.turns;
   },
-  /** Angle of a body about its direction (rad), whole turns taken off. */
+  /** Angle of a body about its direction, modulo one turn (rad). */
   angle: (scene, body) => machines[scene].angle(named(scenes[scene].bodies, "id", body)),
   /** An output: angle (rad, in [0, 2 pi)) and text. */
   pointer: (scene, output) => machines[scene].pointer(named(scenes[scene].pointers, "output", output)),
   ready: false,
 };
 
-/** After the browser has put on the screen what is there now; in a hidden tab, soon. */
+/** Resolves after the browser has painted the current page; in a hidden tab, after a short time. */
 const painted = () =>
   new Promise((done) => {
     requestAnimationFrame(() => setTimeout(done));
     setTimeout(done, 400);
   });
 
-/** Words and dials first, then the wheels as discs, then their teeth. */
+/** Shows text and dials first, then the wheels as discs, then their teeth. */
 async function begin(build) {
   build(app);
   await painted();

@@ -1,13 +1,13 @@
-// The one material: brushed metal under lamps that go with the reader. One program draws everything.
+// The single material: brushed metal under lamps that move with the camera. One shader program draws all parts.
 //
-// Each corner knows its body and its slot; where the body stands and what the slot looks like are read from two small
-// textures, so that a train, however many parts it has, is drawn in one call; what of it is cut open, in a second.
+// Each vertex has its body and its slot; the pose of the body and the appearance of the slot are read from two small
+// textures, so that a train is drawn in one call, whatever its number of parts; parts that are cut open need a second.
 
 import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
 
 import { SECTION } from "./colours.js";
 
-export const WIDTH = 256; // texels of the poses' texture, four a body
+export const WIDTH = 256; // texels in a row of the texture of poses, four for each body
 
 const corner = `
 precision highp float;
@@ -119,7 +119,14 @@ void main() {
   colour = vec4(sqrt(light), paint.a);
 }`;
 
-/** What draws all that is seen, of closed bodies; what is half seen over it; and what is cut open, with its inside: `poses` of `count` bodies, and where their layers lie; `quarter`, what can be cut out. */
+/**
+ * Materials of opaque parts, of transparent parts, and of parts that are cut open, which are drawn on both sides.
+ *
+ * count          number of bodies
+ * main, middle   direction in which layers move in the exploded view, and the point that stays fixed
+ * size           size of the train (mm)
+ * quarter        quarter that can be cut out; null if there is none
+ */
 export function metals(count, main, middle, size, quarter) {
   const rows = Math.max(1, Math.ceil((4 * count) / WIDTH));
   const poses = new DataTexture(new Float32Array(4 * WIDTH * rows), WIDTH, rows, RGBAFormat, FloatType);
@@ -141,7 +148,7 @@ export function metals(count, main, middle, size, quarter) {
   return [material(false, FrontSide), material(true, DoubleSide), material(false, DoubleSide, { CUT: "" })];
 }
 
-/** What is half seen is from now on cut open, or whole. */
+/** Shows transparent parts cut open, or whole. */
 export function cutOpen([, ghosts], opened) {
   if (opened === "CUT" in ghosts.defines) return;
   ghosts.defines = opened ? { CUT: "" } : {};

@@ -1,5 +1,5 @@
 // The exact motion of a train: mean angles by rational arithmetic, errors by composing the tables of its pairs.
-// Nothing is derived here: speeds, laws and the order of their composition come with the scene.
+// Nothing is derived here: speeds, error tables and the order of their composition are part of the scene.
 
 import { Fraction, partOfProduct } from "./fraction.js";
 import { Law, settle } from "./laws.js";
@@ -18,12 +18,12 @@ export class Machine {
     this.speeds = scene.bodies.map((body) => (body.speed === null ? null : Fraction.of(body.speed)));
     const names = scene.bodies.map(({ id }) => id);
     this.ahead = new Composition(scene.movement, names);
-    this.back = scene.back ? new Composition(scene.back, names) : this.ahead; // the other flanks drive
+    this.back = scene.back ? new Composition(scene.back, names) : this.ahead; // the coast flanks drive
     this.turns = Fraction.of(0);
     if (scene.run) {
       this.run = new Run(scene.run);
-      this.simulated = !scene.touching; // else the run gives only the position of the driving link
-      this.initial = this.ahead.at(this.turns); // a run counts from the pose in which all drive flanks touch
+      this.simulated = !scene.touching; // otherwise, only the position of the driving link is taken from the run
+      this.initial = this.ahead.at(this.turns); // angles of a run are relative to the pose in which all drive flanks are in contact
     }
   }
 
@@ -32,12 +32,12 @@ export class Machine {
     return Number(Fraction.of(turns)) * this.run.period;
   }
 
-  /** Turns that the lead has made, which in a simulated run need not be those of its mean speed. */
+  /** Turns of the driving link, which in a simulated run may differ from those at its mean speed. */
   made(turns = this.turns) {
     return this.run ? Fraction.near(this.run.turned(this.scene.driving_link, this.time(turns)) / TURN, 14) : Fraction.of(turns);
   }
 
-  /** Declared angle of a body about its declared axis (rad), whole turns taken off; `turns` of the lead. */
+  /** Angle of a body about its declared axis, modulo one turn (rad), after `turns` of the driving link. */
   declared(body, turns = this.turns) {
     if (this.simulated) return this.scene.bodies[body].start + this.initial[body] + this.run.turned(body, this.time(turns));
     const speed = this.speeds[body];
@@ -46,18 +46,18 @@ export class Machine {
     return this.scene.bodies[body].start + mean + this.errors(made)[body];
   }
 
-  /** Angle of a body about its direction (rad), whole turns taken off. */
+  /** Angle of a body about its direction, modulo one turn (rad). */
   angle(body, turns = this.turns) {
     return this.scene.bodies[body].sense * this.declared(body, turns);
   }
 
-  /** Angle of a body as its parent sees it (rad), whole turns taken off. */
+  /** Angle of a body relative to its parent, modulo one turn (rad). */
   joint(body, turns = this.turns) {
     const { parent } = this.scene.bodies[body];
     return this.angle(body, turns) - (parent === null ? 0 : this.angle(parent, turns));
   }
 
-  /** Errors of all bodies (rad) over their mean angles. */
+  /** Angles of all bodies minus their mean angles (rad). */
   errors(turns = this.turns) {
     const exact = Fraction.of(turns);
     if (!this.latest || !this.latestTurns.equals(exact)) {
@@ -68,8 +68,8 @@ export class Machine {
   }
 
   /**
-   * An output: angle (rad, in [0, 2 pi)), and the same as text in degrees; its exact mean turns, whole turns made,
-   * error (rad), and where it stands along its dial's spiral, in turns from the middle.
+   * State of an output: angle (rad, in [0, 2 pi)), and the same as text in degrees; exact mean turns, completed turns,
+   * error (rad), and position along the spiral of its dial, in turns from the middle.
    */
   pointer(index, turns = this.turns) {
     const { body, base, dial } = this.scene.pointers[index];
@@ -95,7 +95,7 @@ export class Machine {
     };
   }
 
-  /** The same in a simulated run, where the whole angle is the error. */
+  /** The same in a simulated run, in which the error is the whole angle. */
   played(index, turns) {
     const { body, base } = this.scene.pointers[index];
     const time = this.time(turns);
@@ -103,7 +103,7 @@ export class Machine {
     return { mean: Fraction.of(0), error };
   }
 
-  /** By how much an output of a simulated run is ahead (rad, the way it turns) of where its lead would have it. */
+  /** Lead of an output of a simulated run over its ideal position at the angle of the driving link (rad, in its sense). */
   aheadBy(index, turns = this.turns) {
     const { speed } = this.scene.pointers[index];
     const { mean, error } = this.followed(index, this.made(turns));

@@ -9,25 +9,25 @@ export class Palette {
     this.looks = [];
   }
 
-  /** A slot for something new. colour as text; gloss from 0, matt, to 1, polished; opened, where a train is cut open */
+  /** Adds a slot. colour: text; gloss: 0 (matt) to 1 (polished); opened: true for parts that are cut open */
   slot(colour, gloss, opened = false) {
     this.looks.push({ colour: new Color(colour), gloss, opened, opacity: 1, shown: true });
     this.dispose();
     return this.looks.length - 1;
   }
 
-  /** look   any of colour (a Color), gloss, opacity, shown */
+  /** look   any of colour (`Color`), gloss, opacity, shown */
   paint(slot, look) {
     Object.assign(this.looks[slot], look);
     this.stale = true;
   }
 
-  /** True where one of some slots is half seen. */
+  /** True if one of the slots is partly transparent. */
   hasGhosts(slots) {
     return slots.some((slot) => this.looks[slot].shown && this.looks[slot].opacity < 1);
   }
 
-  /** Two texels a slot: colour and opacity (0 where it is hidden), then gloss and whether it is cut open. */
+  /** Writes two texels for each slot: colour and opacity (0 if hidden), then gloss and whether it is cut open. */
   refresh() {
     const height = Math.max(1, Math.ceil((2 * this.looks.length) / WIDTH));
     if (!this.texture) {
@@ -36,7 +36,7 @@ export class Palette {
     } else if (!this.stale) return this.texture;
     const { data } = this.texture.image;
     this.looks.forEach(({ colour, gloss, opened, opacity, shown }, slot) => {
-      // roots of linear light, which keep the dark colours apart in eight bits
+      // square roots of linear values, which distinguish dark colours in eight bits
       const [r, g, b] = [colour.r, colour.g, colour.b].map((part) => 255 * Math.sqrt(part));
       data.set([r, g, b, shown ? 255 * opacity : 0, 255 * gloss, 255 * opened], 8 * slot);
     });

@@ -10,16 +10,19 @@ import { along, endsOf, frameAt, isParallel, offAxis, vector } from "./space.js"
 
 const COLOURS = { plate: PARTS.plate, frame: PARTS.plate, carrier: PARTS.plate, dial: PARTS.plate, pillar: PARTS.plate, post: PARTS.plate, foot: PARTS.plate, pipe: PARTS.pipe, barrel: PARTS.pipe, weight: PARTS.pipe, bob: PARTS.plate, pin: PARTS.pin };
 const FLAT_GLOSS = 0.5;
-const WALL = "wall"; // of a cup, which goes on from a thin wheel
-export const ROUND = 84; // corners of what is as wide as a train
-const ENDING = ["post", "pin"]; // in the face of what they hold
-const PROUD = 0.06; // of their radius, by which they then stand out of it: two faces in one plane flicker
+const WALL = "wall"; // wall of a cup, which continues a flexible wheel
+export const ROUND = 84; // vertices of a circle as wide as a train
+const ENDING = ["post", "pin"]; // parts that end in the face of the part they hold
+const PROUD = 0.06; // relative to their radius: they protrude, because coplanar faces flicker
 const COVERS = ["frame", "carrier", "dial"];
 
-/** Of a part by its kind. */
+/** Colour of a part, from its kind. */
 export const colourOf = ({ kind }) => COLOURS[kind] ?? PARTS.arbor;
 
-/** All of them: {body, colour, gloss, shape, matrix, at, kind, cover, pane, bar}; `cover`, the way across of what stands before wheels or behind them, else null; `pane`, of plates of the frame, `bar`, of pillars. */
+/**
+ * All structural parts: {body, colour, gloss, shape, matrix, at, kind, cover, pane, bar}. `cover` is the normal of a part that
+ * can hide wheels, else null; `pane` is the obstacle of a frame plate, and `bar` that of a pillar.
+ */
 export function builtParts(scene, main) {
   return scene.parts.map((part) => {
     const { body, kind, place, direction, across } = part;
@@ -38,7 +41,7 @@ function standingOut(bands) {
   return bands.map(([from, to, radius, bore]) => [from === low ? from - PROUD * first : from, to === high ? to + PROUD * last : to, radius, bore]);
 }
 
-/** Half a section from its bands, counter-clockwise; bands that do not meet make several. */
+/** Half the section of a turned part, counter-clockwise; separate bands give several outlines. */
 export function turnedShape(bands, most) {
   const shape = new Shape();
   let run = [];
@@ -53,7 +56,7 @@ export function turnedShape(bands, most) {
   return shape;
 }
 
-/** Sharp outer edges of the ends broken, which catch the light. */
+/** Chamfers the sharp outer edges of the ends, so that they reflect light. */
 function chamfered(outline) {
   const heights = outline.map(([, z]) => z);
   const [low, high] = [Math.min(...heights), Math.max(...heights)];
@@ -67,7 +70,7 @@ function chamfered(outline) {
   });
 }
 
-/** A flat part, its outlines lists of x and y by turns: its rim, then its holes. */
+/** A flat part, with outlines of alternating x and y: first its edge, then its holes. */
 export function flatShape({ outlines, height }) {
   const shape = new Shape();
   const rings = outlines.map((line) => {
@@ -110,7 +113,7 @@ export function rodsOf(scene, index) {
     });
 }
 
-/** Points whose hull includes all parts in the zero pose: {point, body, at}, `at` as of the part. */
+/** Points whose convex hull contains all parts in the zero pose: {point, body, at}, with `at` of the part. */
 export function cornersOf(scene, main) {
   return scene.parts.flatMap(({ body, place, direction, across, bands, outlines, height }) => {
     const matrix = frameAt(place, direction, across);

@@ -4,7 +4,7 @@ import { Plane, Raycaster, Vector2 } from "three";
 
 import { vector } from "./space.js";
 
-const STILL = 6; // pixels a finger may slip in a tap
+const STILL = 6; // maximum movement of a finger in a tap, in pixels
 
 export class Hands {
   constructor(stage) {
@@ -17,7 +17,7 @@ export class Hands {
       pointerup: (event) => this.up(event),
       pointercancel: () => this.release(),
     };
-    // before the camera's own hands
+    // before the listeners of the camera controls
     for (const [name, listener] of Object.entries(this.listeners)) stage.canvas.addEventListener(name, listener, true);
   }
 
@@ -72,7 +72,7 @@ export class Hands {
     return crank !== null && this.ray.ray.distanceToPoint(world.ofCrank(crank.knob)) < crank.touch;
   }
 
-  /** The angle (rad) at which the ray meets the plane of the crank, about its axis as its bearer has it. */
+  /** The angle (rad) at which the ray meets the plane of the crank, about its axis in the frame of its parent. */
   crankAngle() {
     const { world, machine } = this.stage;
     const body = machine.scene.bodies[machine.scene.crank];

@@ -1,5 +1,5 @@
-// A train as a plan of lines that turns, where the browser has no WebGL. It does what a `Stage` does, in SVG: pitch
-// circles with a spoke each, dials with their hands, seen from a side without perspective.
+// A moving plan of a train for browsers without WebGL. It has the methods of a `Stage`, but draws in SVG: pitch circles
+// with a spoke each, and dials with their hands, in orthographic projection.
 
 import { ballOf, circlesOf, mainDirection, outlineOf, partingOf, pointsOf, ringRim } from "./extent.js";
 import { Fraction } from "./fraction.js";
@@ -9,11 +9,11 @@ import { frameAt, isParallel, vector } from "./space.js";
 import { svg } from "./ui/element.js";
 
 const ROUND = 48; // corners of a circle
-const MOSTLY = 0.75; // of the wheels lie in the plane of a flat train
+const MOSTLY = 0.75; // fraction of the wheels in the plane of a flat train
 const SLANTED = [0.42, 0.38, 0.82];
 const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: SLANTED };
-const LEGIBLE = 0.045; // radius over the plan's width of a wheel that has room for its name
-const NO_LOOK = { slot: () => 0, paint: () => {} }; // `Looks` paints parts in a palette, and here are none
+const LEGIBLE = 0.045; // minimum radius of a wheel with a name, relative to the width of the plan
+const NO_LOOK = { slot: () => 0, paint: () => {} }; // `Looks` paints parts in a palette, and a plan has none
 
 export class Plan {
   constructor(machine) {
@@ -23,7 +23,7 @@ export class Plan {
     this.look("free");
   }
 
-  /** Another machine of the same train, in the same picture. */
+  /** Replaces the machine by another one of the same train. */
   rebuild(machine) {
     const { share } = this.poses;
     this.#build(machine);
@@ -75,7 +75,7 @@ export class Plan {
     for (const { node } of [...this.faces, ...this.hands]) node.style.display = hidden ? "none" : "";
   }
 
-  /** From a side; a flat train freely is seen from its front, on which it is a plan. */
+  /** Sets the side from which the train is seen; the free view of a flat train is its front. */
   look(from) {
     const [x, y, z] = LOOKS[from === "free" && this.flat ? "front" : from] ?? SLANTED;
     const front = this.scene.front || 1;
@@ -95,12 +95,12 @@ export class Plan {
     this.render();
   }
 
-  /** A point of space on the paper: to the right, and down. */
+  /** Coordinates of a point on the page: to the right, and downwards. */
   seen(point) {
     return [point.dot(this.right), -point.dot(this.up)];
   }
 
-  /** A path through points of a body, given in its zero pose, as they stand now; taken apart as is what stands `at`. */
+  /** The path through points of a body, given in its zero pose, in the current pose; displaced in an exploded view like `at`. */
   path(body, at, points) {
     const off = this.poses.share * this.poses.lift(body, at);
     const { matrixWorld } = this.poses.nodes[body];
@@ -122,12 +122,12 @@ export class Plan {
     if (order.some((node, at) => node !== this.canvas.children[at])) this.canvas.replaceChildren(...order);
   }
 
-  /** How near to the reader a point of a body is. */
+  /** Coordinate of a point of a body towards the reader. */
   depth(body, point) {
     return point.clone().applyMatrix4(this.poses.nodes[body].matrixWorld).dot(this.towards);
   }
 
-  // what only a picture in space can do
+  // methods that have an effect only in a `Stage`
   cut() {}
   showTeeth() {}
   theme() {}
@@ -138,7 +138,7 @@ export class Plan {
   }
 }
 
-/** A wheel as its pitch circle, with a spoke to its first tooth; of a ring also its rim. */
+/** A wheel as its pitch circle, with a spoke to its first tooth, and for a ring its rim. */
 class PlanWheel {
   constructor(plan, wheel, index) {
     const { id, teeth, kind, body, centre, direction, reference, turn } = wheel;
@@ -171,7 +171,7 @@ class PlanWheel {
     this.depth = plan.depth(body, this.at);
   }
 
-  /** Its name in its middle, where there is room. */
+  /** Writes the name of the wheel in its middle if there is space. */
   write([x, y]) {
     const { plan, wheel, ring } = this;
     const size = Math.min(0.03 * plan.width, (1.6 * wheel.radius) / Math.max(2, wheel.id.length));

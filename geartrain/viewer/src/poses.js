@@ -1,29 +1,29 @@
-// Poses of the bodies of a train. Each is a node under the body that bears its axis, and is turned about its axis
-// by the angle its parent sees; taken apart, layers move along the direction of most wheels.
+// Poses of the bodies of a train. Each is a node below the body that carries its axis, rotated about its axis by its
+// angle relative to this parent. In an exploded view, layers move along the main direction.
 
 import { Group, Matrix4, Vector3 } from "three";
 
 import { frameAt, isParallel, vector } from "./space.js";
 import { Reading } from "./ui/reading.js";
 
-const SWING = 0.035; // rad to either side: 2 degrees, of a pendulum with an anchor
-const ASIDE = 0.7; // how far bodies on other axes go from the middle, over their distance from it
+const SWING = 0.035; // amplitude of a pendulum with an anchor escapement [rad]: 2 degrees
+const ASIDE = 0.7; // displacement of bodies on other axes, relative to their distance from the middle
 
-/** Balls turn as bodies of scenes do, `as` which, but each about an axis through its own middle. */
+/** Balls turn like the bodies `as`, but each about an axis through its own centre. */
 const balls = ({ bodies, dials, pointers }) =>
   dials.flatMap(({ look, centre }, ball) => {
     const as = pointers.find(({ dial }) => dial === ball)?.body;
     return look === "ball" && as !== undefined ? [{ ...bodies[as], point: centre, as, ball }] : [];
   });
 
-/** Slides of hands over spirals move along these, `as` which they turn. */
+/** Slides of hands on spirals, which turn with the bodies `as`. */
 const slides = ({ bodies, dials, pointers }) =>
   pointers.flatMap(({ body, dial }, slide) => (dial !== null && dials[dial].scale.turns > 1 ? [{ ...bodies[body], as: body, slide }] : []));
 
 /** Pose of a hanging part when the body that moves it has turned by `joint`. */
 function hung(matrix, { kind, point, direction, down, length, rate }, joint) {
   const frame = frameAt(point, direction, down);
-  const now = length + Math.max(0.1 * length - length, rate * joint); // no higher than its barrel
+  const now = length + Math.max(0.1 * length - length, rate * joint); // not above its barrel
   const own = new Matrix4();
   if (kind === "pendulum") own.makeRotationZ(SWING * Math.sin(rate * joint));
   else if (kind === "line") own.makeScale(now / length, 1, 1);
@@ -32,7 +32,7 @@ function hung(matrix, { kind, point, direction, down, length, rate }, joint) {
 }
 
 export class Poses {
-  /** main   the direction along which layers move; `middle`, what stays; `parting`, how far they go over their distance */
+  /** main   direction in which layers move; `middle`: fixed point; `parting`: displacement relative to the distance from it */
   constructor(machine, main, middle, parting) {
     Object.assign(this, { machine, main, middle, parting, share: 0 });
     const { scene } = machine;
@@ -47,13 +47,13 @@ export class Poses {
     this.skewed = this.bodies.map((_, index) => this.isSkew(index));
   }
 
-  /** True where a body's axis, or that of one that bears it, leaves the main direction: it moves as a whole. */
+  /** True if the axis of a body, or of a body that carries it, is not parallel to the main direction: it moves as a whole. */
   isSkew(index) {
     const { parent, direction } = this.bodies[index];
     return parent !== null && (!isParallel(direction, this.main.toArray()) || this.isSkew(parent));
   }
 
-  /** Updates every node to the present pose of its body, and writes its matrix into `array`. */
+  /** Updates every node to the current pose of its body, and writes its matrix into `array`. */
   turn(array) {
     this.bodies.forEach((body, index) => {
       if (body.parent === null) return;
@@ -69,7 +69,7 @@ export class Poses {
     this.nodes.forEach((node, index) => array.set(node.matrixWorld.elements, 16 * index));
   }
 
-  /** An angle with its whole turns. */
+  /** The angle of a body with its completed turns. */
   unwound(index, joint) {
     const { machine } = this;
     if (!machine.moves || machine.simulated) return joint;
@@ -91,7 +91,7 @@ export class Poses {
     });
   }
 
-  /** The dial over which a body has its hand, or of which it is the ball, if this is lifted by itself. */
+  /** The dial of the hand on a body, or of the ball that it is, if the dial is displaced separately. */
   faced(index) {
     const { pointers, dials } = this.machine.scene;
     const { ball } = this.bodies[index];
@@ -100,14 +100,14 @@ export class Poses {
     return read && !this.skewed[dials[read.dial].body] ? dials[read.dial] : null;
   }
 
-  /** By what a body that moves as a whole is moved, with what bears it. */
+  /** Displacement of a body that moves as a whole, including that of the bodies that carry it. */
   shift(index) {
     const { parent } = this.bodies[index];
     const own = this.shifts[index].clone();
     return parent === null ? own : own.add(this.shift(parent));
   }
 
-  /** How far a slide is from the inner end of its spiral now. */
+  /** Current distance of a slide from the inner end of its spiral. */
   slid(index) {
     const reading = this.readings[index];
     if (!reading) return new Vector3();
@@ -125,7 +125,7 @@ export class Poses {
     return this.bodies.findIndex((body) => body.ball === dial);
   }
 
-  /** The node of what hangs. */
+  /** The node of a hanging part. */
   hanger(hanger) {
     return this.bodies.findIndex((body) => body.hangs === hanger);
   }
@@ -136,18 +136,18 @@ export class Poses {
     return own.length ? sum.divideScalar(own.length) : vector(this.bodies[index].point);
   }
 
-  /** How far a point goes when all is fully apart. */
+  /** Displacement of a point in the full exploded view. */
   height(point) {
     return this.parting * (point.dot(this.main) - this.middle.dot(this.main));
   }
 
-  /** The same of a part of a body, within its body's frame; a bar, whose `at` is null, is stretched. */
+  /** The same for a part of a body, in the frame of the body; a bar, whose `at` is null, is stretched. */
   lift(body, at) {
     if (this.skewed[body]) return 0;
     return at ? this.height(at) : (point) => this.height(point);
   }
 
-  /** A point moved by a lift, as the picture is. */
+  /** A point displaced by a lift in the current exploded view. */
   apart(point, lift) {
     return point.clone().addScaledVector(this.main, this.share * lift);
   }

@@ -1,7 +1,7 @@
 // A simulated motion: angles of bodies, states of contacts and impacts at any time of the run.
-// Nothing is simulated here: samples come with the scene, and angles go straight from each to the next.
+// Nothing is simulated here: samples are part of the scene, and angles are interpolated linearly between them.
 
-const GLOW = 0.35; // s as the reader sees them: how long a blow is seen
+const GLOW = 0.35; // [s of real time]: how long an impact is shown
 
 export class Run {
   /** run   as `SceneRun.to_dict()` gives it */
@@ -16,11 +16,11 @@ export class Run {
     }));
     this.hardest = Math.max(0, ...this.contacts.map(({ hardest }) => hardest));
     this.blows = Float64Array.from(this.contacts.flatMap(({ impact_times }) => [...impact_times])).sort();
-    this.glow = GLOW; // s of the run
-    this.slip = 1e-12 * Math.max(this.duration, this.period); // s: what rounded turns leave between a blow and its time
+    this.glow = GLOW; // [s of simulated time]
+    this.slip = 1e-12 * Math.max(this.duration, this.period); // [s]: rounding error of the time of an impact, from rounded turns
   }
 
-  /** By how much a body has turned since the start (rad) about its declared axis, at a time (s). */
+  /** Rotation of a body since the start (rad) about its declared axis, at a time (s). */
   turned(body, time) {
     const { rate, samples, angles } = this.links[body];
     const now = Math.min(Math.max(time, 0), this.duration);
@@ -30,7 +30,7 @@ export class Run {
     return rate * now + angles[at] + share * (angles[at + 1] - angles[at]);
   }
 
-  /** d on the drive flank, c on the coast flank, a apart; "" where that is not known. */
+  /** State of a contact at a time (s): d on the drive flank, c on the coast flank, a without contact; "" if unknown. */
   state(contact, time) {
     const { changes, states } = this.contacts[contact];
     return states ? states[Math.max(0, before(changes, time / this.step + 1e-6))] : "";
@@ -47,7 +47,7 @@ export class Run {
     }
   }
 
-  /** [time, strength from 0 to 1] of a contact's blows between two times (s). */
+  /** [time, strength from 0 to 1] of a contact's impacts between two times (s). */
   *blowsOf(contact, from, to) {
     const { impact_times: times, impact_speeds: speeds } = this.contacts[contact];
     for (let at = before(times, from) + 1; at < times.length && times[at] <= to; at += 1) yield [times[at], this.strength(speeds[at])];
@@ -58,7 +58,7 @@ export class Run {
     return 0.4 + 0.6 * Math.sqrt(speed / this.hardest);
   }
 
-  /** How bright the last blows of a contact are: 0 to 1. */
+  /** Brightness of the last impacts of a contact: 0 to 1. */
   flash(contact, time) {
     const { impact_times: times, impact_speeds: speeds } = this.contacts[contact];
     let found = 0;
@@ -69,19 +69,19 @@ export class Run {
     return found;
   }
 
-  /** So fast it is played (s of the run a second): a blow is seen as long, whatever that is. */
+  /** Playback speed (simulated seconds per second); an impact is shown equally long at all speeds. */
   set pace(value) {
     this.glow = GLOW * value;
   }
 
-  /** The time of the next blow in a sense (1 or -1), or the end of the run. */
+  /** The time of the next impact in a direction of time (1 or -1), or the end of the run. */
   blowFrom(time, sense) {
     const at = sense > 0 ? before(this.blows, time + this.slip) + 1 : before(this.blows, time - this.slip);
     return this.blows[at] ?? (sense > 0 ? this.duration : 0);
   }
 }
 
-/** The last of ascending numbers that is not above a value; -1 where all are. */
+/** Index of the last of ascending numbers that is not above a value; -1 if all are. */
 function before(numbers, value) {
   let [low, high] = [0, numbers.length];
   while (low < high) {

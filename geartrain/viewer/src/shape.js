@@ -2,7 +2,7 @@
 
 const TURN = 2 * Math.PI;
 
-/** Flat lists of numbers, three a corner; `indices` three a triangle. */
+/** Flat lists of numbers, three per vertex; `indices`, three per triangle. */
 export class Shape {
   constructor() {
     Object.assign(this, { points: [], normals: [], grains: [], indices: [] });
@@ -18,7 +18,7 @@ export class Shape {
     this.grains.push(grain[0], grain[1], grain[2]);
   }
 
-  /** A flat convex face; `grain`, a direction or one for each point. */
+  /** Adds a flat convex face; `grain`: a brushing direction, or one for each point. */
   face(points, normal, grain) {
     const first = this.corners;
     points.forEach((point, n) => this.corner(point, normal, Array.isArray(grain[0]) ? grain[n] : grain));
@@ -27,7 +27,7 @@ export class Shape {
   }
 }
 
-/** A closed outline of [radius, z] points, either way round, swept in `count` steps round the z axis, or part of it. */
+/** A closed outline of [radius, z] points in either sense, swept in `count` steps around the z axis, or a part of a turn. */
 export function swept(shape, outline, count, first = 0, turns = 1) {
   const { points, normals, grains, indices } = shape;
   const area = outline.reduce((sum, [r, z], m) => sum + r * outline[(m + 1) % outline.length][1] - outline[(m + 1) % outline.length][0] * z, 0);
@@ -62,7 +62,7 @@ export const bar = (radius, low, high, count = 14) => swept(new Shape(), band(0,
 /** A ball round the origin. */
 export const ball = (radius, count = 16) => swept(new Shape(), meridian(radius, count / 2), count);
 
-/** Half of a ball round the origin: half a turn about z from a part of one on, from x. */
+/** Half of a ball around the origin: half a turn about z, starting at the fraction `first` of a turn from x. */
 export const halfBall = (radius, first, count = 24) => swept(new Shape(), meridian(radius, count), count, first, 0.5);
 
 const meridian = (radius, steps) =>
@@ -72,7 +72,7 @@ const meridian = (radius, steps) =>
   });
 
 /**
- * A plate between two heights: `stations` are [x, half width], in order; brushed along x.
+ * A plate between two heights: `stations` are [x, half width] in order of x; brushed along x.
  */
 export function plate(shape, stations, low, high, frame = (point) => point) {
   const way = (vector) => frame(vector).map((value, k) => value - frame([0, 0, 0])[k]);

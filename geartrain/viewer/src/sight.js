@@ -6,10 +6,10 @@ import { discsOf, rimOf } from "./extent.js";
 import { across, endsOf, frameAt, vector } from "./space.js";
 
 const ROUND = 8; // points of each circle
-const CIRCLES = [0.25, 0.6, 0.95]; // of a wheel from its middle, or the inside of a ring, to its rim
-const COVERED = 0.04; // of a wheel's points: before so many no pillar stands but one of glass
+const CIRCLES = [0.25, 0.6, 0.95]; // relative radii from the middle of a wheel, or the inside of a ring, to its rim
+const COVERED = 0.04; // fraction of a wheel's points: a pillar that hides more is transparent
 
-/** Points evenly over a disc, or a ring. */
+/** Points distributed evenly over a disc or a ring. */
 function pointsOver({ at, direction, radius, inner = 0 }) {
   const [one, way] = [across(direction), vector(direction)];
   const other = way.clone().cross(one);
@@ -22,16 +22,16 @@ function pointsOver({ at, direction, radius, inner = 0 }) {
   });
 }
 
-/** The line of a turned part from end to end, and its radius: {from, to, radius}. */
+/** Ends of the axis of a turned part, and its radius: {from, to, radius}. */
 export function barOf(part) {
   const [from, to] = endsOf(part);
   return { from, to, radius: Math.max(...part.bands.map(([, , radius]) => radius)) };
 }
 
-/** A flat part as it is seen: its edge, as x and y by turns, in its own frame. */
+/** A flat part as an obstacle: its edge, as alternating x and y, in its own frame. */
 export const paneOf = ({ place, direction, across: x, outlines }) => ({ inverse: frameAt(place, direction, x).invert(), outline: outlines[0] });
 
-/** Whether an edge of x and y by turns goes round a point. */
+/** True if a point is inside an edge of alternating x and y. */
 function isInside(outline, x, y) {
   let inside = false;
   for (let n = 0, before = outline.length - 2; n < outline.length; before = n, n += 2) {
@@ -52,7 +52,7 @@ export class Sight {
     this.swept = scene.wheels.flatMap((wheel, n) => discsOf(scene, wheel).map((disc) => pointsOver({ ...disc, inner: this.wheels[n].inner })));
   }
 
-  /** Whether a bar hides much of a wheel in any position. */
+  /** True if a bar hides a large part of a wheel in any position of the wheel. */
   isCovering({ from, to, radius }, eye) {
     const ray = new Ray(eye.clone());
     const on = eye.clone();
@@ -63,7 +63,7 @@ export class Sight {
     return this.swept.some((points) => points.filter(isBehind).length > COVERED * points.length);
   }
 
-  /** The share of the wheels, in their initial positions, that a flat part hides. */
+  /** The fraction of the wheels, in their initial positions, that a flat part hides. */
   hidden({ inverse, outline }, eye) {
     const from = eye.clone().applyMatrix4(inverse);
     const to = eye.clone();
@@ -76,8 +76,8 @@ export class Sight {
   }
 
   /**
-   * How well an eye sees wheels as they stand at the beginning, 0 to 1: the mean root of the share that it sees of each, as
-   * each is turned away and stands behind others; a root, so that the worst seen weigh.
+   * Visibility of the wheels in their initial positions from an eye point, 0 to 1: mean square root of the visible fraction
+   * of each wheel, reduced by obliquity and by wheels in front; the root gives weight to wheels that are hardly visible.
    */
   seen(eye) {
     const [way, hit] = [eye.clone(), eye.clone()];
@@ -85,7 +85,7 @@ export class Sight {
     const parts = this.wheels.map((wheel) => {
       const off = eye.clone().sub(wheel.at);
       const cosine = off.dot(vector(wheel.direction)) / off.length();
-      const facing = wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // its thread is seen from the side
+      const facing = wheel.isWorm ? Math.sqrt(1 - cosine * cosine) : Math.abs(cosine); // the thread of a worm is seen from the side
       const share = wheel.points.filter((point) => !before(point, wheel) && !this.walls.some((wall) => goesThrough(wall, eye, point))).length / wheel.points.length;
       return Math.sqrt(facing * share);
     });
@@ -93,7 +93,7 @@ export class Sight {
   }
 }
 
-/** Whether the way from an eye to a point goes through the wall of a cup. */
+/** True if the line from an eye point to a point passes through the wall of a cup. */
 function goesThrough({ from, to, radius }, eye, point) {
   const axis = to.clone().sub(from);
   const long = axis.length();
@@ -105,7 +105,7 @@ function goesThrough({ from, to, radius }, eye, point) {
   return [(-b - root) / a, (-b + root) / a].some((share) => share > 0 && share < 1 && low + share * rise > 0 && low + share * rise < long);
 }
 
-/** Whether a disc is met on the way from an eye. */
+/** True if a ray from an eye point meets a disc. */
 function meets({ at, direction, radius, inner }, eye, way, hit) {
   const normal = vector(direction);
   const share = normal.dot(hit.copy(at).sub(eye)) / normal.dot(way);

@@ -1,4 +1,4 @@
-// Markers of the contacts of a simulated run: a flash at an impact, a ring at separated teeth, drawn over all else.
+// Markers of the contacts of a simulated run: a flash at an impact, a ring at separated teeth, drawn above all parts.
 
 import { BufferAttribute, BufferGeometry, Color, GLSL3, Points, RawShaderMaterial } from "three";
 
@@ -56,7 +56,7 @@ export class Sparks {
     this.points = Object.assign(new Points(this.geometry, this.material), { frustumCulled: false, renderOrder: 9, matrixAutoUpdate: false });
   }
 
-  /** Sparks as they are at a time of the run (s). */
+  /** Updates the markers to a time of the run (s). */
   set(time) {
     const { position, look } = this.geometry.attributes;
     this.places.forEach(({ body, at, lift }, index) => {

@@ -2,7 +2,7 @@
 
 import { svg } from "./ui/element.js";
 
-/** The stages shown, beside each other in one picture as large as they are on the screen: a promise of a PNG. */
+/** One picture of the displayed stages side by side, in the size on the screen: a promise of a PNG. */
 export function pictureOf(stages) {
   const canvases = stages.map((stage) => stage.canvas);
   const sheet = document.createElement("canvas");
@@ -20,7 +20,7 @@ export function pictureOf(stages) {
 
 const WORN = ["fill", "fill-opacity", "fill-rule", "stroke", "stroke-width", "stroke-linejoin", "vector-effect", "opacity", "display", "text-anchor", "font-family"];
 
-/** Plans beside each other as one SVG that needs no style sheet, as large as they are on the screen. */
+/** One SVG without a style sheet of the plans side by side, in the size on the screen. */
 export function drawingOf(plans) {
   let [right, lowest] = [0, 0];
   const copies = plans.map(({ canvas }) => {

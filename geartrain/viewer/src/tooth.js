@@ -3,14 +3,14 @@
 import { Shape } from "./shape.js";
 
 const TURN = 2 * Math.PI;
-const PROUD = 0.02; // of a lantern's thickness: ends of pins in the plane of its faces would flicker with these
-const FINE = 0.02; // of a tooth's depth: bends of the outline that are too slight to be drawn
+const PROUD = 0.02; // relative to a lantern's thickness: ends of pins protrude, because coplanar faces flicker
+const FINE = 0.02; // relative to a tooth's height: smaller deviations of the outline are not drawn
 
 /**
- * The surface a wheel's teeth are cut on: `at(rho, angle, end)`, in the wheel's frame (x, y across, z along its axis).
+ * The surface of a wheel's teeth: `at(rho, angle, end)`, a point in the frame of the wheel (z along its axis).
  *
- * rho    radius over the pitch radius; `end` 0 and 1 are its two faces, for a tapered wheel the wide and the narrow
- * apex   1 or -1: on which side of the wheel, along z, its cone runs together (or its crown's teeth stand)
+ * rho    radius divided by the pitch radius; `end`: 0 and 1 for the two faces, the wide and narrow end of a tapered wheel
+ * apex   side of the wheel along z, 1 or -1, on which its cone has its apex (or a crown wheel has its teeth)
  */
 export function blankOf(wheel, apex) {
   const { radius, thickness, cone, helix, teeth } = wheel;
@@ -25,12 +25,12 @@ export function blankOf(wheel, apex) {
   const height = crown ? 0 : (apex * radius) / Math.tan(cone);
   const slant = radius / Math.sin(cone);
   const half = Math.PI / teeth;
-  const aslant = Math.sqrt(thickness / radius); // how far round a crown's teeth still come to its mate
+  const aslant = Math.sqrt(thickness / radius); // angle over which a crown wheel's teeth are near its mate
   const taper = 1 - Math.min(0.45, thickness / slant);
   return (rho, angle, end) => {
     const depth = (rho - 1) * radius;
     const scale = end ? taper : 1;
-    // spaces of a crown grow wider inwards: what runs in them is as wide there, and off the middle they stand aslant
+    // the mate's teeth have constant width and are oblique away from the middle, so the spaces of a crown widen inwards
     const space = half - Math.abs(angle) + aslant - Math.sin(aslant) + ((1 - scale) * aslant) / 2;
     const turned = crown ? Math.sign(angle) * Math.max(0, half - space / scale) : angle;
     const r = (radius + depth * Math.cos(cone)) * scale;
@@ -39,10 +39,10 @@ export function blankOf(wheel, apex) {
   };
 }
 
-/** The tooth between its profile and `base` (over the pitch radius), on a blank; `hand`, -1 where that is mirrored. */
+/** The tooth between its profile and the relative radius `base`, on a blank; `hand` is -1 for a mirrored blank. */
 export function toothShape(points, base, at, fine = FINE, hand = 1) {
   const ring = base > Math.max(...points.map(([radius]) => radius));
-  const side = ring ? -1 : 1; // a ring's outline has its metal on the other side
+  const side = ring ? -1 : 1; // the material of a ring is on the other side of its outline
   const edge = simplify(points, fine, side);
   const way = side * hand;
   const shape = flanks(new Shape(), edge, at, way);
@@ -56,7 +56,7 @@ export function toothShape(points, base, at, fine = FINE, hand = 1) {
   return shape;
 }
 
-/** A pin, or another closed curve, through two faces, beyond which its ends extend. */
+/** A pin, or a solid with another closed section, whose ends extend beyond the two faces. */
 export function pinShape(points, at) {
   const through = (rho, angle, end) => at(rho, angle, end ? 1 + PROUD : -PROUD);
   const edge = simplify([...points, points[0]]);
@@ -65,7 +65,7 @@ export function pinShape(points, at) {
   return shape;
 }
 
-/** What lies between the two faces; edges slighter than a third of a right angle are rounded. */
+/** The surface between the two faces; edges of less than 30 degrees are shaded smoothly. */
 function flanks(shape, edge, at, side = 1) {
   const sides = edge.slice(1).map(([r1, t1], n) => {
     const [r0, t0] = edge[n];
@@ -89,17 +89,17 @@ const unit = (a) => {
   return a.map((value) => value / size);
 };
 
-/** The way four corners face, or against it. */
+/** The unit normal of four vertices, or its opposite. */
 function facing([a, b, c, d], way = 1) {
   const [p, q] = [[0, 1, 2].map((k) => c[k] - a[k]), [0, 1, 2].map((k) => d[k] - b[k])];
   return unit([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]].map((part) => way * part));
 }
 
 /**
- * An outline with fewer corners, that leaves out what is slight. It nowhere leaves the tooth: a chord across a hollow is
- * moved in until it touches the bottom, so that teeth which clear each other do so as they are drawn.
+ * An outline with fewer vertices. It is nowhere outside the tooth: a chord across a concave part is moved inwards until it
+ * touches the curve, so that drawn teeth overlap no more than the real teeth do.
  *
- * side   1 where the wheel lies left of its outline, as a disc does; -1 of a ring
+ * side   1 if the wheel is to the left of its outline, as for a disc; -1 for a ring
  */
 export function simplify(points, fine = FINE, side = 1) {
   const radii = points.map(([radius]) => radius);
@@ -118,7 +118,7 @@ export function simplify(points, fine = FINE, side = 1) {
   );
 }
 
-/** First and last of the points of each run that leaves its chord by no more than `slight`. */
+/** First and last point of each run of points that deviates from its chord by at most `slight`. */
 function chords(plane, slight, first = 0, last = plane.length - 1) {
   let [worst, at] = [slight, -1];
   for (let n = first + 1; n < last; n += 1) {
@@ -128,7 +128,7 @@ function chords(plane, slight, first = 0, last = plane.length - 1) {
   return at < 0 ? [[first, last]] : [...chords(plane, slight, first, at), ...chords(plane, slight, at, last)];
 }
 
-/** The chord of a run, and how far (`in`) it is to be moved into the tooth so that all of the run is outside. */
+/** The chord of a run, and the distance (`in`) by which it must be moved into the tooth so that no point of the run is inside. */
 function movedIn(plane, first, last, side) {
   const [from, to] = [plane[first], plane[last]];
   const way = unit([to[0] - from[0], to[1] - from[1]]);
@@ -138,7 +138,7 @@ function movedIn(plane, first, last, side) {
   return { from, to, way, in: inward.map((part) => part * most) };
 }
 
-/** Where a line goes over into the next one, both moved in: a corner, or two where that were far off. */
+/** Intersection of a line and the next one, both moved inwards; two points if the intersection is far away. */
 function meeting(line, next, slight) {
   const [one, other] = [line.to, next.from].map((point, n) => add(point, [line, next][n].in));
   const turn = line.way[0] * next.way[1] - line.way[1] * next.way[0];

@@ -1,4 +1,4 @@
-// A stage: a train in space on a canvas, with a camera. It draws only when something has changed.
+// A stage: a three-dimensional picture of a train on a canvas, with a camera. It is drawn only after changes.
 
 import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -10,19 +10,19 @@ import { vector } from "./space.js";
 import { World } from "./world.js";
 
 const DEGREE = Math.PI / 180;
-const FIELD = 26; // degrees
+const FIELD = 26; // field of view [deg]
 const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: [0.36, 0.3, 0.88] };
-// other ways to look slantwise, the more usual first: degrees above, and to the right
+// alternative oblique directions, in order of preference: degrees above, and to the right
 const OTHERS = [17, 38, 58, 4].flatMap((above) => [25, -25, 0, 55, -55].map((aside) => [above * DEGREE, aside * DEGREE])).map(([above, aside]) => [Math.sin(aside) * Math.cos(above), Math.sin(above), Math.cos(aside) * Math.cos(above)]);
-const BETTER = 1.13; // times as well wheels must be seen from another side, to begin there
-const NEARLY = 0.95; // of the best
-const INTO = [0.62, 0.46, 0.64]; // slantwise into a train that is cut open
+const BETTER = 1.13; // minimum ratio of visibilities for which the initial view is from another side
+const NEARLY = 0.95; // relative to the best visibility
+const INTO = [0.62, 0.46, 0.64]; // oblique view into a train that is cut open
 const BEHIND = [INTO[0], INTO[1], -INTO[2]]; // the same from behind
 const MARGIN = 1.05;
-const ASIDE = 0.55; // cosine of the way from which layers are seen when taken apart
+const ASIDE = 0.55; // cosine of the angle between the view of a full exploded view and the main direction
 
 export class Stage {
-  /** Throws where there is no WebGL. options: {background, teeth} */
+  /** Throws an error without WebGL. options: {background, teeth} */
   constructor(canvas, machine, options = {}) {
     this.canvas = canvas;
     this.machine = machine;
@@ -31,7 +31,7 @@ export class Stage {
     this.onOrbit = () => {};
     this.frameMilliseconds = 0;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
-    this.renderer.debug.checkShaderErrors = false; // asking would wait for the GPU
+    this.renderer.debug.checkShaderErrors = false; // a check would wait for the GPU
     this.world = new World(machine);
     this.world.cutOpen(options.cutaway ?? Boolean(this.world.quarter?.hides));
     this.toothed = options.teeth !== false;
@@ -54,7 +54,7 @@ export class Stage {
     this.resize();
   }
 
-  /** turns   of the lead: a number, or exact text such as `235/19` */
+  /** turns   turns of the driving link: a number, or exact text such as `235/19` */
   setTurns(turns) {
     this.machine.turns = Fraction.of(turns);
     this.turned = true;
@@ -73,7 +73,7 @@ export class Stage {
     this.change(() => this.world.looks.select(wheel));
   }
 
-  /** Layers apart; the camera goes back as far as the whole grows, and looks on where it looked; left free, from aside. */
+  /** Exploded view; the camera moves back as the extent grows, and keeps its direction; in the free view it turns sideways. */
   explode(share) {
     const before = this.framed();
     this.change(() => this.world.explode(Math.min(1, Math.max(0, share))));
@@ -96,25 +96,25 @@ export class Stage {
     this.change(() => this.world.looks.hideBefore(hidden ? front : null));
   }
 
-  /** Teeth or plain discs; plain until `cut` has been called. */
+  /** Shows teeth or plain discs; discs until `cut` has been called. */
   showTeeth(shown) {
     this.toothed = shown;
     if (shown && this.whole && !this.world.cut) this.world.castTeeth();
     this.change(() => this.world.looks.showTeeth(shown && Boolean(this.world.cut)));
   }
 
-  /** Whether there are rings to cut open. */
+  /** True if there are rings that can be cut open. */
   get canOpen() {
     return Boolean(this.world.quarter);
   }
 
-  /** With a quarter of rings, drums and plates cut out, or whole; what is looked at slantwise is then looked into. */
+  /** Cuts a quarter out of rings, drums and plates, or closes it; an oblique view then looks into the cut. */
   cutOpen(opened) {
     this.change(() => this.world.cutOpen(opened));
     if (this.from === "free") this.look("free");
   }
 
-  /** From now on with teeth, if they are wanted: the most of the work, left until the rest is seen. */
+  /** Adds the teeth, if requested: most of the work, done after the other parts are visible. */
   cut() {
     if (this.disposed) return;
     this.whole = true;
@@ -130,7 +130,7 @@ export class Stage {
     this.request();
   }
 
-  /** Another machine of the same train, in the same picture. */
+  /** Replaces the machine by another one of the same train. */
   rebuild(machine) {
     if (this.disposed) return;
     const { opened, poses: { share } } = this.world;
@@ -148,7 +148,7 @@ export class Stage {
     this.request();
   }
 
-  /** The camera to the front, the back, a side, or slantwise; the whole train in the picture. */
+  /** Moves the camera to the front, the back, a side, or an oblique view, with the whole train in the picture. */
   look(from) {
     const straight = from in LOOKS && from !== "free";
     this.from = from;
@@ -156,13 +156,13 @@ export class Stage {
     else this.fit(this.aside(this.opening()));
   }
 
-  /** A way to look, given as from the front. */
+  /** A viewing direction, given relative to the front. */
   towards([x, y, z]) {
     const front = this.machine.scene.front || 1;
     return vector([x * front, y, z * front]).normalize();
   }
 
-  /** From where a reader sees a train first: slantwise from the front, or from where wheels are seen better. Found once for a picture of one shape. */
+  /** The initial viewing direction: obliquely from the front, or a direction with better visible wheels; cached for each aspect ratio. */
   opening() {
     const { aspect } = this.camera;
     const { opened } = this.world;
@@ -171,9 +171,9 @@ export class Stage {
     return this.found.towards;
   }
 
-  /** The usual way to look, unless from another wheels are seen much better. */
+  /** The usual direction, unless the wheels are much better visible from another one. */
   bestOf(others, usual) {
-    if (this.machine.scene.dials.length) return usual; // they are read from there
+    if (this.machine.scene.dials.length) return usual; // dials are read from there
     const seen = (towards) => {
       const { target, distance } = this.framed(towards);
       return this.world.sight.seen(target.addScaledVector(towards, distance));
@@ -183,7 +183,7 @@ export class Stage {
     return best > BETTER * seen(usual) ? ways.find(({ share }) => share > NEARLY * best).towards : usual;
   }
 
-  /** A way to look, turned from that of the layers as far as these are apart. */
+  /** A viewing direction, turned away from the main direction according to the exploded view. */
   aside(towards) {
     const { main, poses } = this.world;
     const straight = towards.dot(main);
@@ -193,7 +193,7 @@ export class Stage {
     return across.multiplyScalar(Math.sqrt(1 - along * along)).addScaledVector(main, along);
   }
 
-  /** The camera to a side, as near as the whole allows. */
+  /** Moves the camera to a direction, as near as the extent allows. */
   fit(towards) {
     const { target, distance } = this.framed(towards);
     this.controls.target.copy(target);
@@ -202,7 +202,7 @@ export class Stage {
     this.request();
   }
 
-  /** Where the camera would stand, as near as the whole allows, on the side where it is, or on another. */
+  /** The camera position, as near as the extent allows, in the current direction or another one. */
   framed(towards = this.camera.position.clone().sub(this.controls.target).normalize()) {
     const high = Math.tan((FIELD * DEGREE) / 2) / MARGIN;
     return { towards, ...frame(this.world.outline(), towards, high * this.camera.aspect, high) };
@@ -214,7 +214,7 @@ export class Stage {
     this.onOrbit();
   }
 
-  /** To the size the page gives the canvas; nothing happens while it is hidden. */
+  /** Adapts the picture to the size of the canvas; has no effect while it is hidden. */
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height || this.disposed) return;
@@ -250,7 +250,7 @@ export class Stage {
     this.drawn = true;
   }
 
-  /** Turns of the lead when the crank is swept by an angle (rad) about its axis, as its bearer sees it. */
+  /** Turns of the driving link for a rotation of the crank (rad) relative to its parent. */
   leadOf(swept) {
     const { bodies, crank } = this.machine.scene;
     const own = bodies[crank];
@@ -260,7 +260,7 @@ export class Stage {
     return speed ? swept / (2 * Math.PI * speed) : 0;
   }
 
-  /** Gives all back, the browser's few drawing contexts first. */
+  /** Releases all resources; a browser has few drawing contexts. */
   dispose() {
     this.disposed = true;
     cancelAnimationFrame(this.waiting);

@@ -1,4 +1,4 @@
-// A wheel as drawn: its body, its teeth as copies of one tooth, and a plain rim for when teeth are not wanted.
+// A wheel as drawn: its body, its teeth as copies of one tooth, and a plain rim that replaces the teeth.
 
 import { coneShape, discShape, lanternShape, plainRimShape, rimShape, wormShape } from "./blanks.js";
 import { ringRim } from "./extent.js";
@@ -6,13 +6,13 @@ import { flatShape } from "./parts.js";
 import { frameAt, vector } from "./space.js";
 import { blankOf, pinShape, toothShape } from "./tooth.js";
 
-const MOST_TEETH = 2000; // of a wheel: more cannot be distinguished
-const MANY_TEETH = 12000; // of a train: beyond, all are drawn more simply
-const SEEN = 0.0005; // of a train's size: bends of a tooth that are slighter are not drawn
+const MOST_TEETH = 2000; // maximum for one wheel: more teeth cannot be distinguished
+const MANY_TEETH = 12000; // number of teeth of a train above which all teeth are simplified
+const SEEN = 0.0005; // relative to the train's size: smaller deviations of a tooth's outline are not drawn
 const GLOSS = 0.75;
 
 export class WheelPart {
-  /** index   of the wheel in the scene; `hub`, radius of its arbor (mm); `size`, of the train (mm) */
+  /** index   index of the wheel in the scene; `hub`: radius of its arbor (mm); `size`: size of the train (mm) */
   constructor(scene, index, hub, size, palette) {
     const wheel = scene.wheels[index];
     Object.assign(this, { scene, index, wheel, size, palette });
@@ -35,7 +35,7 @@ export class WheelPart {
     return [this.own, this.toothed, this.smooth];
   }
 
-  /** Body and plain rim. */
+  /** Adds the body and the plain rim. */
   castBody(add) {
     const { wheel, root, hub, size } = this;
     const { kind, radius, thickness, cone } = wheel;
@@ -57,7 +57,7 @@ export class WheelPart {
     }
   }
 
-  /** Teeth; `many`, of the whole train. */
+  /** Adds the teeth; `many` is the number of teeth of the train. */
   castTeeth(add, many) {
     const { wheel, profile, surface, root } = this;
     if (wheel.kind === "worm") return;
@@ -68,11 +68,11 @@ export class WheelPart {
     add(shape, this.matrix, profile.hole ? this.own : this.toothed, Math.min(wheel.teeth, MOST_TEETH));
   }
 
-  /** The disc with what is cut out of it. */
+  /** The disc with its holes. */
   holed() {
     const { root, wheel } = this;
     const outlines = [circle(root * wheel.radius), ...wheel.holes];
-    return flatShape({ outlines, height: 0.97 * wheel.thickness }); // thinner than its teeth: faces at one height flicker
+    return flatShape({ outlines, height: 0.97 * wheel.thickness }); // thinner than the teeth, because coplanar faces flicker
   }
 
   worm() {
@@ -84,7 +84,7 @@ export class WheelPart {
     for (const slot of this.slots) this.palette.paint(slot, look);
   }
 
-  /** shown   at all; `toothed`, with its teeth */
+  /** shown   true if the wheel is visible; `toothed`: with its teeth */
   show(shown, toothed) {
     this.palette.paint(this.own, { shown });
     this.palette.paint(this.toothed, { shown: shown && toothed });
@@ -92,20 +92,20 @@ export class WheelPart {
   }
 }
 
-/** Points round a circle, x and y by turns. */
+/** Points of a circle as alternating x and y. */
 const circle = (radius) => Array.from({ length: 168 }, (_, n) => (Math.PI * n) / 84).flatMap((angle) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
 
 const mates = (scene, index) =>
   scene.pairs.filter(({ wheels }) => wheels.includes(index)).map(({ wheels: [one, other] }) => (one === index ? other : one));
 
-/** A wheel that runs on a worm has teeth that go along its thread. */
+/** The wheel, with teeth along the thread if it meshes with a worm. */
 function alongThread(scene, index) {
   const worm = mates(scene, index).find((at) => scene.wheels[at].kind === "worm");
   if (worm === undefined) return scene.wheels[index];
   return { ...scene.wheels[index], helix: Math.atan(threadOf(scene, worm).lead / (2 * Math.PI * scene.wheels[worm].radius)) };
 }
 
-/** Lead of a worm's thread (mm a turn, negative for a left hand), so that it drives its wheel as the speeds say. */
+/** Lead of a worm's thread (mm per turn, negative for a left hand), with the hand that agrees with the speeds. */
 function threadOf(scene, index) {
   const worm = scene.wheels[index];
   const mate = mates(scene, index).map((at) => scene.wheels[at])[0];
@@ -114,6 +114,6 @@ function threadOf(scene, index) {
   const [own, other] = [worm, mate].map(({ body }) => Math.sign(Number.parseFloat(scene.bodies[body].speed ?? "0")) * scene.bodies[body].sense);
   const contact = vector(worm.centre).sub(vector(mate.centre));
   const push = vector(mate.direction).cross(contact).dot(vector(worm.direction)) * other;
-  const hand = push * own > 0 ? -1 : 1; // a right-handed thread that turns forward runs backward
+  const hand = push * own > 0 ? -1 : 1; // a right-handed thread that turns in the positive sense moves backwards
   return { lead: hand * lead, length: Math.max(worm.thickness, Math.min(3 * Math.abs(lead), mate.radius)) };
 }

@@ -1,4 +1,4 @@
-// A train in space: its parts, cast into one geometry, each of which finds its body's pose when it is drawn.
+// A train in space: its parts, merged into one geometry; the shader reads the pose of each part's body.
 
 import { barBetween, hubs, spans, supports } from "./arbors.js";
 import { Bend } from "./bend.js";
@@ -35,7 +35,7 @@ export class World {
     this.quarter = quarterOf(this.scene, this.size);
     this.materials = metals(this.nodes.length, this.main, this.ball.center, this.size, this.quarter);
     this.uniforms = this.materials[0].uniforms;
-    this.castings = [new Casting(), new Casting(), new Casting()]; // teeth come later, when the rest is seen; covers
+    this.castings = [new Casting(), new Casting(), new Casting()]; // all but teeth; teeth, which are added later; covers
     this.parts = [];
     this.build();
     this.bends = this.scene.waves.map((wave) => this.bendOf(machine, wave));
@@ -83,7 +83,7 @@ export class World {
     this.crank?.parts.forEach((part) => this.put(part));
   }
 
-  /** A thin wheel, with the wall that goes on from its face. */
+  /** A flexible wheel, with the wall that continues its face. */
   bendOf(machine, wave) {
     const part = this.wheels[wave.wheel];
     const { body, thickness } = part.wheel;
@@ -95,7 +95,7 @@ export class World {
     return new Bend(machine, wave, part, joined.map(({ slot, ends }) => ({ slot, bottom: ends[1] })));
   }
 
-  /** At the end of its arbor that is the less in the way of what runs in it; lengthened past that. */
+  /** Adds the crank at the end of its arbor where it is less in the way of other parts; the arbor is lengthened past them. */
   buildCrank(reach) {
     const { scene, size } = this;
     if (scene.crank === null || scene.bodies[scene.crank].parent === null) return null;
@@ -111,7 +111,7 @@ export class World {
       : isParallel(body.direction, this.main.toArray())
         ? vector(body.direction).dot(this.main) * scene.front
         : off(high) - off(low);
-    // before a dial it would hide what is read there
+    // in front of a dial the crank would hide its scale
     const read = new Set(scene.dials.filter(({ centre, normal }) => offAxis(body, centre) < 1e-6 * size && isParallel(body.direction, normal)).map(({ normal }) => Math.sign(vector(normal).dot(vector(body.direction)))));
     const side = read.size === 1 ? -[...read][0] : outward < 0 ? -1 : 1;
     const last = side > 0 ? high : low;
@@ -119,7 +119,7 @@ export class World {
     const foot = own[side > 0 ? 1 : 0];
     const rod = rodsOf(scene, scene.crank).sort((one, other) => side * (other[0] - one[0]))[0];
     const crank = crankOf(scene, scene.crank, end, side, 0.12 * size, size);
-    crank.at = onAxis(body, last); // in the exploded view, it moves as far as its support
+    crank.at = onAxis(body, last); // in the exploded view, it moves with its support
     for (const part of crank.parts) part.at = crank.at;
     const bar = (from, to, at) => ({ body: scene.crank, colour: PARTS.arbor, ...barBetween(onAxis(body, from), onAxis(body, to), rod ? rod[2] : 0.009 * size), at });
     crank.parts.push(bar(foot - side * 0.01 * size, last, null), bar(last - side * 0.005 * size, end, crank.at));
@@ -140,7 +140,7 @@ export class World {
     return this.castings[at].cast(this.materials, (slot) => this.palette.looks[slot].opened);
   }
 
-  /** The teeth, cast when the rest can be seen already. */
+  /** Adds the teeth, after the other parts are visible. */
   castTeeth() {
     const many = this.scene.wheels.reduce((sum, { teeth }) => sum + teeth, 0);
     for (const part of this.wheels) part.castTeeth(this.adder(this.castings[1], part), many);
@@ -158,12 +158,12 @@ export class World {
     this.sparks?.set(this.machine.time());
   }
 
-  /** Updates thin wheels to the present position of their waves. */
+  /** Updates flexible wheels to the current position of their waves. */
   bend() {
     for (const bend of this.bends) bend.turn(this.castings);
   }
 
-  /** With a quarter of rings, drums and plates cut out, or whole. */
+  /** Cuts a quarter out of rings, drums and plates, or closes it. */
   cutOpen(opened) {
     this.opened = opened && Boolean(this.quarter);
     cutOpen(this.materials, this.opened);
@@ -177,7 +177,7 @@ export class World {
     this.ground.fit(this.outline());
   }
 
-  /** Points that a picture of the whole must include, in its present exploded state. */
+  /** Points that a picture of the train must include, in its current exploded view. */
   outline() {
     const { crank, poses } = this;
     const swing = crank ? pointsOf({ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }) : [];
@@ -189,7 +189,7 @@ export class World {
     return [...outlineOf(this.scene, poses), ...swing.map((point) => moved(point, crank.body, crank.at)), ...held];
   }
 
-  /** Where a point of the crank (its foot or its knob) is now. */
+  /** Current position of a point of the crank (its foot or its knob). */
   ofCrank(point) {
     const { body, at } = this.crank;
     return this.poses.apart(point, this.poses.lift(body, at)).applyMatrix4(this.nodes[body].matrixWorld);
@@ -200,7 +200,7 @@ export class World {
     const rays = this.nodes.map(() => null);
     const seenBy = (body) => (rays[body] ??= ray.clone().applyMatrix4(this.nodes[body].matrixWorld.clone().invert()));
     const shift = (lift) => this.main.clone().multiplyScalar(this.poses.share * lift);
-    const glass = new Set(this.looks.glass?.map((part) => part.slot)); // one taps through it
+    const glass = new Set(this.looks.glass?.map((part) => part.slot)); // a tap passes through transparent parts
     const gone = (slot, distance) => this.opened && this.palette.looks[slot].opened && holds(this.quarter, ray.at(distance, vector([0, 0, 0])));
     let [nearest, slot] = [Infinity, null];
     for (const casting of this.castings) {
@@ -212,12 +212,12 @@ export class World {
     return wheel < 0 ? null : wheel;
   }
 
-  /** Covers and pillars between a camera and the wheels are of glass. */
+  /** Makes covers and pillars between a camera and the wheels transparent. */
   glaze(eye) {
     this.looks.glaze(eye, this.ball.center);
   }
 
-  /** What the materials read, up to date. */
+  /** Updates the textures that the materials read. */
   refresh() {
     this.uniforms.palette.value = this.palette.refresh();
     for (const casting of this.castings) {

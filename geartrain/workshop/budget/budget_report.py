@@ -128,7 +128,7 @@ def _pointer(pointer: PointerBudget) -> Section:
             cause.name,
             _degrees(cause),
             _figure(cause.rms),
-            _interval_text(cause),
+            "" if cause.interval is None else f"{cause.interval[0]:.3g}..{cause.interval[1]:.3g}",
             _figure(cause.days),
             cause.note,
         )
@@ -140,10 +140,6 @@ def _pointer(pointer: PointerBudget) -> Section:
         sizes = [(name, f"{size:.3g}") for name, size in pointer.pairs.items()]
         tables.append(Table(("single pair", "deg peak to peak"), cut(sizes, most=_PAIRS)))
     return Section(f"Ranked: {pointer.name}", (), tables)
-
-
-def _interval_text(cause: BudgetCause) -> str:
-    return "" if cause.interval is None else f"{cause.interval[0]:.3g}..{cause.interval[1]:.3g}"
 
 
 def _crank(found: TrainBudget) -> Section:

@@ -32,7 +32,7 @@ MOST_PASSAGES = 600_000
 
 Longer runs are cut off at this number, which takes about two minutes without compiled kernels.
 """
-SAMPLES = 2_000
+SAMPLES = 2_000  # positions of the input in a run
 
 
 def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:
@@ -155,9 +155,7 @@ class CrankLoad(Result):
     `over_turn`.
     """
     efficiency: float | None
-    """Output power divided by input power. None if neither friction nor an efficiency is declared, or if the value is
-    undetermined.
-    """
+    """Output power divided by input power; None if undetermined, or without declared friction or efficiency."""
     note: str
     """Note on the loads that apply, or on missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)

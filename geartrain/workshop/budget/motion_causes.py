@@ -21,16 +21,16 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.extreme_search import ExtremeSearch
-from geartrain.dynamics.motion.rate_bounds import error_difference
-from geartrain.dynamics.motion.run_statistics import RunningStatistics, SampledPeaks, count_extremes
+from geartrain.dynamics.motion.error_composition import ErrorSamples
+from geartrain.dynamics.motion.extreme_search import count_extremes
+from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.workshop.budget.pointer_budget import BudgetCause, CauseName, Declared
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
-    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
+    from geartrain.dynamics.motion.error_composition import ErrorComposition
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.arrays import Floats
@@ -59,11 +59,10 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at input positions `turns` [turns of the input], at most `chunk`
-        positions.
-        """
+        """Return the differences of the errors at input positions `turns` [turn], at most `chunk` of them."""
         one, other = self.one.at(turns), self.other.at(turns)
-        return error_difference(one, other)
+        both = one.reversing_drivers | other.reversing_drivers
+        return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
 
 
 class DeclaredPairs(NamedTuple):
@@ -102,8 +101,7 @@ def without_teeth(motion: Motion) -> Motion:
 def find_tooth_motion(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> ToothMotion:
-    """Return the ripple and the lost motion of every output, from `samples` positions within `turns` turns of the
-    input.
+    """Return the ripple and lost motion of every output from `samples` positions in `turns` turns of the input.
 
     on_done   callback with the number of positions of each chunk that is done
     """
@@ -113,21 +111,18 @@ def find_tooth_motion(
     tallies = motion._statistics()
     maximum, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
     back: set[str] = set()
-    peaks = SampledPeaks(len(tallies))
     chunk = min(ripple.chunk, lost.chunk)
     for start in range(0, samples, chunk):
         at = turns * (np.arange(start, min(start + chunk, samples)) / (samples - 1))
         passage, backlash = ripple.at(at), lost.at(at)
         for tally, error, rate in zip(tallies, passage.error, passage.rate, strict=True):
             tally.add(error, rate)
-        peaks.add(passage)
         back |= passage.reversing_drivers | backlash.reversing_drivers
         maximum = np.maximum(maximum, np.abs(backlash.error).max(axis=1))
         squares += np.sum(backlash.error**2, axis=1)
         on_done(len(at))
     # samples miss the extremes, so each is refined
-    search = ExtremeSearch(ripple.one, less=ripple.other)
-    count_extremes(search, turns, turns / (samples - 1), peaks, tallies)
+    count_extremes([ripple.one, ripple.other], ripple, turns, tallies)
     names = list(motion.outputs)
     return ToothMotion(
         dict(zip(names, tallies, strict=True)),
@@ -142,10 +137,9 @@ def find_tooth_motion(
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return by output the peak-to-peak error that each gear pair causes [deg]: its own error multiplied by its
-    sensitivity.
+    """Return the peak-to-peak error that each gear pair causes [deg]: its own error times its sensitivity.
 
-    Pairs are in descending order of this error. Pins and pairs without influence are omitted.
+    The errors are grouped by output, in descending order. Pins and pairs without influence are omitted.
     """
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.pins}
@@ -257,7 +251,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
     for _ in range(_STEPS):
         step = (E - e * np.sin(E) - M) / (1 - e * np.cos(E))
         E = E - step
-        if np.max(np.abs(step), initial=0.0) < 1e-15:
+        if np.max(np.abs(step), initial=0.0) < 1e-15:  # rounding errors of E
             break
     # nu - E by one atan2, without half angles, is continuous over many turns
     beta = e / (1 + np.sqrt(1 - e * e))
@@ -339,8 +333,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre [rad], with the phase shift that minimises the sum of
-    squares.
+    """Return an error over one cycle minus the equation of centre at the best phase (least squares) [rad].
 
     error   error at phases 2 pi k/n, shape (n,) [rad]; the mean of the result is 0
     """

@@ -44,9 +44,7 @@ class BudgetCause(Result):
     degrees: float | None = None
     """Size of this contribution as defined by `measure` [deg]; None if it is unknown."""
     rms: float | None = None
-    """Root mean square of the contribution [deg]. For a drift and for cutting, it is taken of the deviation from the
-    mean; for lost motion, of the value itself.
-    """
+    """Root mean square [deg] of the contribution; for a drift and for cutting, of its deviation from the mean."""
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 
@@ -71,8 +69,7 @@ class BudgetCause(Result):
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """Return the cause with its size also given in days; unchanged if its size or the speed of the pointer is
-        unknown.
+        """Return the cause with its size also in days; unchanged if its size or the pointer's speed is unknown.
 
         Parameters
         ----------
@@ -91,8 +88,7 @@ class BudgetCause(Result):
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer relative to one of its targets, due to the error of the pointer's mean speed; positive if the
-    pointer is fast.
+    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast.
 
     See Also
     --------
@@ -146,13 +142,9 @@ class PointerBudget(Result):
     causes: tuple[BudgetCause, ...]
     """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift of the pointer relative to each target. The magnitude of the first drift over the span is the size of the
-    cause "ratio".
-    """
+    """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
     pairs: Mapping[str, float] | None = None
-    """Mapping from pair to the peak-to-peak pointer error due to the teeth of that pair only [deg], in descending
-    order; None if unknown.
-    """
+    """Peak-to-peak pointer error due to the teeth of one pair only [deg], by pair, descending; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
@@ -180,9 +172,7 @@ class PointerBudget(Result):
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Time after which the drift is equal to the largest other cause [Julian years]; None without a drift or
-        another known cause.
-        """
+        """Time after which the drift equals the largest other cause [Julian years]; None if either is unknown."""
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
@@ -242,13 +232,11 @@ class TrainBudget(Tabular, Pictured, Result):
     crank: CrankLoad
     """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, for each clearance; empty for the reason given in `jams_note`.
-    """
+    """Probability that wheels with cutting errors jam, for each clearance; `jams_note` explains an empty tuple."""
     jams_note: str = ""
     """Reason why `jams` is empty; "" if `jams` has entries."""
     reversing_drivers: tuple[str, ...] = ()
-    """Names of pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal.
-    """
+    """Pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal."""
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)

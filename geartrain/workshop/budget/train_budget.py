@@ -79,9 +79,7 @@ class BudgetQuestion:
     samples: int = 20_000
     """Number of positions of the input within `turns`, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default the declared errors
-    are used.
-    """
+    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default none."""
     trials: int = 256
     """Number of trials with cutting errors."""
     seed: int = 1
@@ -91,9 +89,7 @@ class BudgetQuestion:
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
     """Clearances at which jams are counted: fractions of each pair's clearance window, or clearance factors above 1."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Mapping from output to the celestial body whose true motion it represents, for outputs whose name does not
-    indicate the body; None for no body.
-    """
+    """Body whose true motion an output represents, by output, if its name does not indicate it; None for no body."""
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
@@ -339,8 +335,7 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def find_cutting_trials(
     plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
 ) -> tuple[TrialResults, Floats]:
-    """Return trials with cutting errors, and the errors of perfect teeth at the same positions [rad], shape (outputs,
-    trials).
+    """Return trials with cutting errors, and errors of perfect teeth at their positions (outputs, trials) [rad].
 
     motion   motion with perfect teeth
     """

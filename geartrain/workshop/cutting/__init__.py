@@ -4,7 +4,6 @@ declared_errors      errors that a train declares, and their overrides
 cut_wheel            triangular wheels, one or many, and pairs of two wheels
 displaced_pair       wheels of all other tooth forms, with displaced flanks
 meshing_cycle        events of many pairs at once: jam, clash, dwell, loss of contact
-minimum_backlash     minimum backlash between a front and a back tooth pair, by Newton's method with bisection
 trial_transmission   transmission functions of many pairs at once
 file_strokes         filing of pairs until they do not jam
 """

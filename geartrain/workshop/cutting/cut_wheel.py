@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, RangeError
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, ToothPair
 
 if TYPE_CHECKING:
@@ -55,13 +54,9 @@ class CutWheel:
     tip: Floats
     """Height of each tip above R [unit of R]."""
     leading: Floats
-    """Angle by which each leading flank deviates from the half angle, positive if flatter, rotated about the tip
-    [rad].
-    """
+    """Angle by which each leading flank, rotated about the tip, is flatter than the half angle [rad]."""
     trailing: Floats
-    """Angle by which each trailing flank deviates from the half angle, positive if flatter, rotated about the tip
-    [rad].
-    """
+    """Angle by which each trailing flank, rotated about the tip, is flatter than the half angle [rad]."""
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
@@ -110,36 +105,8 @@ class CutWheel:
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
-    # ------------------------------------------------------------------------------------------------------ with errors
-
-    def placed(self, place: ArrayLike) -> CutWheel:
-        """Return the wheel with pitch deviations added: each tooth is rotated backwards by `place` [rad].
-
-        Raises `RangeError` if a tooth cannot be cut.
-        """
-        return replace(self, place=self.place + np.asarray(place)).checked()
-
-    def grown(self, tip: ArrayLike) -> CutWheel:
-        """Return the wheel with tip heights increased by `tip` [unit of R]; flank angles do not change."""
-        return replace(self, tip=self.tip + np.asarray(tip)).checked()
-
-    def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Return the wheel with flank angles increased [rad], so that flanks are flatter; one argument applies to both
-        flanks.
-        """
-        trailing = leading if trailing is None else trailing
-        return replace(
-            self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
-        ).checked()
-
-    def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
-        """Return the wheel with its teeth cut about a centre at a distance e from the axis [unit of R], in a direction
-        [rad].
-        """
-        return self.moved(e, towards).checked()
-
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel as `eccentric` does, without checking that it can be cut."""
+        """Return the wheel cut about a centre at a distance e from the axis [unit of R], in a direction [rad]."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -169,9 +136,7 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirror image of the wheel, which turns the other way; its tooth i is tooth `first` - i of this
-        wheel.
-        """
+        """Return the mirror image, which turns the other way; its tooth i is tooth `first` - i of this wheel."""
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
@@ -182,22 +147,6 @@ class CutWheel:
             self.trailing[..., order],
             self.leading[..., order],
         )
-
-    # ---------------------------------------------------------------------------------------------------------- checks
-
-    def checked(self) -> CutWheel:
-        """Return the wheel itself; raise `RangeError` if an error leaves no tooth or no tooth space."""
-        if not self.cuttable.all():
-            bad = int(np.size(self.cuttable) - np.count_nonzero(self.cuttable))
-            where = np.unravel_index(int(np.argmin(self.cuttable)), np.shape(self.cuttable))
-            raise RangeError(
-                Problem(
-                    f"{bad} of {np.size(self.cuttable)} teeth cannot be cut; the first is tooth {where[-1]}",
-                    "facing flanks of two teeth must form a space, and both flanks of a tooth must meet at its tip",
-                    "give smaller errors, such as pitch deviations below one pitch and flank angles above 0",
-                )
-            )
-        return self
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:
@@ -225,8 +174,7 @@ def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the radial displacement [unit of radius] and the rotation [rad], about a fixed centre, of points that are
-    shifted. The formula is exact.
+    """Return radial displacement [unit of radius] and rotation about the origin [rad] of shifted points, exactly.
 
     radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift
@@ -309,9 +257,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum angle at which the teeth of wheel 1 can touch, equation (4); 0 if tips do not
-    reach each other.
-    """
+    """Return the sine of half the maximum contact angle of wheel 1, equation (4); 0 if tips do not reach each other."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
@@ -362,9 +308,7 @@ class CutGearPair:
         return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations of the driving and the driven teeth of the tooth pairs k [rad], positive
-        backwards.
-        """
+        """Return the pitch deviations of both teeth of each tooth pair k [rad], positive backwards."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
@@ -379,9 +323,7 @@ class CutGearPair:
 
     @cached_property
     def widest(self) -> float:
-        """Upper bound of the angle |alpha_1| at which any tooth pair can touch [rad of the driver]; -inf if none can
-        touch.
-        """
+        """Upper bound of |alpha_1| at which any tooth pair can touch [rad of the driver]; -inf if none can."""
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii

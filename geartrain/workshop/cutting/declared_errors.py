@@ -21,16 +21,8 @@ ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "eccentricity", "tip", "aperture_deviation")
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
-MOST = {
-    "pitch_deviation": 1.0,
-    "aperture_deviation": 1.0,
-    "tip": 2.0,
-    "eccentricity": 2.0,
-    "centre": 2.0,
-    "bearing": 2.0,
-}
-"""Exclusive upper limits of errors as fractions of pitch, half angle or depth; an error at the limit leaves no tooth.
-"""
+MOST = {kind: 1.0 if kind in ("pitch_deviation", "aperture_deviation") else 2.0 for kind in ERROR_KINDS}
+"""Exclusive upper limits of errors as fractions of pitch, half angle or depth; at the limit no tooth remains."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,16 +32,10 @@ class ErrorSpecification:
     size: float = 0.0
     way: ErrorDistributionKind = "value"
 
-    def times(self, factor: float) -> ErrorSpecification:
-        """Return the error with its size multiplied by a factor."""
-        return replace(self, size=self.size * factor)
-
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces a declared error: kind, distribution and amount, for the wheel or pair named `of`, or for all
-    wheels or pairs if `of` is empty.
-    """
+    """Error that replaces the declared error of its kind, for the wheel or pair `of`, or for all if `of` is empty."""
 
     kind: str
     way: ErrorDistributionKind
@@ -188,9 +174,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """Return the errors of the axes of a pair, as fractions of the tooth depth of `lesser`, the wheel with the smaller
-    depth.
-    """
+    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with smaller depth."""
     fitting = mesh.gear.fitting or train.fitting
     reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}
@@ -213,7 +197,7 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the unit of each fraction by kind: an angle [rad] or a length [m]; None without a module with a unit."""
+    """Return the unit of each fraction by kind, an angle [rad] or a length [m]; None for lengths without a module."""
     deep = None
     module = wheel.transverse_module
     if module is not None:
@@ -260,9 +244,8 @@ class _Reader:
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
             if abs(off.size) >= MOST[kind]:  # also for random errors: one standard deviation must leave a tooth
-                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}.get(
-                    kind, "the depth of its teeth"
-                )
+                units = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}
+                of = units.get(kind, "the depth of its teeth")
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} times {of}"
                 pitch = self.scales["pitch_deviation"] or 0
                 why = (

@@ -90,9 +90,7 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """Return the flattening angles [rad] and the depths of removed material [module] of the trailing or leading
-        flanks.
-        """
+        """Return the flattening angles [rad] and the removed depths [module] of the trailing or leading flanks."""
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
@@ -109,9 +107,7 @@ class DisplacedWheel:
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirror image of the wheel, which turns the other way; its tooth i is tooth `first` - i of this
-        wheel.
-        """
+        """Return the mirror image, which turns the other way; its tooth i is tooth `first` - i of this wheel."""
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],
@@ -178,9 +174,7 @@ class DisplacedPair:
 
     @cached_property
     def widest(self) -> tuple[float, float]:
-        """First and last angle, relative to the nominal position of a tooth, at which it can touch [rad of the
-        driver].
-        """
+        """First and last angle at which a tooth can touch, relative to its nominal position [rad of the driver]."""
         at, (leaving, entering) = self.contact, self._end_margins
         return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
 
@@ -201,55 +195,22 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the terms of all tooth pairs that may have the minimum lag, with the driver at the angle u within a
-        pitch [rad].
-        """
+        """Yield the terms of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
         ends = (low - sign * u) / pitch, (high - sign * u) / pitch
-        found = []
         for steps in range(int(np.ceil(ends[0])), int(np.floor(ends[1])) + 1):
             x = sign * u + steps * pitch
-            nominal = float(self._even(np.array(x)))
-            found.append((nominal, x, int(sign) * steps))
-        minimum = min((nominal for nominal, _, _ in found), default=np.inf)
-        for nominal, x, j in found:
-            # far beyond the end of its path, the lag of a tip exceeds any effect of errors
-            if nominal <= minimum + self._spread:
-                yield self._side(u, x, j, back)
-
-    @cached_property
-    def _spread(self) -> float:
-        """Upper bound of the difference of the lags of two tooth pairs due to errors [rad of the driven wheel]."""
-        at, found = self.contact, 0.0
-        for gear, wheel in enumerate((self.first, self.second)):
-            flanks = np.maximum(np.abs(wheel.leading).max(initial=0.0), np.abs(wheel.trailing).max(initial=0.0))
-            lowered = np.maximum(wheel.leading_low.max(initial=0.0), wheel.trailing_low.max(initial=0.0))
-            moved = np.abs(wheel.place).max(initial=0.0) * (1.0 if gear else float(at.ratio))
-            tips = at.longer[gear] * np.abs(wheel.tips).max(initial=0.0) * float(at.ratio)
-            # twice, because errors can delay one pair and advance the other; filing only delays
-            found += float(2 * (moved + flanks * np.abs(at.tilt[gear]).max() + tips) + lowered * at.normal.max())
-        # steepest lag beyond the ends: teeth with pitch deviations meet the ends at other positions
-        late = np.abs(self.first.place).max(initial=0.0)
-        return found + float(self._steep * late)
-
-    @property
-    def _steep(self) -> float:
-        at = self.contact
-        return max(float(np.diff(each.lags).max(initial=0.0)) / each.step for each in (at.entering, at.leaving))
+            # infinite beyond the reach of nominal tips, which errors of tips hardly extend
+            if np.isfinite(self._kinks(np.array(x))):
+                yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag while tips touch beyond the ends of the path of contact [rad], for tips raised by given
-        amounts.
-        """
+        """Return the lag beyond the ends of the path of contact, where tips touch [rad]; tips may be raised."""
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
-
-    def _even(self, x: Floats) -> Floats:
-        """Return the lag of perfect wheels [rad], also beyond the ends of the path of contact."""
-        return np.asarray(self._along(self.contact.even, x) + self._kinks(x))
 
     def _along(self, column: Floats, x: Any) -> Any:
         """Return one column of the contact interpolated linearly at x [rad]; it is constant beyond the ends."""
@@ -257,8 +218,7 @@ class DisplacedPair:
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all columns of the contact interpolated linearly at x [rad]; they are constant beyond the ends, where
-        `_kinks` adds the lag of tips.
+        """Return all columns of the contact at x [rad], interpolated linearly and constant beyond the ends.
 
         Order: across, along and tilt of both wheels, normal, even, apart.
         """
@@ -307,9 +267,7 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the terms of a front and of a back tooth pair, for all that touch at the same position of the
-        driver.
-        """
+        """Yield the terms of each front and back tooth pair that can touch at the same driver position."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -328,9 +286,7 @@ class DisplacedPair:
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash, with the flank that protrudes most among the four in contact
-        there.
-        """
+        """Return the position of minimum backlash, and the most protruding of the four flanks in contact there."""
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
@@ -343,34 +299,18 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the flank that protrudes most among the four in contact, in selected
-        trials.
-        """
+        """Return wheel, tooth and side of the most protruding of the four flanks in contact, in selected trials."""
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
-        left = np.stack(
-            [
-                terms_at(front.driver, rows, n1),
-                terms_at(back.driver, rows, n1),
-                terms_at(back.driven, rows, n2),
-                terms_at(front.driven, rows, n2),
-            ]
-        )
-        teeth = np.stack(
-            [
-                (n1 - front.pitches) % z1,
-                (n1 - back.pitches) % z1,
-                (n2 - back.pitches + 1) % z2,
-                (n2 - front.pitches) % z2,
-            ]
-        )
+        terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
+        left = np.stack([terms_at(each, rows, n) for each, n in terms])
+        f, b = front.pitches, back.pitches
+        teeth = np.stack([(n1 - f) % z1, (n1 - b) % z1, (n2 - b + 1) % z2, (n2 - f) % z2])
         flank = left.argmin(axis=0)
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return the pair with material removed from the flanks [module], by one array (trials, 2 sides, z) for each
-        wheel.
-        """
+        """Return the pair with more material removed from its flanks: (trials, 2 sides, z) for each wheel [module]."""
         first, second = (
             wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
         )
@@ -400,9 +340,6 @@ class DisplacedPair:
         # just inside the limit, so that rounding does not put the pair out of reach
         x += 1e-9 * at.pitches[0] * (1 if entering else -1)
         other = x + j * at.pitches[0]
-        nominal = float(self._even(np.array(other))), float(self._even(np.array(x)))
-        if not nominal[0] + self._spread > nominal[1]:
-            return np.zeros(self.trials, bool)
         # the lag of tips is steep beyond their path, so each pair is evaluated where its own tips meet
         late = self.first.place
         own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)
@@ -415,9 +352,7 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k with the driver at angles S [rad]; for back flanks
-        the lead.
-        """
+        """Return the lag due to tooth pairs k at driver angles S [rad of the driven wheel]; for back flanks a lead."""
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -440,9 +375,7 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag over all tooth pairs at driver angles S [rad], and the number of the tooth pair with
-        this lag; the lag is inf without contact.
-        """
+        """Return the minimum lag at driver angles S [rad], and the number of its tooth pair; inf without contact."""
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -461,9 +394,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 for conjugate flanks at their nominal
-    centre distance.
-    """
+    """Return the mean lag of perfect wheels [rad of the driven wheel]; 0 for conjugate flanks at nominal distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))

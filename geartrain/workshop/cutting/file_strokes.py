@@ -50,6 +50,7 @@ def file_to_fit(
     for _ in range(_ROUNDS):
         part = pair.taken(active).filed((low[0][active], low[1][active]))
         tight = tight_place(part)
+        # pairs that pass are not evaluated again
         jams = tight.backlash < 0
         active, tight = active[jams], _some(tight, jams)
         if not len(active):
@@ -78,9 +79,7 @@ def _some(tight: TightPlace, rows: Bools) -> TightPlace:
 
 
 def tight_place(pair: CutGearPair) -> TightPlace:
-    """Return the position of minimum backlash of each pair of triangular wheels, with the flank that protrudes most
-    among the four in contact.
-    """
+    """Return the position of minimum backlash of triangular pairs, and the most protruding flank in contact there."""
     parts = [MeshingCycle(part).tightest() for part in chunks(pair, CHUNK // pair.count)]
     backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
     rows, (z1, z2), sizes = np.arange(len(backlash)), pair.teeth, pair.sizes
@@ -88,7 +87,12 @@ def tight_place(pair: CutGearPair) -> TightPlace:
     # the back pair joins the driver's tooth to the next driven tooth
     teeth = np.stack([front % z1, back % z1, (back + 1) % z2, front % z2])
     sides = [(pair.first, 0), (pair.first, 1), (pair.second, 0), (pair.second, 1)]
-    out = np.stack([_flank_height(*each)[rows, own] for each, own in zip(sides, teeth, strict=True)])
+    out = np.stack(
+        [
+            np.broadcast_to(_flank_height(*each), (len(rows), each[0].z))[rows, own]
+            for each, own in zip(sides, teeth, strict=True)
+        ]
+    )
     flank = out.argmax(axis=0)
     # a flank is inclined by its half angle plus the reach, which gives a lower bound of the moment arm
     lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
@@ -99,8 +103,8 @@ def tight_place(pair: CutGearPair) -> TightPlace:
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:
-    """Return the height of each flank along its normal above nominal, halfway down the tooth, shape (trials, z)."""
+    """Return the height of each flank along its normal above nominal, halfway down the tooth, shape (..., z)."""
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
-    found = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean
-    return np.broadcast_to(found, (*wheel.trials, wheel.z)) if wheel.trials else found[None]
+    found: Floats = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean
+    return found

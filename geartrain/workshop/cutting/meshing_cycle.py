@@ -1,6 +1,6 @@
 """Events of many pairs of cut wheels at once: jam, clash, dwell and loss of contact.
 
-Events occur only at a few positions. Two flanks jam where a front and a back tooth pair come nearest (`backlash`). The
+Events occur only at a few positions. Two flanks jam where a front and a back tooth pair come nearest (`tightest`). The
 driven wheel dwells only where a tooth pair leaves, and a tooth meets a tip only where one enters. A cycle of
 lcm(z1, z2) tooth pairs therefore needs a few contact computations each, without time steps (`MeshingCycle`).
 
@@ -10,6 +10,11 @@ their deviations. The minimum backlash of a front tooth pair against the back to
 of the two driving teeth) minus the distance between the two driven teeth: one term depends on driving teeth, the other
 on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent modulo gcd(z1, z2). So the
 minimum of the sums is, in each residue class, the sum of the two minima.
+
+With the driver's front tooth at x and its back tooth `delta` before it, the backlash is f(x) + f'(delta - x) plus terms
+of the driven teeth. Here f belongs to the leading flank and f' to the mirrored tooth pair. Both are the minimum of two
+smooth functions, which are convex for ordinary teeth. The minimum backlash is therefore the minimum of four sums of
+smooth functions, or is at an end of the common reach.
 """
 
 from __future__ import annotations
@@ -17,33 +22,25 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import gcd, inf
+from math import erfc, floor, gcd, inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, RangeError
+from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.workshop.cutting.cut_wheel import ROUNDING, CutGearPair, CutToothPairs
-from geartrain.workshop.cutting.minimum_backlash import (
-    BacklashCandidate,
-    backlash_candidates,
-    common,
-    even_tooth_pair,
-    farthest,
-    minimum_sum,
-    steepest,
-)
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 
+PHASES = ((RECESS, RECESS), (RECESS, APPROACH), (APPROACH, RECESS), (APPROACH, APPROACH))
+_MOST_STEPS = 30  # pure bisection would reach 1e-9 of the common reach
+SLACK = 0.05  # driven pitches: initial bound of estimated minus exact backlash, enlarged if it proves too small
+_NEAR = 1e-6  # of the common reach: after such a step the error of the value, quadratic in the step, is rounding
 CHUNK = 1 << 15  # tooth pairs processed at once: their arrays stay in the cache, and memory is bounded
-_SLACK = 0.05  # driven pitches: initial bound of estimated minus exact backlash, enlarged if it proves too small
 _NODES = 2001  # of the table of J_n, with linear interpolation: the error is below 1e-6 of a pitch
 _UNSURE = 1e-4  # driven pitches: a smaller backlash is recomputed without tables, so that their error cannot matter
 
@@ -75,9 +72,7 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that cannot turn through their cycle with a dragging driven wheel, because of a jam or a
-        clash.
-        """
+        """Mask of pairs that jam or clash, and so cannot turn through their cycle with a dragging driven wheel."""
         return self.jams | self.clash
 
     @classmethod
@@ -94,9 +89,7 @@ class TightPlace:
     backlash: Floats
     """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
-    trailing.
-    """
+    """Wheel to file: 0 driver, 1 driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1 trailing."""
     tooth: Ints
     side: Ints
     gain: Floats
@@ -104,11 +97,7 @@ class TightPlace:
 
 
 def batch_verdicts(
-    sizes: TriangularSizes,
-    first: CutWheel,
-    second: CutWheel,
-    shift: Any = 0.0,
-    chunk: int = CHUNK,
+    sizes: TriangularSizes, first: CutWheel, second: CutWheel, shift: Any = 0.0, chunk: int = CHUNK
 ) -> MeshingVerdicts:
     """Return the events of each trial, for wheels with arrays (trials, z), or (z,) for a wheel common to all trials.
 
@@ -116,42 +105,11 @@ def batch_verdicts(
     chunk   number of tooth pairs processed at once
     """
     whole = CutGearPair(sizes, first, second, shift)
-    if (first.z, second.z) != (sizes.z1, sizes.z2):
-        raise RangeError(
-            Problem(
-                f"wheels of {first.z} and {second.z} teeth do not match a pair of {sizes.z1} and {sizes.z2} teeth",
-                "the wheels must have the tooth counts of the pair, and the driver comes first",
-                f"give wheels of {sizes.z1} and {sizes.z2} teeth, in this order",
-            )
-        )
-    if len(whole.trials) != 1 or whole.trials[0] < 1:
-        raise RangeError(
-            Problem(
-                f"wheels with trials of shape {whole.trials} are not a batch",
-                "a batch has one axis of trials, with at least one trial",
-                "give arrays of shape (trials, z) for at least one of the wheels",
-            )
-        )
     # with a common contact function the cost does not depend on the length of the cycle
-    if first.only_pitch_deviations and second.only_pitch_deviations and np.ndim(shift) == 0:
-        return verdicts_of_pitch_errors(whole, chunk)
+    if first.only_pitch_deviations and second.only_pitch_deviations and not np.any(shift):
+        parts = chunks(whole, chunk // (sizes.z1 + sizes.z2))
+        return MeshingVerdicts.joined([verdicts_of_pitch_errors(part, chunk) for part in parts])
     return MeshingVerdicts.joined([cycle_verdicts(part) for part in chunks(whole, chunk // whole.count)])
-
-
-def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    teeth = _EntriesAndExits(pair)
-    if teeth.reach < 0:  # the tip circles do not intersect
-        nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
-        return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere)
-    backlash = backlash_of_pitch_errors(pair)
-    for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, chunk // pair.count):
-        backlash[rows] = MeshingCycle(pair.taken(rows)).backlash()
-    clash, stands = np.zeros(len(backlash), bool), np.zeros(len(backlash), bool)
-    for rows in _parts(teeth.doubtful, chunk // pair.count):
-        some = _EntriesAndExits(pair.taken(rows))
-        clash[rows], stands[rows], entering = some.events()
-        backlash[rows] = np.minimum(backlash[rows], entering)
-    return MeshingVerdicts(backlash, clash, stands, teeth.disengaged)
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
@@ -161,11 +119,139 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
         yield pair.taken(slice(start, min(start + step, count)))
 
 
-def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
-    """Yield the indices of the true entries, at most `size` at a time."""
-    rows = np.flatnonzero(chosen)
-    for start in range(0, len(rows), max(1, size)):
-        yield rows[start : start + max(1, size)]
+# -------------------------------------------------------------------- minimum backlash of a front and a back tooth pair
+
+
+@dataclass(frozen=True, slots=True)
+class BacklashCandidate:
+    """Front tooth pair and the back pair n before it, in one phase each, at the minimum backlash of perfect wheels."""
+
+    n: int
+    phases: tuple[str, str]
+    offset: float
+    """Angle alpha_1 at the minimum minus half of n pitches [rad]."""
+    backlash: float
+    """Backlash at the minimum [rad of the driven wheel]."""
+
+
+def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
+    """Return the range of alpha_1 of the front tooth in which both pairs can touch [rad]; empty if low > high."""
+    return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
+
+
+def minimum_backlash_sum(
+    front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
+) -> tuple[Any, Any]:
+    """Return the minimum sum of two contacts, each in one phase, and its position [rad]; inf if both never touch.
+
+    The algorithm is Newton's method safeguarded by bisection, starting at half the reach. The last step improves the
+    value only, by a parabola.
+    """
+    low, high = common(front, back, delta)
+    minimum, most = low, high
+    near = _NEAR * (most - minimum)
+    with np.errstate(all="ignore"):
+        # NaN and inf of tooth pairs that are never in reach together are discarded at the end
+        x = np.clip(delta / 2, low, high)
+        for _ in range(_MOST_STEPS):
+            slope, bend = _slopes(front, back, delta, phases, x)
+            low, high = np.where(slope < 0, x, low), np.where(slope > 0, x, high)
+            step = x - slope / bend
+            # a step that leaves the bracket or is NaN is replaced by a bisection, so every element converges
+            step = np.where((step >= low) & (step <= high), step, low + (high - low) / 2)
+            done = not (np.abs(step - x) > np.where(minimum < most, near, inf)).any()
+            x = step
+            if done:
+                break
+        slope, bend = _slopes(front, back, delta, phases, x)
+        value = front.angle(phases[0], x, np) + back.angle(phases[1], delta - x, np)
+        step = np.where(bend > 0, slope / bend, inf)
+        # an end of the reach is not a stationary point: there the step is long, and no correction applies
+        value = value - np.where(np.abs(step) < near, slope * step / 2, 0.0)
+        return np.where(minimum < most, value, inf), x
+
+
+def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str], x: Any) -> tuple[Any, Any]:
+    slope = front.speed(phases[0], x, np) - back.speed(phases[1], delta - x, np)
+    return slope, front.slope(phases[0], x, np) + back.slope(phases[1], delta - x, np)
+
+
+def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
+    """Return the minimum of f(x) + f'(delta - x) while both tooth pairs can touch [rad]; inf if they never do."""
+    low, high = common(front, back, delta)
+    with np.errstate(all="ignore"):
+        values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
+        ends = [np.where(low < high, front.contact(x) + back.contact(delta - x), inf) for x in (low, high)]
+        return np.fmin.reduce(np.broadcast_arrays(*values, *ends))
+
+
+def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
+    """Return the tooth pair of wheels without errors."""
+    return CutToothPairs.of(sizes, (0.0, 0.0), (0.0, 0.0), 0.0)
+
+
+@lru_cache(maxsize=1024)
+def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
+    """Return the minima of backlash of perfect wheels for all distances n up to `most` tooth pairs.
+
+    For each n, these are the phases whose minimum is within `SLACK` of the smallest.
+    """
+    tooth_pair = even_tooth_pair(sizes)
+    candidates = []
+    for n in range(-most, most + 1):
+        delta, found = n * sizes.p1, []
+        if abs(delta) < 2 * float(tooth_pair.reach):
+            for phases in PHASES:
+                value, x = minimum_backlash_sum(tooth_pair, tooth_pair, np.array(delta), phases)
+                found.append(BacklashCandidate(n, phases, float(x) - delta / 2, float(value) + (1 - n) * sizes.p2))
+        else:
+            # in reach together only with errors: then tips meet tips
+            tips = -2 * float(np.sign(n) * tooth_pair.exit_angle)
+            found.append(BacklashCandidate(n, PHASES[-1 if n > 0 else 0], 0.0, tips + (1 - n) * sizes.p2))
+        limit = min(each.backlash for each in found) + SLACK * sizes.p2
+        candidates += sorted((each for each in found if each.backlash <= limit), key=lambda each: each.backlash)
+    return tuple(candidates)
+
+
+def farthest(pair: CutGearPair) -> int:
+    """Return the maximum number of pitches between tooth pairs that can touch at once; -1 if no pair can touch."""
+    if pair.widest <= 0:
+        return -1
+    return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
+
+
+def steepest(tooth_pair: CutToothPairs) -> float:
+    """Return the maximum speed ratio of a tooth pair, where tips meet at entry; 0 without contact, inf if undefined."""
+    if not tooth_pair.reach > 0:
+        return 0.0
+    with np.errstate(all="ignore"):
+        tau = float(tooth_pair.speed(APPROACH, tooth_pair.reach, np))
+    return tau if 0 < tau < inf else inf
+
+
+def nominal_backlash(sizes: TriangularSizes) -> float:
+    """Return the minimum backlash of wheels without errors [pitch of the driven wheel]; negative if they jam."""
+    from geartrain.teeth.triangular.clearance_window import TriangularContact
+
+    return TriangularContact(sizes).backlash / sizes.p2
+
+
+def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
+    """Return an upper bound of the probability of a jam in a cycle: 2 lcm(z1, z2) Q(j / (2 sigma)), at most 1.
+
+    The teeth of both wheels have independent normal pitch deviations of `sigma` pitches. Q is the normal tail
+    probability and j the minimum backlash in pitches. Four teeth take part in a jam, and each moves the driven wheel by
+    about its own deviation, so the backlash has the deviation 2 sigma. Every tooth pair counts twice, for the spaces
+    before and behind it.
+    """
+    backlash = nominal_backlash(sizes)
+    if backlash < 0:
+        return 1.0
+    if sigma == 0:
+        return 0.0
+    tooth_pairs = sizes.z1 * sizes.z2 // gcd(sizes.z1, sizes.z2)
+    # Q(x) = erfc(x / sqrt 2) / 2 keeps its digits in the tail, where 1 - Phi(x) has none
+    return min(1.0, 2 * tooth_pairs * erfc(backlash / (2 * sigma) / sqrt(2)) / 2)
 
 
 # --------------------------------------------------------------------------------------------- tooth pair by tooth pair
@@ -174,7 +260,7 @@ def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
     """Return the events of each trial of a batch, computed tooth pair by tooth pair."""
     cycle = MeshingCycle(pair)
-    backlash, dwell, clash = cycle.backlash(), cycle.dwells(), cycle.clashes()
+    backlash, dwell, clash = cycle.tightest()[0], cycle.dwells(), cycle.clashes()
     if dwell.any():
         backlash = np.minimum(backlash, np.where(dwell, cycle.backlash_at_entries(), inf))
     return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged())
@@ -206,10 +292,6 @@ class MeshingCycle:
 
     # ------------------------------------------------------------------------------------------------------------ jams
 
-    def backlash(self) -> Floats:
-        """Return the minimum backlash of each trial [rad of the driven wheel], shape (trials,)."""
-        return self.tightest()[0]
-
     def tightest(self) -> tuple[Floats, Ints, Ints]:
         """Return for each trial the minimum backlash, its front tooth pair, and the distance to its back tooth pair.
 
@@ -220,21 +302,17 @@ class MeshingCycle:
         rough: dict[int, Any] = {}
         backlash = np.full(self.trials, inf)
         where = np.zeros((2, self.trials), np.int64)
-        for bound, each in self._candidates():
-            if bound > backlash.max():  # in ascending order, so no later candidate can be smaller
-                break
+        for each in backlash_candidates(self.sizes, farthest(self.pair)):
             value = self._all(self._rough(each))
             rough[each.n] = np.minimum(rough[each.n], value) if each.n in rough else value
             backlash = np.minimum(backlash, value.min(axis=1))
         for n, value in rough.items():
-            self._refine(backlash, where, n, np.array(value))
+            self._refine(backlash, where, n, value)
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """Compute the exact backlash of every tooth pair that may have the minimum; the margin of the estimates is
-        adapted.
-        """
-        slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
+        """Compute the exact backlash of tooth pairs that may have the minimum, with an adapted margin."""
+        slack, open_ = SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
         while True:
@@ -252,43 +330,8 @@ class MeshingCycle:
             # the largest observed excess of an estimate over the exact backlash, with a margin of 2
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
-    def _candidates(self) -> list[tuple[float, BacklashCandidate]]:
-        """Return the candidates of minimum backlash with a lower bound for errors of this size, in ascending order."""
-        found = backlash_candidates(self.sizes, farthest(self.pair))
-        nearest = {
-            each.n: each.backlash for each in reversed(found)
-        }  # reversed, so that the smallest of each n remains
-        radial = self._other_error_bound()
-        bounds = {
-            n: backlash - self._pitch_deviation_bound(n) - radial - _SLACK * self.sizes.p2
-            for n, backlash in nearest.items()
-        }
-        near = [each for each in found if each.backlash <= nearest[each.n] + _SLACK * self.sizes.p2]
-        return sorted(((bounds[each.n], each) for each in near), key=lambda pair: pair[0])
-
-    def _pitch_deviation_bound(self, n: int) -> float:
-        """Return an upper bound of the reduction of backlash by pitch deviations, for front and back pairs n apart
-        [rad].
-        """
-        driver = float(np.abs(self.ahead(n) - n * self.sizes.p1).max())
-        driven = float(np.abs(self._driven_term(n) - (1 - n) * self.sizes.p2).max())
-        # factors 1.2 here and 3 below are margins: a bound too wide only costs time, one too narrow would miss a jam
-        return 1.2 * max(steepest(even_tooth_pair(self.sizes)), self.sizes.ratio) * driver + driven
-
-    def _other_error_bound(self) -> float:
-        """Return an upper bound of the change of backlash by errors of height, half angle and centre distance [rad]."""
-        one, two, sizes = self.pair.first, self.pair.second, self.sizes
-        tips = float(np.abs(one.tip).max() + np.abs(two.tip).max() + np.abs(self.pair.shift).max()) / sizes.R2
-        flanks = max(float(np.abs(each).max()) for wheel in (one, two) for each in (wheel.leading, wheel.trailing))
-        # limited to 1.4 rad, because the tangent is infinite at a right angle
-        steep = min(max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2, 1.4)
-        length = (sizes.delta / sizes.R2 + tips) / np.cos(steep)
-        return float(3 * np.tan(steep) * tips + 3 * length * flanks)
-
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair: its value at the position of the nominal minimum
-        [rad].
-        """
+        """Return an upper bound of the backlash of every tooth pair: its value where the nominal minimum is [rad]."""
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
@@ -301,9 +344,7 @@ class MeshingCycle:
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the backlash [rad] between each selected front tooth pair (trial, tooth pair) and the back tooth pair
-        n positions earlier, computed without tables.
-        """
+        """Return the backlash [rad] of selected front pairs (trial, tooth pair) and back pairs n before, exactly."""
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
@@ -316,18 +357,14 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return an upper bound of the number of tooth pairs that touch at once; all but two pairs of the cycle if some
-        pair may not touch at all.
-        """
+        """Return an upper bound of the pairs that touch at once; all but two of the cycle if one may never touch."""
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask of dwells, shape (trials,): a tooth pair leaves before a later pair touches its driven
-        tooth.
-        """
+        """Return a mask (trials,) of dwells: a tooth pair leaves before a later pair touches its driven tooth."""
         front = self.front
         stands: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
@@ -353,9 +390,7 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash where back tooth pairs enter, at which the driven wheel may dwell [rad], shape
-        (trials,).
-        """
+        """Return the minimum backlash (trials,) where back tooth pairs enter and the driven wheel may dwell [rad]."""
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -364,9 +399,7 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return alpha_2 of each driven tooth determined by the pair n before, with its driving tooth at `reach`; inf
-        without it.
-        """
+        """Return alpha_2 of each driven tooth held by the pair n before with its driver at `reach`; inf without it."""
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
         touches = (x <= before.reach) & (before.reach > -inf) & (x > -inf)
@@ -380,9 +413,7 @@ class MeshingCycle:
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask of losses of contact, shape (trials,): at some position no front or no back tooth pair can
-        touch.
-        """
+        """Return a mask (trials,) of losses of contact: somewhere no front or no back tooth pair can touch."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -405,21 +436,32 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial with pitch deviations only; doubtful trials are computed tooth pair by tooth
-    pair.
-    """
-    parts = [_verdicts(part, chunk) for part in chunks(pair, chunk // (pair.sizes.z1 + pair.sizes.z2))]
-    return MeshingVerdicts.joined(parts)
+    """Return the events of each trial with pitch deviations only; doubtful trials are computed pair by pair."""
+    teeth, never = _EntriesAndExits(pair), np.zeros(pair.trials, bool)
+    found = MeshingVerdicts(backlash_of_pitch_errors(pair), never, never.copy(), teeth.disengaged)
+    backlash, size = found.backlash, max(1, chunk // pair.count)
+    for rows in _parts(np.abs(backlash) < _UNSURE * pair.sizes.p2, size):
+        backlash[rows] = MeshingCycle(pair.taken(rows)).tightest()[0]
+    for rows in _parts(teeth.doubtful, size):
+        found.clash[rows], found.dwell[rows], entering = _EntriesAndExits(pair.taken(rows)).events()
+        backlash[rows] = np.minimum(backlash[rows], entering)
+    return found
+
+
+def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
+    """Yield the indices of the true entries, at most `size` at a time."""
+    rows = np.flatnonzero(chosen)
+    return (rows[at : at + size] for at in range(0, len(rows), size))
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Return the minimum backlash over the cycle [rad of the driven wheel], shape (trials,), to a millionth of a
-    pitch.
-    """
-    sizes = _shifted(pair)
+    """Return the minimum backlash over the cycle (trials,) [rad of the driven wheel], to 1e-6 of a pitch."""
+    sizes = pair.sizes
     driver, driven = pair.first.place, pair.second.place
-    # two driving teeth may deviate in opposite directions
-    wide = _next_power_of_two(2 * float(np.abs(driver).max()))
+    # two driving teeth may deviate in opposite directions; a power of 2, so that few tables serve many batches
+    spread = 2 * float(np.abs(driver).max())
+    # without pitch deviations the table is read at its middle, so any width will do
+    wide = float(2.0 ** np.ceil(np.log2(spread))) if spread else 1e-9
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
     both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
@@ -435,9 +477,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
 
 
 def by_residue(driver: Any, driven: Any) -> list[Any]:
-    """Return the terms of both wheels grouped by residue class modulo gcd(z1, z2): teeth of one class meet in the
-    cycle.
-    """
+    """Return the terms of both wheels grouped by residue modulo gcd(z1, z2): teeth of equal residue meet."""
     rests = gcd(driver.shape[-1], driven.shape[-1])
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
@@ -446,12 +486,6 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
     """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
     one, two = by_residue(driver, driven)
     return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
-
-
-def _next_power_of_two(spread: float) -> float:
-    """Return the spread rounded up to a power of 2, so that few tables serve many batches."""
-    # without pitch deviations the table is read at its middle, so any width will do
-    return float(2.0 ** np.ceil(np.log2(spread))) if spread > 0 else 1e-9
 
 
 @lru_cache(maxsize=256)
@@ -470,7 +504,7 @@ class _EntriesAndExits:
     """Entries and exits of teeth with a common contact function: driven teeth only add their pitch deviations."""
 
     def __init__(self, pair: CutGearPair) -> None:
-        self.pair, self.sizes = pair, _shifted(pair)
+        self.pair, self.sizes = pair, pair.sizes
         self.tooth_pair = even_tooth_pair(self.sizes)
         self.reach, self.tip = float(self.tooth_pair.reach), float(-self.tooth_pair.exit_angle)
         self.small = ROUNDING * self.sizes.p2
@@ -490,9 +524,7 @@ class _EntriesAndExits:
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its exit, as the pair n later would determine it, as a term of each
-        wheel.
-        """
+        """Return alpha_2 of a driven tooth at its exit as given by the pair n later, as a term of each wheel."""
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven
 
@@ -509,9 +541,9 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask of shape (trials,): True if the next tooth pair may be late somewhere, so that all pairs must be
-        compared.
-        """
+        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs are compared."""
+        if self.reach < 0:  # the tip circles do not intersect
+            return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
         clash = extreme_sum(*self._entering(1), np.maximum) > self.tip - near
@@ -520,9 +552,7 @@ class _EntriesAndExits:
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
-        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (otherwise
-        inf).
-        """
+        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (or inf)."""
         stands = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._minimum(self._entering)
         clash = (y > self.tip + self.small).any(axis=1)
@@ -530,9 +560,7 @@ class _EntriesAndExits:
         return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over neighbouring tooth pairs, for every tooth pair of the cycle, shape (trials, tooth
-        pairs).
-        """
+        """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle (trials, tooth pairs)."""
         k = np.arange(self.pair.count)
         coming = terms == self._entering
         spread = float(np.ptp(self.driver))
@@ -542,10 +570,3 @@ class _EntriesAndExits:
             at = k - n if coming else k
             found = np.minimum(found, own[:, at % self.sizes.z1] + other[:, at % self.sizes.z2])
         return found
-
-
-def _shifted(pair: CutGearPair) -> TriangularSizes:
-    """Return the sizes of the pair at its actual centre distance."""
-    if not pair.shift:
-        return pair.sizes
-    return pair.sizes.at(pair.sizes.side * ((pair.sizes.D + pair.shift) / pair.sizes.deepest_distance - 1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from copy import copy
 from fractions import Fraction
-from math import ceil, floor, inf, lcm, pi
+from math import ceil, floor, inf, lcm, nan, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,8 +45,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the transmission errors [rad of the driven wheel] and the speed ratios dq/dS at angles S of shape (n,)
-        [rad].
+        """Return transmission errors [rad of the driven wheel] and speed ratios at angles S of shape (n,) [rad].
 
         The error is -inf if no teeth touch.
         """
@@ -59,9 +58,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         return error, speed
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of the selected columns; errors are still recorded in the shared array
-        `last`.
-        """
+        """Return the functions of the selected columns; their errors are also recorded in the shared array `last`."""
         found = copy(self)
         found.rows, found._columns = self.rows[columns], columns
         return found
@@ -71,13 +68,11 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio dq/dS at angles S [rad]."""
+        """Return the speed ratios dq/dS at angles S [rad]."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean transmission error of perfect wheels [rad] and an rms deviation of 0, as superposition
-        requires.
-        """
+        """Return the mean error of perfect wheels [rad] and an rms deviation of 0, as superposition requires."""
         return self.even, 0.0
 
     def error_range(self) -> tuple[float, float]:
@@ -90,25 +85,17 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Return NaN at each angle, because efficiency is not computed in trials."""
-        return np.full(np.shape(S), np.nan)
+        return np.full(np.shape(S), nan)
 
     def efficiency_mean(self) -> float:
         """Return NaN, because efficiency is not computed in trials."""
-        return float("nan")
+        return nan
 
-    def efficiency_at_constant_load(self) -> float:
-        """Return NaN, because efficiency is not computed in trials."""
-        return float("nan")
-
-    def efficiency_minimum(self) -> float:
-        """Return NaN, because efficiency is not computed in trials."""
-        return float("nan")
+    efficiency_at_constant_load = efficiency_minimum = efficiency_mean
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth; `pair` has arrays (trials, z), or (z,) for a wheel common to all
-    trials.
-    """
+    """Transmission function of triangular teeth; a wheel of `pair` has arrays (trials, z), or (z,) for all trials."""
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -124,6 +111,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         pitch = self.pair.sizes.p1
         u = np.empty_like(S)
         behind(S, pitch, u, np.empty_like(S))
+        # whole pitches and the rest, because k p - S would lose the digits of a long run
         n = np.rint((S - u) / pitch).astype(np.int64)
         lag, first = np.full(len(S), inf), n
         for m in self._window:
@@ -133,9 +121,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after a pair has
-        left.
-        """
+        """Return the lag due to tooth pairs k [rad of the driven wheel]; inf before contact, constant after it."""
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)
@@ -164,7 +150,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of conjugate teeth with displaced flanks: the foremost tooth pair drives."""
+    """Transmission function of teeth with displaced flanks: the foremost tooth pair drives."""
 
     def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
         super().__init__(pair.teeth, even, rows)

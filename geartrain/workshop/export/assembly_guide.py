@@ -170,7 +170,9 @@ def _proof_lines(proof: TrainProof) -> list[str]:
     if proof.links:
         lines += ["", "While the input is held, each link can turn by this angle:", ""]
         lines += ["| link | degrees |", "| --- | ---: |"]
-        lines += [f"| {_cell(each.link)} | {_turn(each.backlash)} |" for each in proof.links]
+        for each in proof.links:
+            turn = "free" if each.backlash is None else f"{degrees(max(each.backlash, 0.0)):.3g}"
+            lines.append(f"| {_cell(each.link)} | {turn} |")
     return lines
 
 
@@ -180,10 +182,6 @@ def _row(mesh: MeshProof) -> str:
     words = " ".join(errors) if errors else "turns"
     values = (_cell(mesh.pair), f"{mesh.declared:.4f}", f"{mesh.minimum:.4f}", f"{mesh.overlap:.2g}", ratio)
     return f"| {' | '.join(values)} | {mesh.clearance:.3f} | {mesh.tip_width:.3f} | {words} |"
-
-
-def _turn(backlash: float | None) -> str:
-    return "free" if backlash is None else f"{degrees(max(backlash, 0.0)):.3g}"
 
 
 # ---------------------------------------------------------------------------------------------------------------- steps
@@ -277,7 +275,7 @@ class _Steps:
             feet = [foot.name for dial in self.work.dials for foot in dial.feet]
             yield self._step(
                 f"Press the feet into {', '.join(names)} and into the plate behind each dial, and put the hands on the "
-                "arbors",
+                "arbors; on a common axis, begin with the outermost pipe",
                 [*names, *feet],
             )
         if "pendulum cock" in self.known:
@@ -312,12 +310,15 @@ class _Steps:
             # an arbor or pipe without wheels is fitted in a later step
             if wheels:
                 order = ", from below in this order" if len(wheels) > 1 else ""
-                spacers, collets = self._sleeves(every)
-                order += _sleeve_phrase(wheels, spacers, collets)
-                barrel = self._barrel(every)
+                barrel = self.frame.barrel
+                sleeves = [f"spacer {low} to {high}" for low, high in pairwise(every)]
+                sleeves += [f"collet of {name}" for name in every]
+                if barrel is not None and barrel.wheel in every:
+                    sleeves.append(barrel.part.name)
+                named = ", ".join(name for name in sleeves if name in self.known)
                 text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
-                text += ", with its barrel next to it" if barrel else ""
-                yield self._step(text, [rod_name(column, member), *every, *spacers, *collets, *barrel])
+                text += f", with {named}" if named else ""
+                yield self._step(text, [rod_name(column, member), *every, *sleeves])
                 yield from self._on_eccentrics(every)
                 yield from self._plate_pins(every)
         # pipes on a stud slide on this stud, which is fitted in a later step
@@ -326,17 +327,6 @@ class _Steps:
             links = ", ".join(member.link for member in pipes)
             text = f"Slide the pipes on axis {column.axis}, innermost first: {links}"
             yield self._step(text, [rod_name(column, member) for member in pipes])
-
-    def _sleeves(self, names: Sequence[str]) -> tuple[list[str], list[str]]:
-        """Return the spacers between neighbouring wheels, and the collets of the wheels."""
-        spacers = (f"spacer {low} to {high}" for low, high in pairwise(names))
-        collets = (f"collet of {name}" for name in names)
-        return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
-
-    def _barrel(self, wheels: Sequence[str]) -> list[str]:
-        """Return the name of the barrel that is fixed to one of the wheels, as a list of at most one item."""
-        barrel = self.frame.barrel
-        return [] if barrel is None or barrel.wheel not in wheels else [barrel.part.name]
 
     def _pins(self) -> Iterator[AssemblyStep]:
         for name, cut in self.work.cut_couplings.items():
@@ -415,18 +405,6 @@ class _Steps:
             yield self._step(
                 f"Put the arbors into the {self.low} plate, lowest wheels first: {names}", [*arbors, *collars]
             )
-
-
-def _sleeve_phrase(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str]) -> str:
-    """Return a phrase with the spacers and collets that are mounted with the wheels."""
-    words = "" if not spacers else ", with the spacer between them" if len(spacers) == 1 else ", with their spacers"
-    if collets:
-        alone = [name.removeprefix("collet of ") for name in collets]
-        words += (
-            f", {'' if alone == [*wheels] else ', '.join(alone) + ' '}against {'its' if len(alone) == 1 else 'their'}"
-        )
-        words += " collet" if len(alone) == 1 else " collets"
-    return words
 
 
 # ----------------------------------------------------- pictures: a step from above and from the side, with new parts
@@ -529,9 +507,7 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, letter: float, corner: Floats) -> Iterator[str]:
-        """Yield the labels of new parts at their centres, without overlap; nothing for more than `_MOST_NAMED`
-        parts.
-        """
+        """Yield the labels of at most `_MOST_NAMED` new parts at their centres, without overlap."""
         low, high = self.extent
         taken: set[tuple[int, int]] = set()
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():

@@ -1,7 +1,7 @@
 """Flat drawings of an export for cutting: wheels, plates, and sheets of stock with all parts.
 
-Wheels of equal shape share one drawing. Outlines are offset outwards by half the kerf. On sheets of stock, parts are
-placed in rows, the tallest first.
+Wheels of equal shape share one drawing. Outlines are offset outwards, and holes inwards, by half the kerf. On sheets of
+stock, parts are placed in rows, the tallest first.
 """
 
 from __future__ import annotations
@@ -21,8 +21,6 @@ from geartrain.scene.solids.wheel_blanks import RIM, Blank
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
-    from shapely import Polygon
-
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.frame_plates import FlatPlate
     from geartrain.scene.solids.solid_assembly import SolidModel
@@ -42,9 +40,7 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield the path (without suffix) and the drawing of each wheel, plate and sheet of stock, compensated for the
-    kerf.
-    """
+    """Yield path (without suffix) and kerf-compensated drawing of each wheel, plate and sheet of stock."""
     kerf, plates = work.process.kerf, plate_sheets(work)
     names = file_names(plate.name for plate in plates)
     flat = [("wheels", each) for each in wheel_sheets(work.blanks.wheels)]
@@ -133,9 +129,7 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Return circles around the holes of a wheel except its bore: centres and radii [mm]; empty for wheels with
-    spokes.
-    """
+    """Return centres and radii [mm] of circles around a wheel's holes except its bore; empty for spoked wheels."""
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
@@ -208,23 +202,10 @@ _AROUND = 16  # chords per quarter circle around a corner
 
 
 def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
-    """Return a drawing compensated for the kerf: outer edges are offset outwards by half a kerf, holes inwards.
+    """Return a drawing compensated for a kerf [mm]: outer edges are offset outwards by half a kerf, holes inwards.
 
     Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
-
-    Parameters
-    ----------
-    drawing : FlatDrawing
-        Drawing of the finished size.
-    kerf : float
-        Width of the cut [mm], 0 or more.
-
-    Raises
-    ------
-    GearTrainError
-        If a hole or slot is narrower than the cut.
-    MissingExtraError
-        If shapely is not installed.
+    Raises `GearTrainError` if a hole or slot is narrower than the cut, `MissingExtraError` without shapely.
     """
     if not kerf:
         return drawing
@@ -245,18 +226,10 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
     except ImportError:
         raise MissingExtraError("shapely", "proof", "an outline compensated for its kerf") from None
     found = Polygon(contour.flattened(drawing.tolerance)).buffer(by, quad_segs=_AROUND)
-    rings = list(_rings(found))
-    if len(rings) != 1:  # the offset hole has vanished or has been split
+    if found.is_empty or found.geom_type != "Polygon":  # the offset hole has vanished or has been split
         raise _too_narrow(drawing, 2 * abs(by))
-    return Contour.of([(x, y, 0.0) for x, y in rings[0]])
-
-
-def _rings(shape: Polygon) -> Iterator[np.ndarray]:
-    """Yield the outer edges of a shape counter-clockwise, without the closing point."""
-    for part in getattr(shape, "geoms", [shape]):
-        if not part.is_empty:
-            ring = np.array(part.exterior.coords)[:-1]
-            yield ring if part.exterior.is_ccw else ring[::-1]
+    ring = np.array(found.exterior.coords)[:-1]  # without the closing point
+    return Contour.of([(x, y, 0.0) for x, y in (ring if found.exterior.is_ccw else ring[::-1])])
 
 
 def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
@@ -272,25 +245,15 @@ _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
 def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) -> tuple[Sheet, ...]:
-    """Return all parts laid out on sheets of one size, with parts of one thickness together.
+    """Return all parts laid out on sheets of one size [mm], with parts of one thickness together.
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
     the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
     next sheet. The longer side of a part is along the width of the sheet if it fits that way, else along its height.
 
-    Parameters
-    ----------
-    parts : iterable of Sheet
-        Parts, each with the names of all its pieces.
-    size : tuple of float
-        Width and height of a sheet [mm].
-    gap : float
-        Minimum distance between parts, and from the edge [mm], 0 or more.
+    gap   minimum distance between parts, and from the edge [mm]
 
-    Raises
-    ------
-    QuestionError
-        If a part is larger than the sheet.
+    Raises `QuestionError` if a part is larger than the sheet.
     """
     alike: dict[float, list[Sheet]] = {}
     for part in parts:
@@ -304,22 +267,17 @@ def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) 
 
 
 def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Sheet:
-    """Return a part turned so that it fits on a sheet, with its longer side along the width of the sheet if
-    possible.
-    """
+    """Return a part turned to fit on a sheet, if possible with its longer side along the width of the sheet."""
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]
-    ways = [turned for turned in (tall > wide, tall <= wide) if _fits((tall, wide) if turned else (wide, tall), room)]
+    sides = {False: (wide, tall), True: (tall, wide)}
+    ways = [way for way in (tall > wide, tall <= wide) if sides[way][0] <= room[0] and sides[way][1] <= room[1]]
     if not ways:
         what = f"'{part.file}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
         why = f"it measures {wide:.4g} x {tall:.4g} mm, plus a gap of {gap:g} mm on all sides"
         raise QuestionError(Problem(what, why, "give a larger --sheet, or a smaller --module", "--sheet"))
     return replace(part, drawing=_turned(part.drawing)) if ways[0] else part
-
-
-def _fits(sides: tuple[float, float], room: list[float]) -> bool:
-    return sides[0] <= room[0] and sides[1] <= room[1]
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:

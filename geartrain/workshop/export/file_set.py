@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.flat_files import to_dxf, to_svg
@@ -20,9 +19,11 @@ from geartrain.workshop.export.assembly_guide import readme, step_pictures
 from geartrain.workshop.export.cut_sheets import cut_sheets, wheel_drawing, wheel_sheets
 from geartrain.workshop.export.parts_list import parts_list, to_csv
 from geartrain.workshop.export.proof import TrainProof, proof_is_installed, prove_train
+from geartrain.workshop.export.proof.train_proof import are_installed
 from geartrain.workshop.export.rexs import to_rexs
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Answer
     from geartrain.scene.solids.solid_assembly import SolidModel
 
 
@@ -30,15 +31,8 @@ KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
 """Kinds of files that `export_files` writes."""
 
 SUFFIXES = {
-    ".glb": "glb",
-    ".stl": "stl",
-    ".step": "step",
-    ".stp": "step",
-    ".graphml": "graphml",
-    ".dot": "dot",
-    ".gv": "dot",
-    ".rexsj": "rexs",
-    ".json": "rexs",
+    **{".glb": "glb", ".stl": "stl", ".step": "step", ".stp": "step"},
+    **{".graphml": "graphml", ".dot": "dot", ".gv": "dot", ".rexsj": "rexs", ".json": "rexs"},
 }
 """Kind of a file with a whole train, by suffix."""
 
@@ -73,31 +67,20 @@ class ExportFile(Shown):
     title: str
     """Description of the content of the file."""
     make: Callable[[], bytes]
-    """Function that returns the content of the file as bytes. It raises `GearTrainError` if the content cannot be
-    computed.
-    """
+    """Function that returns the content of the file, or raises `GearTrainError` if it cannot be computed."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Return the kinds whose libraries are installed, and for each other kind a problem with the command that installs
-    it.
-    """
+    """Return the kinds whose libraries are installed, and for each other kind a problem with its install command."""
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
-        if library and not _is_there(library):
+        if library and not are_installed(library):
             what = f"{kind.upper()} files are not written"
             missing.append(Problem(what, f"{library} is not installed", install_command(extra)))
         else:
             found.append(kind)
     return found, missing
-
-
-def _is_there(library: str) -> bool:
-    try:
-        return find_spec(library) is not None
-    except ImportError:
-        return False
 
 
 def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
@@ -184,13 +167,8 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     """
     known = work.train.declaration.wheels
     if wheel not in known:
-        raise QuestionError(
-            Problem(
-                f"the train has no wheel '{wheel}'",
-                "only declared wheels can be exported",
-                suggest(wheel, known),
-            )
-        )
+        what = f"the train has no wheel '{wheel}'"
+        raise QuestionError(Problem(what, "only declared wheels can be exported", suggest(wheel, known)))
     blank = work.blanks.wheels.get(wheel)
     if blank is None:
         raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
@@ -239,14 +217,9 @@ def export_files(
     """
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
-        raise QuestionError(
-            Problem(
-                f"'{unknown[0]}' is not a kind of export",
-                "each kind is the name of a format",
-                f"use one or more of {', '.join(KINDS)}",
-                "--as",
-            )
-        )
+        what = f"'{unknown[0]}' is not a kind of export"
+        why = "each kind is the name of a format"
+        raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in step_pictures(work)] if "svg" in kinds else []
     if "csv" in kinds:
@@ -258,14 +231,9 @@ def export_files(
         if kind in kinds:
             files.append(ExportFile(name, _TITLES[kind], partial(train_file, work, kind, turns)))
     if parts_requested(kinds):
-        files.append(
-            ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
-        )
+        title = "list of parts: count, material, sizes, mass, fits"
+        files.append(ExportFile("parts.csv", title, lambda: to_csv(parts_list(work)).encode("utf-8")))
     return [*files, ExportFile("README.md", "description of the files", lambda: _readme(work, files, kinds, proof))]
-
-
-def _listed(work: SolidModel) -> bytes:
-    return to_csv(parts_list(work)).encode("utf-8")
 
 
 def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str], proof: TrainProof | None) -> bytes:
@@ -296,8 +264,7 @@ def _drawn(drawing: FlatDrawing, kind: str) -> bytes:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems that affect an export of the given kinds of files, without duplicates. Examples are parts
-    that cannot be made as laid out, and omitted parts.
+    """Return the problems that affect an export of given kinds, such as parts that cannot be made, each once.
 
     Parameters
     ----------
@@ -343,14 +310,8 @@ def kind_of(name: str) -> str:
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
     fix = f"use {', '.join(SUFFIXES)} or .fmu; for wheels, plates and tables, give --to FOLDER"
-    raise GearTrainError(
-        Problem(
-            f"a train cannot be written as '{suffix or name}'",
-            "the format follows from the suffix of the file",
-            fix,
-            "-o",
-        )
-    )
+    what = f"a train cannot be written as '{suffix or name}'"
+    raise GearTrainError(Problem(what, "the format follows from the suffix of the file", fix, "-o"))
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
@@ -358,22 +319,20 @@ def kind_of(name: str) -> str:
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
     """Return the tables of a train in CSV format by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
-    made = {
-        "wheels": _wheels,
-        "links": _links,
-        "pairs": _pairs,
-        "circuits": _circuits,
-        "couplings": _couplings,
-        "axes": _axes,
-        "outputs": _outputs,
-    }
-    tables = {name: make(work) for name, make in made.items()}
+    made = (_wheels, _links, _pairs, _circuits, _couplings, _axes, _outputs)
+    tables = {make.__name__[1:]: make(work) for make in made}
     return {name: csv_text(head.split(), rows) for name, (head, rows) in tables.items()}
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
     """Return a number as an exact and as a decimal string; two empty strings for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
+
+
+def _answers(work: SolidModel) -> Iterator[Answer]:
+    """Yield the exact solution of the train in its state, or in every state if none is selected."""
+    states = work.train.states if work.state is None else (work.state,)
+    return (work.train.solve(state, method="exact") for state in states or (None,))
 
 
 def _wheels(work: SolidModel) -> tuple[str, Rows]:
@@ -393,10 +352,8 @@ def _wheels(work: SolidModel) -> tuple[str, Rows]:
 
 
 def _links(work: SolidModel) -> tuple[str, Rows]:
-    train = work.train
-    states = train.states if work.state is None else (work.state,)
-    rows = []
-    for answer in (train.solve(state, method="exact") for state in states or (None,)):
+    train, rows = work.train, []
+    for answer in _answers(work):
         for link in train.declaration.links:
             found = answer.speeds.get(link)
             joint = train.kinematics.tree.parent.get(link)
@@ -446,21 +403,10 @@ def _axes(work: SolidModel) -> tuple[str, Rows]:
 
 
 def _outputs(work: SolidModel) -> tuple[str, Rows]:
-    train = work.train
-    states = train.states if work.state is None else (work.state,)
     rows = []
-    for answer in (train.solve(state, method="exact") for state in states or (None,)):
+    for answer in _answers(work):
         for name, result in answer.outputs.items():
             speed = _both(None if result.speed is None else Fraction(result.speed))
-            rows.append(
-                (
-                    answer.state,
-                    name,
-                    result.of,
-                    result.relative_to,
-                    *speed,
-                    answer.unit,
-                    "yes" if result.holds else "no",
-                )
-            )
+            holds = "yes" if result.holds else "no"
+            rows.append((answer.state, name, result.of, result.relative_to, *speed, answer.unit, holds))
     return "state output of relative_to speed speed_decimal unit holds", rows

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
-from datetime import UTC, datetime
 from fractions import Fraction
 from math import degrees
 from typing import TYPE_CHECKING, Any
@@ -22,13 +21,13 @@ if TYPE_CHECKING:
 
 VERSION = "1.4"
 _ANGLE = 20.0  # deg, if no tooth form is declared
-_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # a fixed date, so that the same train gives the same file
+_DATE = "2000-01-01T00:00:00+00:00"  # fixed, so that the same train gives the same file
 
 
-def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
+def to_rexs(work: SolidModel) -> str:
     """Return the gear unit of a train in REXS JSON format."""
     # JSON has no NaN, so an undefined size must raise an error here and not in the reading program
-    return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps({"model": _Unit(work).model()}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 class _Unit:
@@ -39,7 +38,7 @@ class _Unit:
         self.numbers: dict[tuple[str, str], int] = {}
         self.speeds = _per_minute(work)
 
-    def model(self, date: datetime) -> dict[str, Any]:
+    def model(self) -> dict[str, Any]:
         from importlib.metadata import version
 
         unit = self.add("gear_unit", self.declared.name, [*_frame((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 1)])
@@ -54,7 +53,7 @@ class _Unit:
             "version": VERSION,
             "applicationId": "geartrain",
             "applicationVersion": version("geartrain"),
-            "date": date.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%S+00:00"),
+            "date": _DATE,
             "applicationLanguage": "en",
             "relations": self.relations,
             "components": self.components,

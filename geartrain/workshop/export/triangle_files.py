@@ -62,7 +62,7 @@ _VERTEX = np.dtype(
 )
 """Data type of a vertex: position and normal, each at a multiple of four bytes, as glTF requires."""
 
-_BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126
+_BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126  # component types
 _VERTICES, _INDICES, _KEYS = range(3)  # the buffer views
 _VIEWS: tuple[dict[str, int], ...] = (
     {"byteStride": _VERTEX.itemsize, "target": 34962},  # ARRAY_BUFFER
@@ -128,9 +128,7 @@ class _GlbFile:
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (default as in
-    `Keyframes.of`).
-    """
+    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (see `Keyframes.of`)."""
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
@@ -153,15 +151,9 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
 
 
 def _materials() -> list[dict[str, Any]]:
+    look = {"metallicFactor": 0.4, "roughnessFactor": 0.5}
     return [
-        {
-            "name": name or "wheel",
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [*colour, 1.0],
-                "metallicFactor": 0.4,
-                "roughnessFactor": 0.5,
-            },
-        }
+        {"name": name or "wheel", "pbrMetallicRoughness": {"baseColorFactor": [*colour, 1.0], **look}}
         for name, colour in _COLOURS.items()
     ]
 
@@ -201,9 +193,7 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the index of the mesh with the given triangles and the material of the part; it is added if it does not
-    exist.
-    """
+    """Return the index of the mesh with the given triangles and the material of the part; add it if it is new."""
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
@@ -255,7 +245,7 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
 
 _A_TURN = 3  # key frames per turn: readers interpolate the shorter way, so two would be ambiguous
 _RIPPLING = 48  # key frames per turn if teeth or pins add transmission errors
-_MINIMUM_RIPPLING = 240
+_MINIMUM_RIPPLING = 240  # minimum number of key frames with transmission errors, for a slow body
 _MOST = 60_000  # maximum key frames of one body: a longer period is not shown completely
 _USUAL = 10  # turns of the driving link, if the period is too long
 _PACE = 1.0  # seconds in which the fastest body turns once
@@ -308,9 +298,7 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between the key frames of a body; 0 if it does not turn relative to its
-        parent.
-        """
+        """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
         speed = self.speeds[body]
         turned = abs(float((speed or 0) * self.turns))
         if self.ripples and self.work.scene.bodies[body].speed is not None:
@@ -332,9 +320,7 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the transmission errors of teeth and pins in the angle of each body [rad], shape (bodies, count +
-        1).
-        """
+        """Return the errors of body angles due to teeth and pins [rad], shape (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

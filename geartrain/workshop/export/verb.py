@@ -129,16 +129,20 @@ def run(
     of_solids: dict[str, object] = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
     of_solids |= {"--backlash": backlash, "--process": process, "--spokes": spokes, "--sheet": sheet, "--turns": turns}
     if out is not None and out.suffix.lower() == ".fmu":
-        _refuse(of_solids, "does not apply to an .fmu", "omit it")
+        _refuse(
+            of_solids, "does not apply to an .fmu", "an FMU contains the motion of a train, not its parts", "omit it"
+        )
         _unit(file, state, of_time, sink(out, force))
         return
-    _refuse(of_time, "applies only to an .fmu", "give -o FILE.fmu, or omit it")
+    why = "only an FMU contains the motion in time"
+    _refuse(of_time, "applies only to an .fmu", why, "give -o FILE.fmu, or omit it")
     train = load(file)
     if out is not None:
-        _refuse({"--sheet": sheet}, "applies only to a folder", "give --to FOLDER instead of -o")
+        why = "only a folder has drawings of all parts, which are laid out on sheets"
+        _refuse({"--sheet": sheet}, "applies only to a folder", why, "give --to FOLDER instead of -o")
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     work = SolidModel(train, _sizes(lengths, process, spokes, sheet), train.declaration.state_or_first(state))
-    shown = _turns(turns)
+    shown = None if turns is None else read_turns("--turns", turns)
     if out is not None:
         _write_one(work, out, wheel, shown, force)
     else:
@@ -147,11 +151,11 @@ def run(
     raise typer.Exit(GOOD if is_sound(work.sized, state) else VERDICT)
 
 
-def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
+def _refuse(given: Mapping[str, object], what: str, why: str, fix: str) -> None:
     """Raise `GearTrainError` if an option is given that does not apply to the requested file."""
     for option, value in given.items():
         if value is not None:
-            raise GearTrainError(Problem(f"{option} {why}", "", fix, option))
+            raise GearTrainError(Problem(f"{option} {what}", why, fix, option))
 
 
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
@@ -177,7 +181,9 @@ def _sizes(given: Mapping[str, Size], process: str | None, spokes: int | None, s
     from geartrain.scene import ManufacturingSizes
 
     # lengths are read in m, but sizes of parts are in mm
-    sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
+    sizes = {
+        name: None if text is None else 1000 * quantity(f"--{name}", text, "length") for name, text in given.items()
+    }
     return ManufacturingSizes(**sizes, process=process, arms=spokes, sheet=None if sheet is None else _sheet(sheet))
 
 
@@ -186,25 +192,11 @@ def _sheet(text: str) -> tuple[float, float]:
     sides = text.lower().replace("×", "x").split("x")
     unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
-        raise GearTrainError(
-            Problem(
-                f"'{text}' is not the size of a sheet",
-                "a size is WIDTHxHEIGHT with a unit",
-                "write it as 300x200mm",
-                "--sheet",
-            )
-        )
+        what = f"'{text}' is not the size of a sheet"
+        raise GearTrainError(Problem(what, "a size is WIDTHxHEIGHT with a unit", "write it as 300x200mm", "--sheet"))
     # a unit after the last side only applies to both sides
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
-    return 1000 * _length("sheet", width), 1000 * _length("sheet", height)
-
-
-def _length(name: str, text: str) -> float:
-    return quantity(f"--{name}", text, "length")
-
-
-def _turns(text: str | None) -> Fraction | None:
-    return None if text is None else read_turns("--turns", text)
+    return 1000 * quantity("--sheet", width, "length"), 1000 * quantity("--sheet", height, "length")
 
 
 def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
@@ -229,14 +221,8 @@ def _write_folder(
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
 
     if wheel is not None:
-        raise GearTrainError(
-            Problem(
-                "--wheel applies only to one file",
-                "a folder contains all wheels",
-                "give -o FILE instead of --to",
-                "--wheel",
-            )
-        )
+        what = "--wheel applies only to one file"
+        raise GearTrainError(Problem(what, "a folder contains all wheels", "give -o FILE instead of --to", "--wheel"))
     wanted = [kind.strip().lower() for kind in kinds.split(",")] if kinds is not None else list(KINDS)
     missing: list[Problem] = []
     if kinds is None:

@@ -1,7 +1,6 @@
 """Monte Carlo trials of trains with cutting errors: probability of jamming, pointer errors and their causes.
 
 trial_plan            input data of the trials: pairs, wheels with errors, composition of errors
-random_streams        independent random streams by trial, wheel and kind of error
 trial_block           one block of trials: draw the wheels, evaluate the pairs, compute the pointer errors
 trial_run             tasks of trials, their journal and their table
 trial_results         event rates of each pair, error statistics of each pointer, errors along a turn

@@ -13,8 +13,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.confidence_intervals import ProbabilityEstimate
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
-from geartrain.workshop.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
+from geartrain.workshop.monte_carlo.trial_block import BLOCK, UNCUT, RandomStreams, draw_trial_wheels, judge_trial_pairs
 from geartrain.workshop.monte_carlo.trial_results import EVENTS, EventRates
 from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
 
@@ -51,8 +50,7 @@ class ClearanceCase(Result):
 
 
 def read_clearances(text: str) -> list[float]:
-    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9` into equally spaced clearances, ends
-    included.
+    """Parse a sweep such as `window=0.1:0.9:9` or `clearance_factor=1.005:1.04:8` into equally spaced clearances.
 
     Fractions of a window are below 1, and clearance factors are at least 1.
     """

@@ -28,7 +28,7 @@ from geartrain.numerics.work import Execution
 from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.workshop.monte_carlo.monte_carlo_report import number_text, share_text
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, FRICTION, RandomStreams
+from geartrain.workshop.monte_carlo.trial_block import BLOCK, FRICTION, RandomStreams
 from geartrain.workshop.monte_carlo.trial_run import check_trials
 
 if TYPE_CHECKING:
@@ -64,8 +64,7 @@ class FrictionSpread(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionPlan(Shown):
-    """Plan of Monte Carlo trials with random friction coefficients: the train, and the input positions that each trial
-    evaluates.
+    """Plan of trials with random friction coefficients: the train, and the input positions of each trial.
 
     See Also
     --------
@@ -88,9 +87,7 @@ class FrictionPlan(Shown):
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the random friction coefficients, by the train, pair or coupling that declares the
-        coefficient.
-        """
+        """Distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     def follow(self, drawn: Train) -> tuple[float | None, ...]:
@@ -256,9 +253,7 @@ class TrialFigure(Result):
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Mapping from percentage to the percentile with its 95 % confidence interval. 95 % of the values are between
-        the outer two percentiles.
-        """
+        """Percentiles with 95 % confidence intervals, by percentage; the outer two enclose 95 % of the values."""
         return percentiles_of(self.values)
 
 

@@ -6,7 +6,7 @@ quantities, a tornado chart of variance shares, or the convergence of an estimat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from textwrap import shorten
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -51,9 +51,9 @@ if TYPE_CHECKING:
 
 
 PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")
-PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)
-MOST = 20
-LEVELS = (0.01, 0.1, 0.5)
+PERCENTS = (2.5, 25.0, 50.0, 75.0, 97.5)  # percentiles at the edges of bands
+MOST = 20  # maximum number of bars of a tornado chart
+LEVELS = (0.01, 0.1, 0.5)  # probabilities of the contour lines of a map
 _Given = TypeVar("_Given")
 _ROW = 2.3  # height of a panel [inch]
 _POINTERS = 12  # maximum number of pointers drawn: those with the largest spread
@@ -102,13 +102,8 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     'probability of a jam'
     """
     if picture not in PICTURES:
-        raise QuestionError(
-            Problem(
-                f"'{picture}' is not a kind of picture",
-                "each kind shows one study",
-                f"use one of {', '.join(PICTURES)}",
-            )
-        )
+        what = f"'{picture}' is not a kind of picture"
+        raise QuestionError(Problem(what, "each kind shows one study", f"use one of {', '.join(PICTURES)}"))
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -133,12 +128,14 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
         return tornado_figure(indices, f"error of '{found.output}' by {found.by}: {found.trials:,} base samples")
     if picture == "pairs":
         first = trials.pointers[0]
+        why = f"variance shares need two trials that turn, and errors of '{first.name}' that differ"
+        _require(first.shares, why, "give more --trials, smaller errors (--cutting), or another output (--of)")
         shares = {name: (IntervalEstimate(value, value, value),) for name, value in first.shares.items()}
         return tornado_figure(shares, f"error of '{first.name}' by pair")
     return _jam_map(findings.cleared)
 
 
-def _require(what: Sequence[object], why: str, fix: str) -> None:
+def _require(what: Collection[object], why: str, fix: str) -> None:
     if not what:
         raise QuestionError(Problem("there is nothing to draw", why, fix))
 
@@ -173,14 +170,7 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
         turns = given[name].turns
         for at, (alpha, share) in enumerate(zip(_SHADES, _SHARES, strict=True)):
             axes.fill_between(turns, levels[at], levels[-1 - at], color=BLUE, alpha=alpha, linewidth=0, gid=share)
-        one: dict[str, Any] = {
-            "color": RED,
-            "linewidth": 0.9,
-            "linestyle": _DASHES,
-            "label": "one of them",
-            "gid": "one",
-        }
-        axes.plot(turns, errors[name][0], **one)
+        axes.plot(turns, errors[name][0], color=RED, linewidth=0.9, linestyle=_DASHES, label="one of them", gid="one")
         axes.plot(turns, levels[3], color=BLACK, linewidth=1.6, label="median", gid="median")
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
         name_axes(axes, y=f"{name}\nerror (deg)", parse_math=False)
@@ -324,13 +314,9 @@ def _check(x: Floats, y: Floats, table: Floats) -> None:
     finite = table[np.isfinite(table)]
     rising = all(each.ndim == 1 and each.size > 1 and (np.diff(each) > 0).all() for each in (x, y))
     if not (rising and table.shape == (x.size, y.size) and finite.size and finite.min() >= 0 and finite.max() <= 1):
-        raise QuestionError(
-            Problem(
-                f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}",
-                "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)",
-                "give arrays of shapes (n,), (m,) and (n, m)",
-            )
-        )
+        what = f"the arrays do not form a map: clearances {x.shape}, scales {y.shape}, probabilities {table.shape}"
+        why = "a map has at least two ascending values on each axis, and probabilities from 0 to 1 (or NaN)"
+        raise QuestionError(Problem(what, why, "give arrays of shapes (n,), (m,) and (n, m)"))
 
 
 # -------------------------------------------------------------------------------------------------------- tornado chart

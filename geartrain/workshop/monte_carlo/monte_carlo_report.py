@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from math import degrees
-from typing import TYPE_CHECKING, Any
+from math import degrees, isfinite
+from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, cut
 
@@ -13,7 +13,12 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
-    from geartrain.workshop.monte_carlo.trial_results import PairEventRates, PointerErrorStatistics, TrialResults
+    from geartrain.workshop.monte_carlo.trial_results import (
+        PairEventRates,
+        PointerErrorCourse,
+        PointerErrorStatistics,
+        TrialResults,
+    )
 
 
 def trials_document(found: TrialResults) -> Document:
@@ -64,11 +69,12 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
         yield _filing(found)
     yield _pointers(found)
     for course in found.courses:
-        yield _course(course.to_dict())
+        yield _course(course)
     yield from (_shares(found, pointer) for pointer in found.trials.pointers[:4] if len(pointer.shares) > 1)
     yield from map(_indices, found.indices)
     if found.cleared:
-        yield _cleared(found)
+        text = "Probability of each event in any pair of the train, with the same wheels at every clearance."
+        yield Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
     yield _convergence(found)
 
 
@@ -158,15 +164,14 @@ def _pointers(found: MonteCarloResult) -> Section:
     return Section("Pointers", texts, (Table(header, cut(rows)),))
 
 
-def _course(data: dict[str, Any]) -> Section:
-    rows = [(f"{percent} %", f"{each[0]:.3g}", f"{each[1]}..{each[2]}") for percent, each in _rounded(data)]
-    text = f"Maximum absolute error along one turn of '{data['output']}' in {data['trials']} trials, in degrees."
-    return Section(f"Along a turn of {data['output']}", (text,), (Table(("percentile", "error", "interval"), rows),))
-
-
-def _rounded(data: dict[str, Any]) -> Iterator[tuple[str, list[Any]]]:
-    for percent, (value, low, high) in data["maximum_deg"].items():
-        yield percent, [value, *("?" if each is None else f"{each:.3g}" for each in (low, high))]
+def _course(course: PointerErrorCourse) -> Section:
+    rows = []
+    for percent, each in course.percentiles.items():
+        # an end is infinite if too few trials are beyond the percentile
+        ends = (f"{degrees(end):.3g}" if isfinite(end) else "?" for end in (each.low, each.high))
+        rows.append((f"{percent} %", f"{degrees(each.value):.3g}", "..".join(ends)))
+    text = f"Maximum absolute error along one turn of '{course.name}' in {course.count} trials, in degrees."
+    return Section(f"Along a turn of {course.name}", (text,), (Table(("percentile", "error", "interval"), rows),))
 
 
 def _shares(found: MonteCarloResult, pointer: PointerErrorStatistics) -> Section:
@@ -191,11 +196,6 @@ def _indices(each: SobolIndices) -> Section:
 
 def _index(figure: IntervalEstimate) -> str:
     return f"{figure.value:.3f} ({figure.low:.3f}..{figure.high:.3f})"
-
-
-def _cleared(found: MonteCarloResult) -> Section:
-    text = "Probability of each event in any pair of the train, with the same wheels at every clearance."
-    return Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
 
 
 def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:

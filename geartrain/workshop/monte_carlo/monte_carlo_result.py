@@ -10,8 +10,8 @@ from geartrain.numerics.confidence_intervals import CONFIDENCE
 from geartrain.numerics.results import Key, Pictured, Result, Tabular, group
 from geartrain.numerics.work import Execution
 from geartrain.workshop.monte_carlo.clearance_study import jamming_map
-from geartrain.workshop.monte_carlo.random_streams import BLOCK
 from geartrain.workshop.monte_carlo.sobol_indices import find_sobol_indices
+from geartrain.workshop.monte_carlo.trial_block import BLOCK
 from geartrain.workshop.monte_carlo.trial_results import TrialResults
 from geartrain.workshop.monte_carlo.trial_run import run_course
 
@@ -35,8 +35,7 @@ class PartialTrials(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
-    """Results of Monte Carlo trials of one train, for reports and plots. Optional parts are results at other
-    clearances, errors along a revolution and Sobol indices.
+    """Results of Monte Carlo trials of one train, with optional studies of clearances, revolutions and sensitivity.
 
     See Also
     --------
@@ -141,9 +140,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of the cutting errors by wheel, kind and distribution, as fractions of the pitch, the half angle or the
-        tooth depth.
-        """
+        """Sizes of cutting errors by wheel, kind and distribution: fractions of pitch, half angle or tooth depth."""
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
@@ -170,31 +167,22 @@ _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # fractions of clearanc
 _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declared errors
 
 
-@dataclass(frozen=True)
-class TrialStudies:
-    """Studies requested in addition to the trials: other clearances, errors along a turn, Sobol indices."""
+def study_trials(
+    trials: TrialResults, means: Execution, clearances: Sequence[float], courses: bool, sobol: bool
+) -> MonteCarloResult:
+    """Return the trials with the results of the requested studies of the first outputs and of other clearances."""
+    plan, seed, count = trials.plan, trials.seed, trials.wanted
+    few = range(min(_FEW, len(plan.outputs)))
+    by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
+    return MonteCarloResult(
+        trials,
+        jamming_map(plan, clearances, trials=count, seed=seed, means=means) if clearances else (),
+        [run_course(plan, at, _POSITIONS, seed, _COURSES) for at in few] if courses else (),
+        [find_sobol_indices(plan, at, each, count, seed, means) for at in few for each in by] if sobol else (),
+    )
 
-    clearances: Sequence[float] = ()
-    """Clearance factors, or fractions of clearance windows, at which the trials are repeated."""
-    courses: bool = False
-    """True to evaluate the first outputs along a turn."""
-    sobol: bool = False
-    """True to compute Sobol indices of the first outputs, by wheel and by kind."""
 
-    def of(self, trials: TrialResults, means: Execution) -> MonteCarloResult:
-        """Return the trials with the results of the requested studies."""
-        plan, seed, count = trials.plan, trials.seed, trials.wanted
-        few = range(min(_FEW, len(plan.outputs)))
-        by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
-        return MonteCarloResult(
-            trials,
-            jamming_map(plan, self.clearances, trials=count, seed=seed, means=means) if self.clearances else (),
-            [run_course(plan, at, _POSITIONS, seed, _COURSES) for at in few] if self.courses else (),
-            [find_sobol_indices(plan, at, each, count, seed, means) for at in few for each in by] if self.sobol else (),
-        )
-
-    def mapped(self, findings: MonteCarloResult, means: Execution) -> MonteCarloResult:
-        """Return a result with the jamming map added: trials at several clearances and scales of the errors."""
-        of = findings.trials
-        clearances = self.clearances or _SHARES
-        return replace(findings, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))
+def with_jamming_map(found: MonteCarloResult, means: Execution, clearances: Sequence[float]) -> MonteCarloResult:
+    """Return a result with the trials repeated at several clearances and scales of the errors."""
+    of, clearances = found.trials, clearances or _SHARES
+    return replace(found, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

@@ -22,8 +22,17 @@ from geartrain.numerics.confidence_intervals import IntervalEstimate, deviations
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.workshop.cutting.declared_errors import ERROR_KINDS
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, EVERY, NUMBER, TOWARDS, RandomStreams, Streams
-from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
+from geartrain.workshop.monte_carlo.trial_block import (
+    BLOCK,
+    EVERY,
+    NUMBER,
+    TOWARDS,
+    RandomStreams,
+    Streams,
+    draw_trial_wheels,
+    input_positions,
+    trial_pointers,
+)
 from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
 
 if TYPE_CHECKING:
@@ -62,15 +71,11 @@ class SobolIndices(Result):
     output: str
     """Name of the output."""
     by: By
-    """Grouping of the manufacturing errors into input variables: "wheel" for all errors of one wheel, "kind" for one
-    kind of error of all wheels.
-    """
+    """Input variables: "wheel" for all errors of one wheel, "kind" for one kind of error of all wheels."""
     trials: int
     """Number of base samples in which the pointer error is finite."""
     indices: tuple[SobolIndex, ...]
-    """Sobol indices of each input variable, in descending order of the total index. The variable "position" is the
-    position of the input.
-    """
+    """Indices of all input variables in descending order of the total; "position" is the position of the input."""
 
 
 def find_sobol_indices(
@@ -161,6 +166,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 def _saltelli(values: Floats) -> Floats:
     """Return first-order and total indices, shape (2, d)."""
+    # columns f(A), f(AB(1)), ..., f(AB(d)), f(B)
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
     variance = np.var(values[:, [0, -1]])
@@ -191,9 +197,7 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function that returns the errors of the output in some base samples [rad], shape (trials, inputs + 2), with
-    the columns A, AB(i), B.
-    """
+    """Task function: errors of an output in some base samples [rad], one row each with the columns A, AB(i), B."""
 
     plan: TrialPlan
     seed: int

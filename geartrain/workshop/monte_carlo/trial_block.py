@@ -1,11 +1,16 @@
-"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed, reproducibly in any process."""
+"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed, reproducibly in any process.
+
+Random errors come from independent streams, each keyed by seed, block, wheel and kind of error. A trial therefore has
+the same errors in any process, whatever else is computed. Errors scaled by a factor are the same random numbers times
+that factor, and a study of clearances uses the same wheels at every clearance.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,31 +20,112 @@ from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.transmission import ExactRatio
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedWheel
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.workshop.cutting.declared_errors import ErrorSpecification, WheelErrors
     from geartrain.workshop.cutting.file_strokes import FilingWork
     from geartrain.workshop.cutting.trial_transmission import TrialTransmissionFunction
     from geartrain.workshop.monte_carlo.trial_plan import TrialPair, TrialPlan
 
     Marks = NDArray[np.uint8]
 
+# ------------------------------------------------------------------------------------------------------- random numbers
+
+
+BLOCK = 256
+"""Number of trials that are drawn together. Results depend on it, so it must never change."""
+
+NUMBER = {"pitch_deviation": 0, "eccentricity": 1, "tip": 3, "aperture_deviation": 4, "centre": 5, "bearing": 6}
+"""Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
+TOWARDS, POSITION, FRICTION = 2, 7, 8
+"""Numbers of the streams of the direction of an eccentricity, the position of the input, and friction."""
+Streams = tuple[Container[int], Container[int]]
+EVERY = range(1 << 31)
+"""All numbers of wheels and pairs, or of kinds of error."""
+
+
+@dataclass(frozen=True, slots=True)
+class RandomStreams:
+    """Random number generators of one block of trials."""
+
+    seed: int
+    block: int
+    other: Streams = ((), ())
+    """Items (wheels or pairs) and kinds of error drawn from the second, independent sample of Sobol indices."""
+
+    def rng(self, item: int, kind: int) -> np.random.Generator:
+        """Return the generator for one kind of error of one wheel or pair, or for the position of the input."""
+        key = (self.block, item, kind, int(item in self.other[0] and kind in self.other[1]))
+        # PCG64 by name: numpy's default generator may change, and results must not
+        return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
+
+    def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
+        """Return random errors as fractions, in an array of shape (trials,) or (trials, teeth)."""
+        if off.way == "value":
+            return np.full(shape, off.size)
+        rng = self.rng(item, NUMBER[kind])
+        unit = rng.standard_normal(shape) if off.way == "normal" else rng.uniform(-1.0, 1.0, shape)
+        return off.size * unit
+
+
+def draw_wheel(
+    wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
+) -> tuple[CutWheel | DisplacedWheel, Bools]:
+    """Return one wheel drawn in some trials of a block, and a mask of the trials in which it can be cut.
+
+    Pitch deviations and drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1,
+    internal ones -1. In trials in which a wheel cannot be cut, its teeth are returned without errors (displaced flanks:
+    without pitch deviations), so that later code never meets teeth without tips.
+    """
+    # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
+    shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
+    zero = np.zeros(wheel.z)
+
+    def drawn(kind: str) -> Floats:
+        found = zero + np.asarray(wheel.tables[kind]) if kind in wheel.tables else zero
+        return found + streams.errors(item, kind, wheel.errors[kind], shape)[rows] if kind in wheel.errors else found
+
+    # signs: declared errors are positive ahead and wider, the arrays of a wheel positive behind and flatter
+    place = np.broadcast_to(-wheel.pitch * drawn("pitch_deviation"), (trials, wheel.z))
+    tip = wheel.depth * drawn("tip")
+    flank = wheel.half_angle * drawn("aperture_deviation")
+    eccentric = _draw_eccentricity(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
+    if wheel.displaced is not None:
+        made = DisplacedWheel(place, tip, flank, flank, zero, zero, *(eccentric or (0.0, 0.0)))
+        good = np.asarray(made.cuttable.all(axis=-1))
+        return replace(made, place=np.where(good[:, None], place, 0.0)), good
+    cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
+    if eccentric is not None:
+        cut = cut.moved(*eccentric)
+    good = np.asarray(cut.cuttable.all(axis=-1))
+    if good.all():
+        return cut, good
+    # perfect teeth replace those that cannot be cut; these trials are flagged and not counted
+    kept = [np.where(good[:, None], each, 0.0) for each in (cut.place, cut.tip, cut.leading, cut.trailing)]
+    return CutWheel(cut.radius, wheel.half_angle, *kept), good
+
+
+def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
+    e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (BLOCK,))[rows]
+    if wheel.towards is not None:
+        return e, np.full(len(e), wheel.towards)
+    return e, streams.rng(item, TOWARDS).uniform(0.0, 2 * pi, BLOCK)[rows]
+
+
+# ----------------------------------------------------------------------------------------------------- wheels and pairs
+
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""Bit masks: STOPS marks a pair that cannot turn through its cycle while its driven wheel drags; LOST excludes a pair
-from averages.
-"""
+"""Bit masks of pairs that stop with a dragging driven wheel, and of pairs that are excluded from averages."""
 
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of wheels that can be
-    cut.
-    """
+    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of cuttable wheels."""
 
     plan: TrialPlan
     streams: RandomStreams
@@ -65,16 +151,12 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Result of filing by index of the pair, for pairs that are filed to fit, at the minimum distance of their
-        bearings.
-        """
+        """Filing of each pair that is filed to fit, at the minimum distance of its bearings, by index of the pair."""
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return the numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 *
-        pairs).
-        """
+        """Return numbers of file strokes and of filed teeth in alternate columns, shape (trials, 2 * pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -102,16 +184,10 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 # ------------------------------------------------------------------------------------------------------------- verdicts
 
 
-def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
-    """Return event flags and minimum backlash [pitch of the driven wheel] of the pairs in every trial, shape (trials,
-    pairs); no flag and infinite backlash for pairs that are not in `pairs`.
-    """
-    wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
-    marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
-    backlash = np.full(marks.shape, inf)
-    for at in wanted:
-        marks[:, at], backlash[:, at] = _judged(drawn, at)
-    return marks, backlash
+def judge_trial_pairs(drawn: TrialWheels) -> tuple[Marks, Floats]:
+    """Return event flags and minimum backlash [pitch of the driven wheel] of each pair, shape (trials, pairs)."""
+    judged = [_judged(drawn, at) for at in range(len(drawn.plan.pairs))]
+    return np.stack([marks for marks, _ in judged], axis=1), np.stack([backlash for _, backlash in judged], axis=1)
 
 
 def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
@@ -129,16 +205,14 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     )
     uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
     marks = np.where(uncut, UNCUT, marks)
-    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.backlash / pair.pitches[1]
+    return marks.astype(np.uint8), near.backlash / pair.pitches[1]
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
 
 
 def input_positions(drawn: TrialWheels) -> Floats:
-    """Return a random position of the input in each trial [turn], uniform over the span of the plan, shape
-    (trials,).
-    """
+    """Return a random input position in each trial [turn], uniform over the span of the plan, shape (trials,)."""
     # a whole block is drawn and then sliced, as for all errors
     return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 
@@ -156,9 +230,7 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the deviations as in `errors`, but to first order [rad]: each pair at its mean angle, each pin at its
-        mean ratio.
-        """
+        """Return `errors` to first order [rad]: each pair at its mean angle, each pin at its mean ratio."""
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 

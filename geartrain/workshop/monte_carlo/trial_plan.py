@@ -13,15 +13,12 @@ from fractions import Fraction
 from math import gcd, inf, lcm, nan, pi
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import fraction_text
 from geartrain.numerics.results import Shown
-from geartrain.workshop.cutting.cut_wheel import CutGearPair
+from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
 from geartrain.workshop.cutting.declared_errors import (
-    OF_PAIRS,
     ErrorOverride,
     ErrorSpecification,
     WheelErrors,
@@ -32,14 +29,12 @@ from geartrain.workshop.cutting.declared_errors import (
 )
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair, even_backlash, mean_lag
 from geartrain.workshop.cutting.file_strokes import FilingWork, file_to_fit, tight_place
-from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import jamming_bound, nominal_backlash
+from geartrain.workshop.cutting.meshing_cycle import batch_verdicts, jamming_bound, nominal_backlash
 from geartrain.workshop.cutting.trial_transmission import (
     CutTrialTransmission,
     DisplacedTrialTransmission,
     TrialTransmissionFunction,
 )
-from geartrain.workshop.monte_carlo.random_streams import fitted
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -86,7 +81,7 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of length of the wheels]."""
+        """Smaller tooth depth of the two wheels [unit of the radii; module; rad for bevel gears]."""
 
     @property
     @abstractmethod
@@ -100,13 +95,11 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair of drawn wheels with the centre distance increased by `shift`."""
+        """Return the pair of drawn wheels, scaled to its sizes, with the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, and the minimum
-        backlash.
-        """
+        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, minimum backlash."""
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
@@ -114,17 +107,14 @@ class TrialPair(ABC):
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing to fit, with the numbers of strokes and of filed teeth."""
+        """Return a cut pair filed by strokes of the declared depth, until it passes or a flank is at its limit."""
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
         """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the probability of a jam for normal pitch deviations `sigma` [pitch]; NaN without a
-        bound.
-        """
-        del sigma
+        """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
         return nan
 
     @property
@@ -161,7 +151,7 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Radii, half angles and excess of the centre distance, as part of the key of a journal."""
+        """Radii, half angles and excess of the centre distance."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
@@ -174,36 +164,26 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial; of one trial if both wheels are the same in all trials."""
-        first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
-        return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
+        """Return the events of a cut pair in each trial."""
+        return batch_verdicts(pair.sizes, pair.first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
         """Return the transmission functions of a cut pair, computed tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
-        limit.
-        """
-        whole = _with_trial_axis(pair, pair.trials[0] if pair.trials else 1)
+        """Return a cut pair after filing, limited to an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
-        return file_to_fit(whole, tight_place, self.stroke * self.depth, limit)
+        return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the probability of a jam.
-
-        j is the nominal backlash and sigma the standard deviation [pitch].
-        """
+        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the jam probability, with the nominal backlash j."""
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
-        return replace(self, sizes=self._cleared(clearance))
-
-    def _cleared(self, clearance: float) -> TriangularSizes:
+        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window."""
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
-            return self.sizes.at(clearance - 1)
+            return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
 
         window = find_window(self.sizes)
@@ -211,14 +191,21 @@ class TriangularTrialPair(TrialPair):
             what = f"pair '{self.name}' has no clearance window"
             why = "its perfect teeth jam or lose contact at every clearance"
             raise RangeError(Problem(what, why, "give clearance factors above 1: --vary clearance_factor=1.005:1.04:8"))
-        return self.sizes.at(window.at(clearance))
+        return replace(self, sizes=self.sizes.at(window.at(clearance)))
+
+
+def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
+    """Return a wheel of tip radius 1 (internal: -1) scaled to the sizes of its pair.
+
+    It is mirrored if it turns against the numbering of its teeth.
+    """
+    found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
+    return found.mirrored() if mirrored else found
 
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Gear pair of any other tooth form: flanks displaced along the path of contact, accurate to first order in the
-    errors.
-    """
+    """Gear pair of any other tooth form: flanks displaced along the path of contact, to first order in the errors."""
 
     contact: DisplacedContact
 
@@ -240,7 +227,7 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Numbers that identify the contact, as part of the key of a journal."""
+        """Numbers that identify the contact."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
@@ -248,9 +235,6 @@ class DisplacedTrialPair(TrialPair):
         """Return the pair of drawn wheels, mirrored if they turn against the numbering of their teeth."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
-        # filing and verdicts need an axis of trials, even if all trials are the same
-        if not np.broadcast_shapes(first.trials, second.trials, np.shape(shift)):
-            first = replace(first, place=first.place[None])
         return DisplacedPair(self.contact, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
@@ -263,9 +247,7 @@ class DisplacedTrialPair(TrialPair):
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair after filing by strokes of the declared depth, until it does not jam or a flank is at its
-        limit.
-        """
+        """Return a cut pair after filing, limited to an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
@@ -274,18 +256,9 @@ class DisplacedTrialPair(TrialPair):
         if clearance < 1 or not self.contact.distance < inf:
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
-            raise RangeError(
-                Problem(what, why, "omit --vary, or give clearance factors above 1 if all axes are parallel")
-            )
+            fix = "omit --vary, or give clearance factors above 1 if all axes are parallel"
+            raise RangeError(Problem(what, why, fix))
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
-
-
-def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
-    """Return the pair with both wheels expanded to arrays with an axis of trials."""
-    wheels = [
-        replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
-    ]
-    return CutGearPair(pair.sizes, wheels[0], wheels[1], pair.shift)
 
 
 # ---------------------------------------------------------------------------------------------------------------- train
@@ -345,7 +318,7 @@ class TrialPlan(Shown):
         """
 
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
-            return {each: off.times(factor) for each, off in errors.items()}
+            return {kind: replace(off, size=off.size * factor) for kind, off in errors.items()}
 
         # measured tables describe one real wheel and keep their values
         wheels = tuple(replace(each, errors=times(each.errors)) for each in self.wheels)
@@ -447,7 +420,12 @@ def find_trial_plan(
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
-    meshes = _cut_meshes(train, motion)
+    meshes = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
+    if not meshes:
+        what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
+        why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
+        fix = "declare `tooth_form: {form: involute}` or another such form for the train or for its pairs"
+        raise QuestionError(Problem(what, why, fix))
     # a wheel in several pairs is drawn once, with the teeth of its first pair
     even: dict[str, WheelErrors] = {}
     for mesh in meshes:
@@ -477,23 +455,6 @@ def find_trial_plan(
         _span(composition, pairs),
         motion._problem.driving_link,
     )
-
-
-def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
-    """Return the pairs whose teeth can have cutting errors.
-
-    Raises
-    ------
-    QuestionError
-      If no pair has a tooth form for which cutting errors can be computed.
-    """
-    found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
-    if not found:
-        what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
-        why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
-        fix = "declare `tooth_form: {form: involute}` or another such form for the train or for its pairs"
-        raise QuestionError(Problem(what, why, fix))
-    return found
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
@@ -552,9 +513,10 @@ def _pair(
     train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _RotationSenses, settings: Sequence[ErrorOverride]
 ) -> TrialPair:
     wheels, contact = _even_wheels(train, mesh), mesh.displaced_contact
-    lesser = min(wheels, key=lambda wheel: wheel.depth) if contact is not None else _less_deep(mesh, wheels)
+    depths = mesh.cut_sizes.depths if contact is None else [wheel.depth for wheel in wheels]
+    # the wheel with the smaller tooth depth; the driver if both depths are equal
+    lesser = wheels[0] if depths[0] <= depths[1] else wheels[1]
     fitting = pair_errors(train.declaration, mesh, lesser, settings)
-    fitting = {kind: off for kind, off in fitting.items() if kind in OF_PAIRS}
     mirrored = senses.mirrored(mesh.name, mesh.driver), senses.mirrored(mesh.name, mesh.driven)
     numbers = names.index(mesh.driver), names.index(mesh.driven)
     stroke = filing_stroke(train.declaration, mesh, lesser)
@@ -565,9 +527,3 @@ def _pair(
     # not counted as a cutting error
     even = -mean_lag(contact)
     return DisplacedTrialPair(mesh.name, *numbers, mirrored, even, contact, fitting=fitting, stroke=stroke)
-
-
-def _less_deep(mesh: GearMesh, wheels: tuple[WheelErrors, WheelErrors]) -> WheelErrors:
-    """Return the wheel with the smaller tooth depth of a triangular pair; the driver if both depths are equal."""
-    depths = mesh.cut_sizes.depths
-    return wheels[0] if depths[0] <= depths[1] else wheels[1]

@@ -61,20 +61,15 @@ class TrialResults(Tabular):
     wanted: int
     """Number of requested trials. It is larger than `done` if the run was interrupted."""
     marks: Marks
-    """Event flags of each pair, shape (trials, pairs): a bit mask of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not
-    cuttable.
-    """
+    """Bit mask of each pair, shape (trials, pairs): 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable."""
     turns: Floats
     """Position of the input in each trial, shape (trials,) [turn]."""
     errors: Floats
     """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     linear: Floats
-    """Pointer errors of the first trials by first-order superposition, shape (up to about 1024 trials, outputs) [rad].
-    """
+    """Pointer errors by first-order superposition, shape (first trials, up to about 1024; outputs) [rad]."""
     lags: Floats
-    """Transmission error of each pair minus its mean without cutting errors, shape (trials, pairs) [rad of the driven
-    wheel].
-    """
+    """Transmission errors minus their means without cutting errors, shape (trials, pairs) [rad of the driven wheel]."""
     filing: Floats
     """Numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 * pairs)."""
 
@@ -112,9 +107,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def bounds(self) -> Mapping[str, float]:
-        """Pair -> upper bound of the jam probability, 0 to 1. Pairs without a bound, such as pairs with other errors
-        than normal pitch deviations, are omitted.
-        """
+        """Upper bound of the jam probability, 0 to 1, by pair, if all its errors are normal pitch deviations."""
         found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
         return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -216,8 +209,7 @@ class TrialResults(Tabular):
         return [ConvergenceStep(*each) for each in self.convergence("stops")]
 
     def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
-        """Return the probability of an event in at least one pair, estimated from 1/16, 1/8, 1/4, 1/2 and all of the
-        trials.
+        """Return the probability of an event in at least one pair, from the first 1/16, 1/8, 1/4, 1/2 and all trials.
 
         Parameters
         ----------
@@ -230,8 +222,7 @@ class TrialResults(Tabular):
         return [(count, _share(whole[:count], mark)) for count in counts]
 
     def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
-        """Return the standard deviation of a pointer error [rad], estimated from 1/16, 1/8, 1/4, 1/2 and all of its
-        trials.
+        """Return the standard deviation of a pointer error [rad], from the first 1/16, 1/8, 1/4, 1/2 and all trials.
 
         Parameters
         ----------
@@ -289,8 +280,7 @@ class PairEventRates(Result):
     name: str
     """Name of the pair, or "the train"."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, in the trials with wheels that can be cut.
-    """
+    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, in trials with cuttable wheels."""
     uncut: int
     """Number of trials with at least one wheel that cannot be cut."""
     backlash: float = nan
@@ -381,9 +371,7 @@ class PointerErrorStatistics(Result):
     name: str
     """Name of the output."""
     errors: Floats
-    """Pointer errors [rad] of the trials in which no pair on which the output depends jams or disengages, in the order
-    of the trials.
-    """
+    """Pointer errors [rad] in order of the trials in which no pair that moves the output jams or disengages."""
     all: Floats
     """Pointer errors of all trials in which teeth touch [rad]. If a pair jams, the value is the error with the drive
     flanks of that pair in contact.
@@ -393,9 +381,7 @@ class PointerErrorStatistics(Result):
     first: FirstOrderError
     """Root mean square of the error from first-order superposition, and root mean square of the pointer error [rad]."""
     shares: Mapping[str, float]
-    """Share of each pair in the variance of the pointer error, from first-order superposition; the sum of the shares
-    is 1. Empty if the variance is 0.
-    """
+    """Share of each pair in the variance, by first-order superposition; the sum is 1. Empty if the variance is 0."""
 
     @property
     def runs(self) -> int:
@@ -404,9 +390,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def kept(self) -> Floats:
-        """Errors from which the statistics are computed [rad]: `errors`, or `all` if the output can turn in fewer than
-        30 trials.
-        """
+        """Errors of the statistics [rad]: `errors`, or `all` if the output can turn in fewer than 30 trials."""
         return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
@@ -426,9 +410,7 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error over all trials in which teeth touch [rad], with its confidence
-        interval.
-        """
+        """Standard deviation of the pointer error over all trials in which teeth touch, with its interval [rad]."""
         return deviation_of(self.all)
 
     @property
@@ -454,8 +436,7 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Pointer error of one output over one revolution of the output (of the input if the output is fixed), for each
-    trial.
+    """Pointer errors of one output in each trial over one revolution of the output, or of the input if it is fixed.
 
     See Also
     --------
@@ -495,9 +476,7 @@ class PointerErrorCourse(Result):
 
     @property
     def bands_deg(self) -> Floats:
-        """Minimum, five quantiles and maximum of the pointer errors at each position, as in `bands`, shape (7, n)
-        [deg].
-        """
+        """Minimum, five quantiles and maximum of the pointer errors, as in `bands`, shape (7, n) [deg]."""
         found: Floats = np.degrees(self.bands())
         return found
 

@@ -1,6 +1,4 @@
-"""Execution of trials as tasks in one or several processes, with a journal; all trials as one result or as a table
-file.
-"""
+"""Execution of trials as tasks in one or several processes, with a journal; their results, and a table file."""
 
 from __future__ import annotations
 
@@ -19,9 +17,10 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.files import ColumnTable, LongTable, csv_line, csv_lines
 from geartrain.numerics.work import Execution
-from geartrain.workshop.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.workshop.monte_carlo.trial_block import (
-    UNCUT,
+    BLOCK,
+    RandomStreams,
+    TrialWheels,
     draw_trial_wheels,
     input_positions,
     judge_trial_pairs,
@@ -67,13 +66,7 @@ def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[st
 
 
 def check_trials(trials: int) -> None:
-    """Check that the number of trials is from 1 to 10^9.
-
-    Raises
-    ------
-    QuestionError
-      If the number of trials is out of range.
-    """
+    """Raise `QuestionError` if the number of trials is not from 1 to 10^9."""
     if not 1 <= trials <= _MOST:
         what = f"{trials if trials < 1 else f'{trials:.3g}'} is not a valid number of trials"
         raise QuestionError(Problem(what, f"a run has from 1 to {_MOST:,} trials", "for example, give --trials 1000"))
@@ -102,8 +95,7 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Run Monte Carlo trials of a train. Each trial draws new errors for all wheels and turns each pair through a full
-    cycle.
+    """Run Monte Carlo trials of a train: each draws errors of all wheels and turns each pair through a full cycle.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the results of the completed trials are returned.
@@ -151,12 +143,12 @@ def run_trials(
     """
     check_trials(trials)
     means, work, tasks = means or Execution(), partial(work_block, plan, seed), trial_tasks(trials)
+    # before the run, so that a refused run leaves no journal
+    _check_cut(draw_trial_wheels(plan, RandomStreams(seed, 0), tasks[0][1]))
     found: list[TrialRecord] = []
     try:
         for (first, _), packed in zip(tasks, means.run(work, tasks), strict=True):
             rows = unpack(first, packed)
-            if not first:
-                _check_cut(plan, rows)
             if take is not None:
                 take(rows)
             # only the table needs the backlash, so its memory is freed
@@ -167,26 +159,18 @@ def run_trials(
     return gathered(plan, seed, trials, found)
 
 
-def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
-    """Check that the wheels can be cut in at least half of the trials.
-
-    Raises
-    ------
-    RangeError
-      If wheels cannot be cut in more than half of the trials.
-    """
-    uncut = (rows.marks & UNCUT) > 0
-    if uncut.any(axis=1).mean() <= 0.5:
+def _check_cut(drawn: TrialWheels) -> None:
+    """Raise `RangeError` if wheels cannot be cut in more than half of the trials."""
+    plan = drawn.plan
+    uncut = np.stack([~(drawn.good[pair.first] & drawn.good[pair.second]) for pair in plan.pairs], axis=1)
+    share = uncut.any(axis=1).mean()
+    if share <= 0.5:
         return
     pair = plan.pairs[int(uncut.mean(axis=0).argmax())]
     wheel = max((plan.wheels[pair.first], plan.wheels[pair.second]), key=lambda each: each.z)
-    raise RangeError(
-        Problem(
-            f"in {uncut.any(axis=1).mean():.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'",
-            f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg",
-            "give smaller errors: --cutting pitch_deviation='2 %'",
-        )
-    )
+    what = f"in {share:.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'"
+    why = f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg"
+    raise RangeError(Problem(what, why, "give smaller errors: --cutting pitch_deviation='2 %'"))
 
 
 # -------------------------------------------------------------------------------------------------------------- workers
@@ -224,9 +208,7 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the trials of one task, decoded from the plain data of a worker or a journal; `first` is its first
-    trial.
-    """
+    """Return the trials of one task, the first being `first`, from the plain data of a worker or a journal."""
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 

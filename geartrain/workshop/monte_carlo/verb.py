@@ -18,7 +18,6 @@ from geartrain.cli.common import (
     Names,
     Out,
     Seed,
-    Sink,
     StateName,
     Without,
     check_distinct_outputs,
@@ -38,8 +37,6 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from geartrain.numerics.work import Execution
-    from geartrain.scene.palette import ThemeName
-    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults
     from geartrain.workshop.monte_carlo.trial_run import TrialRecord
@@ -94,16 +91,21 @@ def run(
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.cutting.declared_errors import read_error_overrides
     from geartrain.workshop.monte_carlo.clearance_study import read_clearances
-    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult, TrialStudies
+    from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo
+    from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult, study_trials, with_jamming_map
     from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
     from geartrain.workshop.monte_carlo.trial_run import SUFFIXES, check_trials, journal_key, trial_table
 
     to = sink(out, force, (".md", ".html", ".json", *SUFFIXES))
     check_trials(trials)
-    drawing = _check_plot(plot, force, theme, picture)
+    drawing = picture_sink(plot, force, theme)
+    if plot is not None:
+        from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES, monte_carlo_figure
+
+        if picture not in PICTURES:
+            raise option_error("--picture", f"'{picture}' is not a kind of picture", suggest(picture, PICTURES))
     check_distinct_outputs(to, drawing)
     sweep = read_clearances(vary) if vary else []
-    studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
     options = RunOptions(workers, resume)
     if to.path is None and to.suffix in SUFFIXES:
@@ -115,27 +117,22 @@ def run(
         found = _trials(plan, trials, seed, given, table)
         if found.complete:
             later = replace(given, journal=None)  # the journal contains only the trials
-            findings = studies.of(found, later)
+            findings = study_trials(found, later, sweep, bool(output), sobol)
             if plot is not None:
-                drawn = studies.mapped(findings, later) if picture == "map" else findings
+                drawn = with_jamming_map(findings, later, sweep) if picture == "map" else findings
             close_journal(given.journal, cut=False)
         else:
             tell(f"stopped after {found.done} of {trials} trials; the results are for these trials")
             if given.journal is not None:
                 tell(f"completed trials are in {given.journal.path}; repeat the command with --resume to continue")
-    _answer(findings or MonteCarloResult(found), json or to.suffix == ".json", STANDARD if tabled else to)
+    shown = findings or MonteCarloResult(found)
+    give(STANDARD if tabled else to, json or to.suffix == ".json", lambda: shown, lambda: [describe_monte_carlo(shown)])
     if tabled and found.complete:
         tell(f"wrote {out}")
-    if drawn is not None and plot is not None:
-        _draw_findings(drawn, picture, drawing)
+    if drawn is not None:
+        draw(monte_carlo_figure(drawn, picture), drawing)
     if findings is None:
         raise typer.Exit(INTERRUPTED)
-
-
-def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
-    from geartrain.workshop.monte_carlo.monte_carlo_report import describe_monte_carlo
-
-    give(to, json, lambda: findings, lambda: [describe_monte_carlo(findings)])
 
 
 class _StoppedError(Exception):
@@ -157,22 +154,3 @@ def _trials(
         if not found.complete:
             raise _StoppedError  # leaves the table marked as partial
     return found
-
-
-def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
-    """Return the destination of the plot; reject an unknown picture or a file that cannot be written before the trials
-    run.
-    """
-    if plot is not None:
-        from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
-
-        if picture not in ALL:
-            raise option_error("--picture", f"'{picture}' is not a kind of picture", suggest(picture, ALL))
-    return picture_sink(plot, force, theme)
-
-
-def _draw_findings(findings: MonteCarloResult, picture: str, to: Sink) -> None:
-    """Draw one picture of the trials to a file."""
-    from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure
-
-    draw(monte_carlo_figure(findings, picture), to)

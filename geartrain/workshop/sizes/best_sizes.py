@@ -1,5 +1,4 @@
-"""Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by the contact of its
-outlines.
+"""Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by its drawn outlines.
 
 The outlines are drawn from the sizes alone, so they verify the transmission function independently.
 """
@@ -71,17 +70,11 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """Comparison of the best design's results with the results that its drawn outlines give."""
     equal_depth: ToothSizes | None
-    """Design with tip radii for equally deep teeth, and with the window and half angles of `start`; None if it does not
-    turn.
-    """
+    """Design for equally deep teeth, with the window and half angles of `start`; None if it does not turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, and with the window and half angles of `start`; None if
-    it does not turn.
-    """
+    """Design with tip radii in the ratio of the tooth numbers, else as `start`; None if it does not turn."""
     front: tuple[ToothSizes, ...]
-    """Pareto front of two objectives, from the best design for the first to the best design for the second; empty for
-    one objective.
-    """
+    """Pareto front from the best design for the first objective to that for the second; empty for one objective."""
     evaluations: int
     """Number of designs that the search evaluated."""
     stops: float | None
@@ -97,9 +90,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for the best design, the rule-based designs that turn, and the Pareto front; angles are in
-        rad.
-        """
+        """Table of the best design, the rule-based designs that turn, and the Pareto front; angles are in rad."""
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -197,31 +188,14 @@ def find_tooth_sizes(
 
 
 def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters, after a check of the objectives.
-
-    Raises
-    ------
-    QuestionError
-      If objectives or bounds are invalid.
-    """
+    """Return the bounds of the free parameters; raise `QuestionError` if objectives or bounds are invalid."""
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
         what = f"'{', '.join(aims)}' does not name one objective or two different objectives"
-        raise QuestionError(
-            Problem(
-                what,
-                "one objective gives a best design, two give a Pareto front",
-                f"give one or two of {', '.join(AIMS)}",
-            )
-        )
+        why = "one objective gives a best design, two give a Pareto front"
+        raise QuestionError(Problem(what, why, f"give one or two of {', '.join(AIMS)}"))
     if "loss" in aims and not start.friction:
-        what = "the loss cannot be minimised without friction"
-        raise QuestionError(
-            Problem(
-                what,
-                "without friction the loss is 0 for all teeth",
-                "give a coefficient of friction above 0, or another objective",
-            )
-        )
+        what, why = "the loss cannot be minimised without friction", "without friction the loss is 0 for all teeth"
+        raise QuestionError(Problem(what, why, "give a coefficient of friction above 0, or another objective"))
     return checked_ranges(free)
 
 
@@ -230,8 +204,7 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Comparison of a design's properties according to its transmission function and according to the contact of its
-    drawn outlines.
+    """Comparison of a design's properties by its transmission function and by the contact of its drawn outlines.
 
     See Also
     --------
@@ -243,8 +216,7 @@ class OutlineAgreement(Result):
     loss: tuple[float, float]
     """Loss from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Peak-to-peak transmission error from the transmission function and from the outlines [rad of the driven wheel].
-    """
+    """Peak-to-peak transmission error of the transmission function and of the outlines [rad of the driven wheel]."""
     impact: tuple[float, float]
     """Impact loss from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]
@@ -286,9 +258,7 @@ def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
 
 
 def _mean_efficiency(transmission: OutlineTransmission) -> float:
-    """Return the mean efficiency [1] over the angle of the driver, by Gauss quadrature in cells of each smooth
-    interval.
-    """
+    """Return the mean efficiency over the angle of the driver, by Gauss quadrature in cells of smooth intervals."""
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)

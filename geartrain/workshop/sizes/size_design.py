@@ -227,9 +227,7 @@ _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
-    """Return table columns with a row for each design that turns: sizes and properties by name; angles and errors in
-    rad.
-    """
+    """Return table columns with a row for each design that turns: sizes and properties by name; angles in rad."""
     names = ("radii", "window", "clearance_factor", *_FIGURES)
     angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
     return angles | {name: [getattr(each, name) for each in designs] for name in names}

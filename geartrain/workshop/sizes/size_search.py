@@ -77,9 +77,7 @@ class SizeSearch:
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point; designs that do not turn or violate a limit have larger values
-        than all feasible designs.
-        """
+        """Return the objective as a function of a point, larger for infeasible designs than for all feasible ones."""
 
         def figure(at: Point) -> float:
             design = self.design(at)
@@ -92,13 +90,7 @@ class SizeSearch:
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """Return the best design for one objective.
-
-        Raises
-        ------
-        QuestionError
-          If no design turns and satisfies the limits.
-        """
+        """Return the best design for one objective; raise `QuestionError` if no design turns within the limits."""
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
@@ -116,7 +108,9 @@ class SizeSearch:
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
-            bound = _limit(second, high + (low - high) * step / (_FRONT + 1))
+            merit = high + (low - high) * step / (_FRONT + 1)
+            # the merit of `jam` is minus the margin, because merits are minimised
+            bound = SizeLimit(second, -merit if second == "jam" else merit)
             known = SampledFunction(self.value(first, [bound]), self.bounds)
             inside = [at for at, each in self.designs.items() if self.keeps(each, [bound])]
             if inside:  # the best known design within the bound is the start
@@ -125,9 +119,7 @@ class SizeSearch:
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """Return the Pareto front of given designs in two objectives, from the best in the first to the best in the
-    second.
-    """
+    """Return the Pareto front of given designs, from the best in the first objective to the best in the second."""
     found: list[ToothSizes] = []
     # in this order a design is dominated unless it improves the second objective
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
@@ -146,50 +138,30 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
     return (*found, *front[1:][-1:])
 
 
-def _limit(aim: str, merit: float) -> SizeLimit:
-    # the merit of `jam` is minus the margin, because merits are minimised
-    return SizeLimit(aim, -merit if aim == "jam" else merit)
-
-
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     """Return the bounds of the free parameters; `USUAL_RANGES` replaces None.
 
-    Raises
-    ------
-    QuestionError
-      If a parameter or its bounds are invalid, or if no parameter is free.
+    Raises `QuestionError` if a parameter or its bounds are invalid, or if no parameter is free.
     """
     found = {}
     for name, given in free.items():
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
-            why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
-            fix = f"use one or more of {', '.join(PARAMETERS)}"
-            raise QuestionError(
-                Problem(
-                    what, why if name in _CLEARANCES else "other sizes follow from these parameters or are fixed", fix
-                )
-            )
+            why = "other sizes follow from these parameters or are fixed"
+            if name in _CLEARANCES:
+                why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
+            raise QuestionError(Problem(what, why, f"use one or more of {', '.join(PARAMETERS)}"))
         low, high = USUAL_RANGES[name] if given is None else given
         minimum, most = _WIDEST[name]
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
-            raise QuestionError(
-                Problem(
-                    what,
-                    "the lower bound must be below the upper bound, and both must be in the permitted range",
-                    f"give bounds from {minimum:g} to {most:g} (angles in rad)",
-                )
-            )
+            why = "the lower bound must be below the upper bound, and both must be in the permitted range"
+            raise QuestionError(Problem(what, why, f"give bounds from {minimum:g} to {most:g} (angles in rad)"))
         found[name] = (float(low), float(high))
     if not found:
-        raise QuestionError(
-            Problem(
-                "no parameter is free",
-                "a search needs at least one free parameter",
-                f"free one or more of {', '.join(PARAMETERS)}",
-            )
-        )
+        what = "no parameter is free"
+        why = "a search needs at least one free parameter"
+        raise QuestionError(Problem(what, why, f"free one or more of {', '.join(PARAMETERS)}"))
     return found
 
 
@@ -198,8 +170,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors stops. Because this probability is expensive to compute,
-    the search evaluates it only for the best designs.
+    """Limit on the probability that a pair with cutting errors stops, evaluated only for the best designs.
 
     See Also
     --------
@@ -235,9 +206,7 @@ class PairTrials:
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
-    """Random seed of the trials. All pairs have the same seed, and differences between their results are due only to
-    the sizes.
-    """
+    """Random seed of the trials of every pair, so that only the sizes make results of pairs differ."""
 
     def stops(self, sizes: ToothSizes) -> float:
         """Return the fraction of trials in which the pair jams or clashes, 0 to 1.
@@ -312,7 +281,7 @@ _BASINS = 3  # number of lowest samples from which local searches start
 _CLOSE = 0.1  # of a range: samples closer than this are in one basin
 _FINE = 1e-7  # of a range: near a smooth minimum, values at this distance differ only due to rounding
 _GAIN = 1e-5  # relative improvement below which the rounds end
-_ROUNDS = 5
+_ROUNDS = 5  # maximum number of simplexes, each half as large as the one before
 _STEP = 0.05  # size of the first simplex, as a fraction of each range
 
 
@@ -425,9 +394,7 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
 
 
 def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """Return a point moved along one variable by a fraction of its range, in the direction in which it remains in the
-    box.
-    """
+    """Return a point moved along one variable by a fraction of its range, in a direction that stays in the box."""
     low, high = sampled.bounds[which]
     by = step * (high - low)
     place = at[which] + by if low <= at[which] + by <= high else at[which] - by

@@ -1,6 +1,4 @@
-"""Plots of the best sizes of triangular teeth: all evaluated designs of a pair, and the improvement of each pair of a
-train.
-"""
+"""Plots of the best sizes of triangular teeth: all designs of a pair, and the gain of each pair of a train."""
 
 from __future__ import annotations
 
@@ -95,8 +93,7 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train due to the best tooth sizes. The pair with the worst declared sizes
-    is at the top.
+    """Draw the improvement of each pair of a train by the best tooth sizes, the worst declared pair at the top.
 
     Parameters
     ----------
@@ -135,9 +132,7 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Return a string of the objective of the train before and after: `pennestri-2002-teeth to 19: loss (%) 46.9 as
-    declared, 15.7 optimised`.
-    """
+    """Return the objective of the train before and after as text: `a to b: loss (%) 46.9 as declared, ...`."""
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
     )

@@ -29,27 +29,7 @@ _WORDS = (
 
 
 def describe_tooth_sizes(found: BestToothSizes) -> Document:
-    """Return the report on the best sizes of a pair with triangular teeth.
-
-    Parameters
-    ----------
-    found : BestToothSizes
-        Result of `geartrain.workshop.find_tooth_sizes`.
-
-    Returns
-    -------
-    Document
-        Report with the best sizes and rule-based ones, the comparison with the outlines, and a front of two objectives.
-
-    Examples
-    --------
-    >>> from math import pi
-    >>> from geartrain.workshop import (ToothSizes, find_tooth_sizes)
-    >>> start = ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2)
-    >>> page = describe_tooth_sizes(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
-    >>> page.title, [section.title for section in page.sections]
-    ('Triangular teeth 48/96: minimum loss', ['Sizes', 'Contact of the outlines'])
-    """
+    """Return the report on the best and rule-based sizes of a pair, with their outlines and a Pareto front."""
     aims = " and ".join(AIM_WORDS[aim] for aim in found.aims)
     z1, z2 = found.teeth
     summary = [
@@ -65,27 +45,7 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
 
 
 def describe_train_sizes(found: BestTrainSizes) -> Document:
-    """Return the report on the best sizes of the triangular teeth of a train.
-
-    Parameters
-    ----------
-    found : BestTrainSizes
-        Result of `geartrain.workshop.find_train_sizes`.
-
-    Returns
-    -------
-    Document
-        Report with the improvement, separately and together, and the sizes of each pair before and after.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> from geartrain.workshop import find_train_sizes
-    >>> train = geartrain.load("moon-triangular")
-    >>> page = describe_train_sizes(find_train_sizes(train, "moon", "jam", {"window": (0.3, 0.7)}))
-    >>> page.title, [section.title for section in page.sections]
-    ('moon-triangular: maximum margin before a jam at moon', ['Improvement', 'Pairs'])
-    """
+    """Return the report on the best sizes of a train: its improvement, and each pair before and after."""
     aim = found.aim
     rows = [
         (name, "does not run" if each is None else figure_text(aim, each), *_efficiency(aim, each))

@@ -9,7 +9,7 @@ optima.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
@@ -33,9 +33,10 @@ OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
 """Turns of the input and number of positions for the error of a pointer. Its extremes are refined between positions."""
 
+# few and short steps, because an evaluation of the train is slow and each pair is near its separate optimum
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
 _TRIES = 8  # maximum evaluations of the train in one step of the descent
-_SWEEPS = 4
+_SWEEPS = 4  # maximum number of sweeps over all sizes
 _GAIN = 1e-3  # relative improvement below which the sweeps end
 _SCAN = 7  # number of half angles in the first scan
 _ANGLE_TRIES, _NEAR = 8, 1e-3  # iterations and tolerance (rad) of Brent's method around the best of them
@@ -50,8 +51,7 @@ def find_train_sizes(
     state: str | None = None,
     on_step: OnStep = lambda: None,
 ) -> BestTrainSizes:
-    """Find the sizes of the triangular teeth of a train that optimise one objective at an output: loss, error, impact
-    or jam margin.
+    """Find the sizes of the triangular teeth of a train that optimise loss, error, impact or margin at an output.
 
     Parameters
     ----------
@@ -96,13 +96,9 @@ def find_train_sizes(
     (True, [0.5, 0.5, 0.5, 0.5])
     """
     if aim not in AIMS:
-        raise QuestionError(
-            Problem(
-                f"'{aim}' is not an objective",
-                "sizes are optimised for one property of the train",
-                f"use one of {', '.join(AIMS)}",
-            )
-        )
+        what = f"'{aim}' is not an objective"
+        why = "sizes are optimised for one property of the train"
+        raise QuestionError(Problem(what, why, f"use one of {', '.join(AIMS)}"))
     return TrainSizeSearch(train, output, aim, free, limits, state, on_step).found()
 
 
@@ -158,7 +154,9 @@ class TrainSizeSearch:
 
     @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:
-        return sizeable_meshes(self._all_meshes)
+        """Pairs with triangular teeth that are not declared by lengths, by name."""
+        found = (mesh for mesh in self._all_meshes if isinstance(mesh, TriangularMesh))
+        return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
     @cached_property
     def _starts(self) -> Mapping[str, ToothSizes]:
@@ -196,9 +194,7 @@ class TrainSizeSearch:
         return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the free parameters of one pair with their bounds; the half angle is not free if another pair shares a
-        wheel.
-        """
+        """Return the bounds of a pair's free parameters; the half angle is not free if another pair shares a wheel."""
         return {
             size: each
             for size, each in self.free.items()
@@ -210,10 +206,8 @@ class TrainSizeSearch:
     def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
         """Return the train with new sizes of some pairs."""
         declared = self.train.declaration
-        gears = tuple(
-            gear.model_copy(update={"tooth_form": as_form(sizes[gear.name])}) if gear.name in sizes else gear
-            for gear in declared.gears
-        )
+        forms = {name: {"tooth_form": Triangular.declared(form_data(each))} for name, each in sizes.items()}
+        gears = tuple(gear.model_copy(update=forms.get(gear.name, {})) for gear in declared.gears)
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
@@ -279,9 +273,7 @@ class TrainSizeSearch:
         )
 
     def _separate_optima(self) -> dict[str, ToothSizes]:
-        """Return the best sizes of every pair separately; pairs with common wheels have their best common half
-        angle.
-        """
+        """Return the best sizes of each pair separately; pairs with common wheels have one common half angle."""
         found = {name: self._separate_optimum(name) for name in self._requested}
         for group in self._common_angle_groups:
             if len(group) > 1:
@@ -322,9 +314,7 @@ class TrainSizeSearch:
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """Optimise one size near its present value by Brent's bounded method, for one pair or for pairs with a common
-        size.
-        """
+        """Optimise one size near its value by Brent's bounded method, for one pair or pairs with a common size."""
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -462,9 +452,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for each pair: sizes as declared (if the pair turns), optimised separately, and optimised for
-        the train.
-        """
+        """Table of the sizes of each pair: as declared (if it turns), optimised separately, and for the train."""
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs
@@ -473,17 +461,6 @@ class BestTrainSizes(Tabular, Pictured, Result):
         ]
         names = {"pair": [pair for pair, _, _ in rows], "design": [name for _, name, _ in rows]}
         return {**names, **size_columns([sizes for _, _, sizes in rows])}
-
-
-def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
-    """Return the pairs with triangular teeth that are not declared by lengths, by name."""
-    found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
-    return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
-
-
-def as_form(sizes: ToothSizes) -> Triangular:
-    """Convert a design to the triangular tooth form of a declaration."""
-    return Triangular.declared(form_data(sizes))
 
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:

@@ -40,8 +40,7 @@ if TYPE_CHECKING:
 
 _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
-"""Approximate number of designs evaluated for each objective, by number of free parameters; used by the progress bar.
-"""
+"""Approximate number of designs evaluated for each objective, by number of free parameters; for the progress bar."""
 
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 """Dimensions of limits; other limits are dimensionless."""
@@ -243,11 +242,10 @@ def read_limits(given: Sequence[str]) -> list[SizeLimit]:
         if not equals or name not in SizeLimit.FIGURES:
             fix = f"write it as NAME=LIMIT, with one of {', '.join(SizeLimit.FIGURES)}"
             raise option_error("--within", f"'{text}' is not a limit", fix)
-        found.append(SizeLimit(name, _limit(_DIMENSIONS.get(name), rest.strip())))
+        dimension, text = _DIMENSIONS.get(name), rest.strip()
+        if dimension is None:
+            bound = decimal("--within", text, "limit", "0.02")
+        else:
+            bound = quantity("--within", text, dimension, plain=dimension == "fraction", minimum="0")
+        found.append(SizeLimit(name, bound))
     return found
-
-
-def _limit(dimension: str | None, text: str) -> float:
-    if dimension is not None:
-        return quantity("--within", text, dimension, plain=dimension == "fraction", minimum="0")
-    return decimal("--within", text, "limit", "0.02")

@@ -4,8 +4,8 @@ import { svg } from "../ui/element.js";
 import { Sheet, WIDE } from "./sheet.js";
 
 const HIGH = 360;
-const ROOM = 56; // round the graph, for names
-const SHARES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73]; // of an edge, where its label may stand
+const ROOM = 56; // margin of the graph, for names
+const SHARES = [0.5, 0.42, 0.58, 0.34, 0.66, 0.27, 0.73]; // positions of a label, relative to the length of its edge
 
 /** data   `trains`, each with places of its links, edges with their curves, and circuits by the name of their pair */
 export function circuits(host, { trains }) {
@@ -57,7 +57,7 @@ function drawn(train, sheet) {
   return [...edges.map(({ group }) => group), ...Object.values(nodes), ...edges.map(({ words }) => words)];
 }
 
-/** Where on its curve a label meets no vertex and no other label, as near the middle as can be. */
+/** Position of a label on its curve, as near the middle as possible without touching vertices and other labels. */
 function free(a, b, c, label, taken) {
   const half = 4 + 4.2 * label.length;
   const spots = SHARES.map((t) => [0, 1].map((k) => (1 - t) ** 2 * a[k] + 2 * t * (1 - t) * b[k] + t ** 2 * c[k]));
@@ -68,10 +68,10 @@ function free(a, b, c, label, taken) {
   return at;
 }
 
-/** Half the width of a vertex. */
+/** Half the width of a vertex, from its name. */
 const halfOf = (link) => [...link].reduce((sum, letter) => sum + (letter === letter.toLowerCase() ? 4.4 : 6.2), 7);
 
-/** The links along a circuit, from one of its wheels' back to it. */
+/** The links of a circuit in cyclic order, from the link of one of its wheels. */
 function along(train, { ends, path }) {
   const links = [ends[0]];
   const named = ([x, y]) => Object.entries(train.links).find(([, [u, v]]) => Math.hypot(u - x, v - y) < 1e-3)[0];

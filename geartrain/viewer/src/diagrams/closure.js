@@ -10,7 +10,7 @@ import { Sheet, WIDE } from "./sheet.js";
 
 const PLACE = "at (turn)";
 const OFF = "off by (pitch)";
-const STEPS = 10; // of a handle between two places at which a planet goes in
+const STEPS = 10; // steps of a handle between two assembly positions of a planet
 const MOST = 6; // planets
 
 /** data   `planet`, its teeth; `sets` by the teeth of the sun: wheels, and the planet's turns for one of the arm, sun or ring held */
@@ -27,7 +27,7 @@ export function closure(host, { planet: count, sets }) {
   view.append(fixed, ...planets);
   const state = { sun: Object.keys(sets)[2], apart: Fraction.of("1/5"), planets: 5 };
 
-  /** Places in a turn at which a planet goes in: how far ring and sun want it turned apart, in its pitches. */
+  /** Number of assembly positions of a planet in one turn. */
   const places = () => Fraction.of(sets[state.sun].rolled.sun).minus(sets[state.sun].rolled.ring).times(count);
   const off = (turns) => {
     const pitches = places().times(turns);
@@ -88,7 +88,7 @@ export function closure(host, { planet: count, sets }) {
   open(state.sun);
 }
 
-/** Between which turns the second planet clears the first, whatever the sun. */
+/** Range of positions in which the second planet is clear of the first, for all suns. */
 function ends(sets) {
   const least = Math.max(...Object.values(sets).map(({ wheels: { p0 } }) => Math.asin(p0.tip / p0.centre[0]) / Math.PI));
   return { least, most: 1 - least };

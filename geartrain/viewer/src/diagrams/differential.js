@@ -12,7 +12,7 @@ import { Sheet, WIDE } from "./sheet.js";
 const TURN = 2 * Math.PI;
 const MADE = "turns";
 const SCALE = 10.5;
-const CREST = 1.08; // of the pitch radius: where teeth are drawn
+const CREST = 1.08; // relative radius at which teeth are drawn
 const ONE = Fraction.of(1);
 
 /** data   `scene`; `shares`, the turns of every link for a turn of each side; names of the crown and the spider */
@@ -25,7 +25,7 @@ export function differential(host, { scene, shares, crown, spider }) {
   const sides = Object.keys(shares);
   const made = Object.fromEntries(sides.map((side) => [side, Fraction.of(0)]));
   const middle = scene.bodies.find(({ id }) => id === spider).point[0];
-  const view = sheet.plane([-SCALE, SCALE], [WIDE / 2 + SCALE * middle * 0.7, 240]); // from behind, so that left is left
+  const view = sheet.plane([-SCALE, SCALE], [WIDE / 2 + SCALE * middle * 0.7, 240]); // seen from behind, so that left is left
   const solids = new Solids(scene, crown, spider);
   const turns = (link) => sides.reduce((sum, side) => sum.plus(made[side].times(shares[side][link])), Fraction.of(0));
 
@@ -69,7 +69,7 @@ export function differential(host, { scene, shares, crown, spider }) {
       label: `Turn the ${side} wheel`,
       value: () => made[side],
       set: (turned) => ((made[side] = turned), show()),
-      moved: ([, y], [, v]) => (v - y) / (TURN * wheel.radius), // as the side towards the reader goes
+      moved: ([, y], [, v]) => (v - y) / (TURN * wheel.radius), // direction of the side that faces the reader
       text: () => `${made[side]} turns`,
       key: 5,
     });
@@ -78,7 +78,7 @@ export function differential(host, { scene, shares, crown, spider }) {
   show();
 }
 
-/** Puts groups in order, the last on top; the one in focus is not moved, or it would lose it. */
+/** Orders groups, the last on top; the focused group is not moved, because it would lose the focus. */
 function stack(view, order) {
   const still = order.findIndex((group) => group.matches(":focus"));
   order.forEach((group, n) => {
@@ -93,7 +93,7 @@ class Solids {
     this.scene = scene;
     const on = (link) => scene.bodies.findIndex(({ id }) => id === link);
     const shaft = scene.pairs.flatMap(({ wheels, carrier }) => (carrier === 0 ? wheels : [])).find((at) => scene.wheels[at].body !== on(crown));
-    const wheels = scene.wheels.filter((_, at) => at !== shaft); // what drives the crown is left out
+    const wheels = scene.wheels.filter((_, at) => at !== shaft); // without the shaft that drives the crown
     this.parts = wheels.map((wheel, n) => ({ wheel, body: wheel.body, colour: wheel.body === on(crown) ? PARTS.arm : BRASS[n % BRASS.length] }));
     const reach = Math.max(...wheels.filter(({ body }) => scene.bodies[body].parent === on(crown)).map(({ centre }) => Math.abs(centre[1]))) + 2;
     const [x] = scene.bodies[on(spider)].point;
@@ -104,20 +104,20 @@ class Solids {
     return this.scene.wheels.findIndex(({ body }) => this.scene.bodies[body].id === link);
   }
 
-  /** Angle of every body as its parent sees it (rad). */
+  /** Angle of every body relative to its parent (rad). */
   joints(turns) {
     const angles = this.scene.bodies.map(({ id, sense }) => sense * TURN * partOfProduct(turns(id), ONE));
     return this.scene.bodies.map(({ parent }, body) => (parent === null ? 0 : angles[body] - angles[parent]));
   }
 
-  /** A point of a body, where it is now. */
+  /** Current position of a point of a body. */
   place(point, body, joints) {
     let at = point;
     for (let now = body; now !== null; now = this.scene.bodies[now].parent) at = turned(at, this.scene.bodies[now], joints[now]);
     return at;
   }
 
-  /** Outline, teeth towards the reader and the first of them as paths, and how far away a part is. */
+  /** Paths of the outline, the visible teeth and the first tooth, and the depth of a part. */
   drawn(n, joints) {
     const { wheel, body, cage } = this.parts[n];
     const place = (point) => this.place(point, body, joints);
@@ -146,7 +146,7 @@ class Solids {
   }
 }
 
-/** How the surface through three points faces the reader, away from a point inside: below 0 towards. */
+/** Component along the view of the normal of three points, away from an inner point; negative towards the reader. */
 function facing(a, b, c, inside) {
   const minus = (p, q) => [0, 1, 2].map((k) => p[k] - q[k]);
   const normal = cross(minus(b, a), minus(c, a));

@@ -8,12 +8,12 @@ const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
 /**
  * Makes a part of a picture a slider.
  *
- * plane    the group in whose coordinates the reader's pointer is given to `moved`
- * label    what it is called
- * value    its present Fraction; `set` takes a new one, a whole number of `parts` of a unit
- * moved    units from one point [x, y] to another
- * text     its value in words
- * page     steps of the keys for pages; `key`, of the arrows; `least`, `most` where it ends
+ * plane    group in whose coordinates `moved` receives positions of the pointer
+ * label    accessible name
+ * value    current value (Fraction); `set` receives a new value, a multiple of 1/`parts`
+ * moved    change of the value from one point [x, y] to another
+ * text     text of the value
+ * page     steps of the page keys; `key`: steps of the arrow keys; `least`, `most`: limits
  */
 export function handle(sheet, part, given) {
   const { plane, label, value, set, moved, text, key = 1, page = 15, least = null, most = null } = given;
@@ -58,7 +58,7 @@ export function handle(sheet, part, given) {
   // Chromium scrolls the page under parts of an SVG picture whatever their touch-action
   part.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
   part.addEventListener("pointermove", follow);
-  part.addEventListener("pointerup", follow); // where it was let go counts
+  part.addEventListener("pointerup", follow); // the position at release counts
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) part.addEventListener(end, () => (held = null));
   part.addEventListener("keydown", (event) => {
     const steps = { PageUp: page, PageDown: -page }[event.key] ?? (KEYS[event.key] ?? 0) * key;
@@ -69,7 +69,7 @@ export function handle(sheet, part, given) {
   });
 }
 
-/** `moved` of what turns about a centre: turns, the shorter way. */
+/** `moved` for rotation about a centre: turns in the shorter direction. */
 export const round = (centre) => ([x, y], [u, v]) => {
   const [a, b] = centre();
   const turn = (Math.atan2(v - b, u - a) - Math.atan2(y - b, x - a)) / TURN;

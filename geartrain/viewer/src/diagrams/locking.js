@@ -11,7 +11,7 @@ const BARS = { left: 46, wide: WIDE - 70, high: 24, top: 32, apart: 58 };
 const NAME = "efficiency";
 const COLOURS = ["gd-one", "gd-two"];
 
-/** data   `basic`, efficiencies of each pair; `ways`, what arrives by each of them, null where it locks */
+/** data   `basic`: efficiencies of each pair; `ways`: transmitted fraction in each direction, null if it locks */
 export function locking(host, { basic, ratio, ways }) {
   const sheet = new Sheet(host, {
     height: 420,
@@ -71,7 +71,7 @@ export function locking(host, { basic, ratio, ways }) {
   show();
 }
 
-/** A bar of the power put in: what arrives, and what is lost. */
+/** A bar of the input power: the transmitted part and the loss. */
 function bar(sheet, way, n) {
   const y = BARS.top + n * BARS.apart;
   const words = sheet.write("", [BARS.left, y - 8], { "text-anchor": "start" });

@@ -15,7 +15,7 @@ class GearDiagram extends HTMLElement {
     if (this.classList.contains("gd-alive")) return;
     const data = JSON.parse(this.querySelector("script[type='application/json']").textContent);
     KINDS[this.getAttribute("kind")](this, data);
-    this.classList.add("gd-alive"); // the still goes
+    this.classList.add("gd-alive"); // hides the static picture
   }
 }
 

@@ -1,4 +1,4 @@
-// Wheels in plan, as the scene has them: all teeth of a wheel as one path.
+// Wheels of a scene in plan: all teeth of a wheel as one path.
 
 import { svg } from "../ui/element.js";
 import { simplify } from "../tooth.js";
@@ -24,7 +24,7 @@ export function teeth({ kind, teeth: count, radius, turn }, { points }) {
   ).flat();
 }
 
-/** A wheel about the origin, its teeth at 0 as the scene has them. */
+/** Path of a wheel about the origin, in the zero pose of the scene. */
 export function wheelPath(wheel, profile) {
   const edge = path(teeth(wheel, profile));
   return svg("path", {

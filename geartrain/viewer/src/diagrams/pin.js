@@ -1,4 +1,4 @@
-// Pin and slot: a wheel drives another about a parallel axis, about which its pin moves on an epicycle.
+// Pin and slot: a wheel drives another about a parallel axis by a pin, which moves on a circle eccentric to that axis.
 
 import { BRASS, PARTS } from "../colours.js";
 import { Fraction } from "../fraction.js";
@@ -14,7 +14,7 @@ const SCALE = 11;
 const CENTRE = [WIDE / 2 - 6, 165];
 const NOW = "now";
 
-/** data   the wheels of pin and slot, `pin_radius`, `offset` (mm) and the law of the pair */
+/** data   wheels of pin and slot, `pin_radius`, `offset` (mm) and the transmission error of the pair */
 export function pin(host, { wheels, pin_radius: r, offset: e, transmission: table }) {
   const sheet = new Sheet(host, {
     height: 480,
@@ -64,7 +64,7 @@ export function pin(host, { wheels, pin_radius: r, offset: e, transmission: tabl
   show();
 }
 
-/** The pin's axis is the origin, the slot's lies `e` to the right. */
+/** Draws both wheels; the axis of the pin's wheel is the origin, that of the slot is at a distance `e` to the right. */
 function draw(view, [first, second], r, e) {
   const at = (tag, attributes) => svg(tag, attributes);
   const driver = svg("g", {}, svg("g", { style: `color: ${BRASS[1]}` }, wheelPath(first, first.shape)), at("circle", { cx: r, r: 0.55, class: "gd-boss", style: `color: ${PARTS.pin}` }));

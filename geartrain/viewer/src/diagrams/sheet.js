@@ -3,10 +3,10 @@
 import { el, fresh, svg } from "../ui/element.js";
 import { shown } from "../ui/number.js";
 
-export const WIDE = 480; // units of the picture; its letters are 16 high, and still legible on a phone
+export const WIDE = 480; // width in units of the picture; letters are 16 units high, and legible on a phone
 
 export class Sheet {
-  /** host   what the page is to hold it in; `label` names the picture, `hint` says what to drag */
+  /** host   element that contains the sheet; `label`: name of the picture; `hint`: instruction what to drag */
   constructor(host, { height, label, hint }) {
     this.picture = svg("svg", { viewBox: `0 0 ${WIDE} ${height}`, role: "group", "aria-label": label, class: "gd-picture" });
     this.height = height;
@@ -18,21 +18,21 @@ export class Sheet {
     host.append(el("div", { class: "gd-live" }, this.picture, side));
   }
 
-  /** A part of the picture in a plane of its own: x to the right, y up, one unit of it as many of the picture's as `across` and `up` say. */
+  /** A group with its own coordinates: x to the right, y up; one unit is `across` and `up` units of the picture. */
   plane([across, up], [x, y], within = this.picture) {
     const group = svg("g", { transform: `translate(${x} ${y}) scale(${across} ${-up})`, class: "gd-plane" });
     within.append(group);
     return group;
   }
 
-  /** A part of the picture beyond which nothing in it is seen. */
+  /** A clipped part of the picture. */
   pane([x, y, width, height]) {
     const pane = svg("svg", { x, y, width, height, overflow: "hidden" });
     this.picture.append(pane);
     return pane;
   }
 
-  /** A field for a curve: `to` gives the place of a point; the curve and what is marked on it are drawn in it. */
+  /** A chart for a curve; `to` converts a point to its position in the picture. */
   chart([x, y, width, height], [left, right], [low, high]) {
     const to = ([u, v]) => [x + (width * (u - left)) / (right - left), y + height - (height * (v - low)) / (high - low)];
     this.picture.append(svg("path", { d: `M${x} ${y}V${y + height}H${x + width}`, class: "gd-axis" }));
@@ -44,14 +44,14 @@ export class Sheet {
     return { to, line };
   }
 
-  /** Words in the picture. */
+  /** Writes text in the picture. */
   write(text, [x, y], attributes = {}) {
     const words = svg("text", { x, y, "text-anchor": "middle", class: "gd-text", ...attributes }, text);
     this.picture.append(words);
     return words;
   }
 
-  /** One of several: `options` are [value, text], `first` the value at the start; `chosen` is called with the new one. */
+  /** A choice: `options` are [value, text], `first` is the initial value; `chosen` is called with a new value. */
   choice(label, options, chosen, first = options[0][0]) {
     const name = fresh("gd");
     const buttons = options.map(([value, text]) =>
@@ -60,7 +60,7 @@ export class Sheet {
     this.bar.append(el("fieldset", {}, el("legend", {}, label), buttons));
   }
 
-  /** Rows of [name, number, ...] under heads; a number is found by the name of its row and the head of its column. */
+  /** Shows rows of [name, number, ...] below column heads. */
   tell(rows, heads) {
     const head = heads.length > 1 ? el("tr", {}, el("td"), heads.map((each) => el("th", { scope: "col" }, each))) : null;
     const line = ([name, ...values]) =>
@@ -75,7 +75,7 @@ export class Sheet {
   }
 }
 
-/** Moves something from 0 to 1 in a short while; at once for readers who want nothing to move by itself. */
+/** Calls `step` with values that increase to 1 in a short time; only with 1 for users who prefer reduced motion. */
 export function glide(step) {
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) return step(1);
   const begin = performance.now();

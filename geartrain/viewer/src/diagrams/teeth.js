@@ -10,14 +10,14 @@ import { Sheet, WIDE } from "./sheet.js";
 const TURN = 2 * Math.PI;
 const DEGREES = 180 / Math.PI;
 const PANE = 320;
-const PITCHES = 3.4; // that the pane is high
+const PITCHES = 3.4; // height of the pane, in pitches
 const TELLS = "now";
 const TOUCHES = {
   approach: "Approach: the driven tooth's apex lies on the driver's flank.",
   recess: "Recess: the driver's apex lies on the driven tooth's flank.",
 };
 
-/** data   `pairs`, each with its sizes, its law, and where its teeth touch at moments of a pitch of the driver */
+/** data   `pairs`: sizes, transmission function, and contact points at positions within a pitch of the driver */
 export function teeth(host, { pairs }) {
   const sheet = new Sheet(host, {
     height: 470,
@@ -27,7 +27,7 @@ export function teeth(host, { pairs }) {
   const pane = sheet.pane([0, 0, WIDE, PANE]);
   const below = svg("g");
   sheet.picture.append(below);
-  const state = { passed: Fraction.of("1/12") }; // pitches of the driver
+  const state = { passed: Fraction.of("1/12") }; // position of the driver in pitches
   let pair = null;
 
   function open(name) {
@@ -76,7 +76,7 @@ class Pair {
     this.curve(sheet, below);
   }
 
-  /** The ratio over a pitch, below. */
+  /** Draws the ratio over one pitch below the wheels. */
   curve(sheet, below) {
     const points = Array.from({ length: 481 }, (_, n) => [n / 480, this.ratio(((n % 480) / 480) * this.law.period)]);
     const ratios = points.map(([, ratio]) => ratio);
@@ -119,7 +119,7 @@ class Pair {
   grip(sheet, state, show) {
     const [z1] = this.given.teeth;
     const turns = round(() => [0, 0]);
-    sheet.handles.length = 0; // of another pair
+    sheet.handles.length = 0; // handles of the previous pair
     handle(sheet, this.wheels[0], {
       plane: this.plane,
       label: "Turn the driver",

@@ -13,7 +13,7 @@ const DEGREES = 180 / Math.PI;
 const GROUND = "relative to the frame";
 const ARM = "relative to the carrier";
 
-/** data   `scene`, whose links are `sun`, `ring`, `carrier`, `planet`; `held`, by the link held the speeds of all */
+/** data   `scene` with links `sun`, `ring`, `carrier`, `planet`; `held`: speeds of all links by the fixed link */
 export function willis(host, { scene, held, sun, ring, carrier, planet }) {
   const sheet = new Sheet(host, {
     height: 480,
@@ -22,7 +22,7 @@ export function willis(host, { scene, held, sun, ring, carrier, planet }) {
   });
   const index = (link) => scene.bodies.findIndex(({ id }) => id === link);
   const machines = Object.fromEntries(Object.entries(held).map(([link, speeds]) => [link, new Machine(turningAs(scene, speeds))]));
-  const state = { held: ring, share: 0 }; // 0 seen from the ground, 1 from the carrier
+  const state = { held: ring, share: 0 }; // 0: relative to the ground; 1: relative to the carrier
   const scale = WIDE / 2 / (1.05 * rimOf(scene.wheels.find(({ kind }) => kind === "ring")));
   const view = sheet.plane([scale, scale], [WIDE / 2, 240]);
   const root = svg("g");
@@ -84,10 +84,10 @@ export function willis(host, { scene, held, sun, ring, carrier, planet }) {
   show();
 }
 
-/** The scene with other speeds, by link, over its lead's. */
+/** The scene with other speeds by link, relative to the driving link. */
 const turningAs = (scene, speeds) => ({ ...scene, bodies: scene.bodies.map((body) => ({ ...body, speed: speeds[body.id] })) });
 
-/** Each body a group within the one that bears it. */
+/** Draws each body as a group within the group of its parent. */
 function draw(scene, root, carrier, planet) {
   const nodes = scene.bodies.map(() => svg("g"));
   const arm = svg("g", { class: "gd-arm", style: `color: ${PARTS.arm}` });

@@ -11,10 +11,10 @@ const WORDS = new Set(["null", "true", "false", "yes", "no", "on", "off", "y", "
 
 const NOTHING = "All tooth counts are as declared. They can be changed under Wheels: all speeds are then recomputed exactly, and the changes are listed here.";
 
-/** A name as YAML reads it back: plain where that is safe, else in quotes. */
+/** A name as a YAML scalar: plain if that is safe, else in quotes. */
 const scalar = (name) => (PLAIN_NAME.test(name) && !WORDS.has(name.toLowerCase()) ? name : JSON.stringify(name));
 
-/** The changed train as a declaration that extends the one shown; `steps` as `Side.steps` gives them. */
+/** The changed train as a declaration that extends the displayed train, with the changes `Side.steps`. */
 export function asYaml(side) {
   const { scene, steps } = side;
   const { parent } = scene.formulas;
@@ -32,7 +32,7 @@ export function asYaml(side) {
 
 const wayOf = (further) => (further ? "further apart" : "closer together");
 
-/** Describes by how much a pair misfits its axes; empty if it fits. */
+/** Text about the misfit of a pair with its axes; empty if it fits. */
 export function misfit({ pair, off, apart, module }) {
   if (off === null && apart === null) return `${pair.id}: its axes intersect, so its wheels must be redesigned and repositioned`;
   if (off === null && !apart) return "";

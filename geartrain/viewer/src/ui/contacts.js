@@ -5,14 +5,14 @@ import { speedInWords } from "./playhead.js";
 const STATES = { d: "drive flank", c: "coast flank", a: "separated", "": "\u2013" };
 const KINDS = { pair: "", pin: "pin", escapement: "escapement" };
 
-const SLIGHT = 2e-4; // rad: angles of the page are not better
+const SLIGHT = 2e-4; // rad: accuracy of the angles in the page
 
 const percent = (share) => (share ? `${Number((100 * share).toFixed(share < 0.01 ? 3 : share < 0.1 ? 2 : 1))} %` : "0");
 const rounded = (value) => String(Number(value.toPrecision(3))).replace("-", "\u2212");
 const inDegrees = (angle) => `${rounded((angle * 180) / Math.PI)}\u00b0`;
 
 export class Contacts {
-  /** `onChoose(side, contact)`, a contact by its index */
+  /** `onChoose(side, contact)`, with the index of a contact */
   constructor(sides, onChoose) {
     this.onChoose = onChoose;
     this.rows = [];
@@ -116,7 +116,7 @@ export class Contacts {
   }
 }
 
-/** An angle with values below rounding, or below the tolerance of the samples, set to 0. */
+/** An angle, or 0 if it is below the tolerance `least` (rad). */
 const settled = (angle, least = 1e-7) => (Math.abs(angle) < least ? 0 : angle);
 
 const key = (kind, text) => el("li", {}, el("span", { class: `swatch ${kind}` }), text);

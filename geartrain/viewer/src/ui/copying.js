@@ -2,7 +2,7 @@
 import { el } from "./element.js";
 import { shown } from "./number.js";
 
-/** Text to the clipboard; false where the browser does not let this page. */
+/** Copies text to the clipboard; resolves to false if the browser does not permit it. */
 export async function copy(text) {
   try {
     await navigator.clipboard.writeText(text);
@@ -23,7 +23,7 @@ export function copyable(text, say) {
   const button = el(
     "button",
     { type: "button", class: "copy", title: `Copy ${text}`, "aria-label": `${text}, copy` },
-    shown(text).split(/(?<=\/)/).flatMap((part) => [part, el("wbr")]), // a fraction breaks at its line
+    shown(text).split(/(?<=\/)/).flatMap((part) => [part, el("wbr")]), // a fraction may be broken after its bar
   );
   button.addEventListener("click", async (event) => {
     event.stopPropagation();

@@ -8,7 +8,7 @@ const WORDS = 100; // ms between two dates of a moving crank
 export const PLAY = "M7 4.5v15l12.5-7.5z";
 export const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
 
-/** Turns of the hand for one turn of the lead: what the declared crank does, where that is a hand's work. */
+/** Turns of the hand for one turn of the driving link: those of the declared crank if a hand can turn it. */
 export function gearing(scene) {
   const speed = scene.crank === null ? null : Fraction.parse(scene.bodies[scene.crank].speed);
   const size = speed ? Math.abs(Number(speed)) : 1;
@@ -16,7 +16,7 @@ export function gearing(scene) {
 }
 
 export class Crank {
-  /** `beside`: what is said of a second train that turns with it */
+  /** `beside`: text about a second train that turns with it */
   constructor(scene, drive, beside = "") {
     this.scene = scene;
     this.drive = drive;
@@ -147,14 +147,14 @@ export class Crank {
     if (wanted) this.drive.goTo(wanted);
   }
 
-  /** Says what is wrong with what was typed, or that nothing is. */
+  /** Shows an error message for the input, or removes it. */
   #tell(input, wanted, fault) {
     this.fault.hidden = Boolean(wanted);
     input.setAttribute("aria-invalid", String(!wanted));
     this.fault.textContent = wanted ? "" : fault;
   }
 
-  /** Plays the other way from now on. */
+  /** Reverses the direction of playback. */
   turnBack() {
     this.drive.sense *= -1;
     this.back.setAttribute("aria-pressed", String(this.drive.sense < 0));
@@ -216,13 +216,13 @@ export class Crank {
     this.date.title = `${date.calendar === "julian" ? "Julian" : "Gregorian"} calendar`;
   }
 
-  /** Puts the reader's hands on the number of turns. */
+  /** Focuses the field for the number of turns. */
   find() {
     this.place.focus();
     this.place.select();
   }
 
-  /** The same crank on a train whose counts are changed. */
+  /** Connects the crank with a train whose counts have changed. */
   use(scene) {
     this.scene = scene;
     this.gearing = gearing(scene);
@@ -231,7 +231,7 @@ export class Crank {
 
   set(drive, settled) {
     const { part } = drive.at;
-    const made = Number(drive.at.floor % 1000000n); // the wheel is a likeness: a float will do
+    const made = Number(drive.at.floor % 1000000n); // the drawn wheel needs no exact angle
     this.hand.setAttribute("transform", `rotate(${(((made + part) * this.gearing * 360) % 360).toFixed(3)})`);
     this.turns.textContent = turns(drive.at);
     if (this.date && (settled || performance.now() - (this.dated ?? 0) > WORDS)) this.#tellDate(drive.at);

@@ -1,11 +1,11 @@
-// One dial as a drawing: what is engraved, zero mark, hands. Clockwise on the page is clockwise as read.
+// Drawing of one dial: engraving, zero mark and hands. Clockwise on the page is clockwise as read.
 import { NEEDLES } from "../colours.js";
 import { engraved, handOf } from "../faces.js";
 import { svg } from "./element.js";
 import { skyOf } from "./sky.js";
 
 const RIM = 90;
-const PLAIN = { turns: 1, divisions: 12, inner: 1, outer: 1, way: 1 }; // of an output without a dial
+const PLAIN = { turns: 1, divisions: 12, inner: 1, outer: 1, way: 1 }; // scale of an output without a dial
 const NEEDLE = { reach: 0.97, outline: [[-0.15, 0.018], [0, 0.014], [0.9, 0.012], [1, 0]] };
 const place = (turn, radius, zero) => {
   const angle = 2 * Math.PI * turn + zero;
@@ -18,7 +18,7 @@ const pathOf = (line) => `M${engraved(line).map(([x, y]) => at([RIM * x, -RIM * 
 /** Angle of the zero mark for an observer in front of the dial: radians clockwise from the top. */
 export function zeroOf(dial) {
   const [nx, , nz] = dial.normal;
-  const right = [nz, 0, -nx]; // up x normal
+  const right = [nz, 0, -nx]; // up vector x normal
   const size = Math.hypot(...right);
   if (size < 1e-6) return 0;
   const across = (dial.zero[0] * right[0] + dial.zero[2] * right[2]) / size;
@@ -26,7 +26,7 @@ export function zeroOf(dial) {
 }
 
 export class Dial {
-  /** `dial` as in the scene, or null for a plain face; `hands` its readings. */
+  /** `dial`: dial of the scene, or null for a plain face; `hands`: its readings */
   constructor(name, dial, hands) {
     this.scale = dial?.scale ?? PLAIN;
     this.engraving = dial?.engraving ?? [];
@@ -48,7 +48,7 @@ export class Dial {
     return RIM * (inner + ((outer - inner) * turns) / all);
   }
 
-  /** What is engraved, as the scene has it; of a plain face, a rim and twelve marks. */
+  /** Draws the engraving of the scene; for a plain face, a rim and twelve marks. */
   #scale() {
     const turned = { transform: `rotate(${((this.zero * 180) / Math.PI).toFixed(6)})` };
     const drawn = this.engraving.map(([kind, width, lines]) => svg("path", { class: kind, "stroke-width": (width * RIM).toFixed(3), d: lines.map(pathOf).join("") }));
@@ -90,14 +90,14 @@ export class Dial {
     mark.setAttribute("data-turns", turns.toFixed(12));
   }
 
-  /** Over a spiral a hand is as long as the turn to which it has come. */
+  /** Adapts the length of a hand on a spiral to its current turn. */
   #slide(node, radius) {
     const tip = (2.6 - radius).toFixed(3);
     node.querySelector(".needle").setAttribute("d", `M-1.6 14L-1.1 ${tip}L1.1 ${tip}L1.6 14Z`);
     node.querySelector(".follower").setAttribute("cy", (-radius).toFixed(3));
   }
 
-  /** Stands every hand where it is now. */
+  /** Moves every hand to its current position. */
   set() {
     for (const { reading, node, sky } of this.hands) {
       const value = reading.now;
@@ -106,7 +106,7 @@ export class Dial {
       if (!value) continue;
       const turn = (this.scale.way * value.degrees + (this.zero * 180) / Math.PI) % 360;
       node.setAttribute("transform", `rotate(${turn.toFixed(6)})`);
-      node.setAttribute("data-turns", value.turns.toFixed(12)); // from the start of the scale
+      node.setAttribute("data-turns", value.turns.toFixed(12)); // turns from the start of the scale
       if (this.scale.turns > 1) this.#slide(node, this.#radius(value.turns));
     }
   }

@@ -5,8 +5,8 @@ import { Dial } from "./dial.js";
 import { linksInWords } from "./outputs.js";
 import { Reading, told } from "./reading.js";
 
-const MANY = 4; // names on a dial, which then is as wide as there is room, to be read
-const PLAIN = 12; // faces of their own, where the train declares none
+const MANY = 4; // number of names from which a dial is as wide as possible
+const PLAIN = 12; // maximum number of plain faces, if the train declares no dials
 
 /** Dials with their hands; outputs without a dial get plain faces where the train declares no dial at all. */
 function gathered(scene, machine) {

@@ -1,9 +1,9 @@
 // State of the crank: exact turns of the driving link, and playback.
 import { Fraction } from "../fraction.js";
 
-const FINE = 14; // decimals of a turn in a simulated run: a clock's lead makes one in hours
-const FRAME = 1 / 25; // s as the reader sees them: an arrow key in a simulated run
-const NUDGE = new Fraction(1n, 72n); // an arrow key: five degrees of the lead
+const FINE = 14; // decimals of a turn in a simulated run, because the driving link of a clock turns once in hours
+const FRAME = 1 / 25; // step of an arrow key in a simulated run [s of real time]
+const NUDGE = new Fraction(1n, 72n); // step of an arrow key: five degrees of the driving link
 
 export class Drive {
   constructor(app, step) {
@@ -12,16 +12,16 @@ export class Drive {
     this.at = Fraction.parse(app.turns) ?? Fraction.of(0);
     this.rate = 0.1;
     this.playing = false;
-    this.sense = 1; // -1: play turns back
+    this.sense = 1; // -1: reversed playback
     this.movable = true;
-    this.run = null; // a simulated run, which begins and ends; units and nudges are then of time
+    this.run = null; // simulated run with a start and an end; units and steps are then times
     this.loop = true;
     this.listeners = [];
     this.calm = matchMedia("(prefers-reduced-motion: reduce)");
     app.onTurns = (turns) => this.#heard(turns);
   }
 
-  /** Calls `listener(drive, settled)` after every move; settled unless more follow at once. */
+  /** Calls `listener(drive, settled)` after every move; `settled` is false if further moves follow immediately. */
   listen(listener) {
     this.listeners.push(listener);
   }
@@ -35,7 +35,7 @@ export class Drive {
     this.#tell(settled);
   }
 
-  /** By a number of turns of the lead, as a hand or the clock gives them. */
+  /** Moves by a number of turns of the driving link. */
   advance(turns, settled = false) {
     this.goTo(this.at.plus(Fraction.near(turns, this.run ? FINE : undefined)), settled);
   }
@@ -50,7 +50,7 @@ export class Drive {
     this.goTo(this.at.plus(this.run ? Fraction.near(times * FRAME * this.rate, FINE) : NUDGE.times(times)));
   }
 
-  /** To a time of a simulated run (s). */
+  /** Moves to a time of a simulated run (s). */
   goToTime(time, settled = true) {
     this.goTo(Fraction.near(time / this.run.period, FINE), settled);
   }
@@ -72,10 +72,10 @@ export class Drive {
 
   play(on = !this.playing) {
     if (on && this.movable && this.#ended) this.goTo(Fraction.of(0), false);
-    // one jump a second where motion is not wanted; a tab that slept does not leap
+    // one step per second for users who prefer reduced motion; no jump after a pause of the tab
     this.#moving(on, (passed) => {
       if (this.calm.matches && passed < 1000) return false;
-      // the end of a run is shown before it begins again, however long a frame takes
+      // the end of a run is shown before it restarts, even if frames are slow
       if (this.loop && this.#ended) this.goTo(Fraction.of(0), false);
       else this.advance((this.sense * this.rate * Math.min(passed, this.calm.matches ? 2000 : 100)) / 1000);
       if (!this.loop && this.#ended) this.play(false);
@@ -83,7 +83,7 @@ export class Drive {
     });
   }
 
-  /** Turns to a place in some seconds, and stops there exactly; at once where motion is not wanted. */
+  /** Moves to a position within some seconds and stops there exactly; immediately for users who prefer reduced motion. */
   runTo(fraction, seconds = 8) {
     if (this.calm.matches) return this.goTo(fraction);
     const from = this.at;

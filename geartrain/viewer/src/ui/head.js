@@ -50,13 +50,13 @@ export class Head {
     this.onShow(this.sides);
   }
 
-  /** What is chosen: one side or two different ones. */
+  /** The selected sides: one, or two different ones. */
   get sides() {
     const chosen = [this.first.value, this.second.value].filter((value) => value !== "").map(Number);
     return [...new Set(chosen)].map((index) => this.all[index]);
   }
 
-  /** That counts are changed, and what of the meshes that leaves; a click shows all of it. */
+  /** Note on changed counts and meshes that no longer fit; a click shows the details. */
   #told(side) {
     const off = side.meshes.filter(misfit).length;
     const counts = side.steps.map(({ wheel, declared, count }) => `${wheel} ${declared} \u2192 ${count}`);
@@ -65,7 +65,7 @@ export class Head {
     return el("span", { class: "changed" }, " changed: ", button, `; ${fits}`);
   }
 
-  /** Updates the head to what is shown. */
+  /** Updates the head to the displayed sides. */
   write() {
     const { sides } = this;
     const many = sides.length > 1;

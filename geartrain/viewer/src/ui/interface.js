@@ -1,13 +1,13 @@
 // The interface around the stages: panels, crank, dials, keys.
 //
-// It builds its own page inside <body>. What it asks of `app`, beside scenes and machines (one of each per scene):
+// It builds its page inside <body>. Members of `app` that it uses, besides scenes and machines (one of each per scene):
 //
 //   app.options       {compare: bool, teeth: bool}; with `compare` two scenes stand side by side, else one is shown
 //   app.open(index)   a stage for a scene, with its canvas, or a plan where there is no WebGL; app.close(index) ends it
-//   app.gears         turns of each scene's lead for one turn of the crank's
+//   app.gears         turns of each scene's driving link for one turn of the crank's driving link
 //   app.setTurns(t)   t a number, or exact text such as '235/19'; sets every machine and stage, then calls
 //                     app.onTurns(t) if it is there, so that scripts and dials stay together
-//   app.turns         what was last given
+//   app.turns         turns that were last set
 import { BROKEN } from "../colours.js";
 import { Fraction } from "../fraction.js";
 import { Crank } from "./crank.js";
@@ -34,7 +34,7 @@ class Interface {
     this.live = new Live();
     this.tools = new Tools(app.options);
     this.theme = new Theme((background) => this.all.forEach(({ stage }) => stage?.theme({ background })));
-    this.theme.apply(); // before anything is laid out, so that nothing flashes
+    this.theme.apply(); // before the layout, so that the page does not flash
     this.crank = new Crank(first, this.drive);
     this.keys = new Keys({
       timed: this.all.some(({ machine }) => machine.run),
@@ -108,7 +108,7 @@ class Interface {
     this.panel.set(true);
   }
 
-  /** Pictures for all that is shown; `cut` has those that come later drawn with their teeth at once. */
+  /** Opens the pictures of all displayed sides; after `cut`, later pictures have teeth immediately. */
   openStages() {
     for (const side of this.sides) {
       if (!side.open()) continue;
@@ -123,7 +123,7 @@ class Interface {
     this.lit = true;
   }
 
-  /** A crank for what is shown: states may have different inputs. */
+  /** Creates the crank for the displayed sides, because states may have different inputs. */
   #gear(sides) {
     const [first, second] = sides;
     this.drive.play(false);
@@ -143,7 +143,7 @@ class Interface {
     if (wheel !== null) this.live.say(`wheel ${side.scene.wheels[wheel].id}, ${side.scene.wheels[wheel].teeth} teeth`);
   }
 
-  /** Other counts for a train, in all its states: numbers at once, and then the pictures. */
+  /** Changes the counts of a train in all its states: first numbers, then pictures. */
   count(side, counts) {
     const { name, formulas } = side.declared;
     const same = (each) => each.formulas && each.declared.name === name && String(each.formulas.given.wheels) === String(formulas.wheels);
@@ -166,7 +166,7 @@ class Interface {
     this.live.say(side.steps.map(({ wheel, count }) => `${wheel} ${count} teeth`).join(", ") || "all as declared");
   }
 
-  /** Highlights what an output depends on, in every side that has it. */
+  /** Highlights the parts on which an output depends, in every side with this output. */
   choose(output) {
     const found = this.sides
       .map((side) => ({ side, pointer: side.scene.pointers.find((each) => each.output === output) }))
@@ -177,7 +177,7 @@ class Interface {
     this.live.say(`path to ${output}: ${found.map(({ pointer }) => `${pointer.pairs.length} pairs`).join(", ")}`);
   }
 
-  /** Highlights what meets at a contact of a simulated run. */
+  /** Highlights the parts of a contact of a simulated run. */
   contact(side, index) {
     const { name, kind } = side.scene.run.contacts[index];
     const named = (list) => list.findIndex(({ id }) => id === name);
@@ -187,19 +187,19 @@ class Interface {
     this.live.say(`${name} is shown`);
   }
 
-  /** Highlights what a brake holds, or what a clutch joins. */
+  /** Highlights the bodies that a brake holds or a clutch connects. */
   element(side, { bodies, closed, text }) {
     this.#highlight(new Map([[side, { bodies }]]));
     this.live.say(`${text}; it is ${closed ? "closed" : "open"}`);
   }
 
-  /** Highlights a loop that holds the train. */
+  /** Highlights a loop that locks the train. */
   loop(side, parts) {
     this.#highlight(new Map([[side, parts]]), BROKEN);
     this.live.say(`the loop ${parts.pairs.join(", ")} is shown in red`);
   }
 
-  /** parts: side -> what is highlighted there */
+  /** parts: highlighted parts by side */
   #highlight(parts, colour = getComputedStyle(document.documentElement).getPropertyValue("--way").trim()) {
     for (const each of this.sides) each.stage?.highlight(parts.get(each) ?? null, colour);
   }
@@ -211,7 +211,7 @@ class Interface {
   }
 }
 
-/** Turns of the lead a second at which the fastest pointer still can be followed by eye. */
+/** Turns of the driving link per second at which the eye can follow the fastest pointer. */
 export function pace(scene) {
   const speeds = scene.pointers.map((pointer) => Math.abs(Number(Fraction.parse(pointer.speed) ?? 0)));
   return Math.min(0.25, Math.max(0.001, 0.5 / Math.max(1, ...speeds)));

@@ -26,7 +26,7 @@ export class Live {
     this.node.textContent = text;
   }
 
-  /** Tells the turns once nothing has moved for half a second. */
+  /** Announces the turns after half a second without motion. */
   rest(drive) {
     clearTimeout(this.waiting);
     this.waiting = setTimeout(() => {

@@ -5,7 +5,7 @@ import { el } from "./element.js";
 import { shown } from "./number.js";
 import { Reading, degrees } from "./reading.js";
 
-/** B - A and what that is of A, where both are exact and in one unit. */
+/** B - A, absolute and relative to A, if both are exact and have the same unit. */
 export function difference(a, b) {
   const [from, to] = [Fraction.parse(a), Fraction.parse(b)];
   if (!from || !to) return null;
@@ -127,7 +127,7 @@ export class Outputs {
     for (const { name, row } of this.rows) row.hidden = !name.toLowerCase().includes(wanted);
   }
 
-  /** Marks the chosen output; returns the button of the one before. */
+  /** Marks the selected output; returns the button of the previous one. */
   mark(name) {
     const before = this.rows.find(({ pick }) => pick.getAttribute("aria-pressed") === "true")?.pick;
     for (const each of this.rows) {

@@ -25,7 +25,7 @@ export class Panel {
       "panels",
     );
     this.tabs.onShow = () => this.open(true);
-    matchMedia("print").addEventListener("change", ({ matches }) => matches && this.set(true)); // pages that were hidden
+    matchMedia("print").addEventListener("change", ({ matches }) => matches && this.set(true)); // print hidden panels too
     this.grip = el(
       "button",
       {
@@ -46,7 +46,7 @@ export class Panel {
     );
   }
 
-  /** Opens or closes the sheet, above which the picture then stands; where there is room the panels always stand open. */
+  /** Opens or closes the sheet below the picture; on wide pages the panels are always open. */
   open(on) {
     const opened = on && this.grip.offsetParent && !this.node.classList.contains("open");
     this.node.classList.toggle("open", on);
@@ -73,7 +73,7 @@ export class Panel {
     this.places.Sky?.replaceChildren(this.sky.node);
     this.places.Wheels.replaceChildren(this.wheels.node);
     this.places.Change?.replaceChildren(this.change.node);
-    const byHand = el("p", { class: "quiet for-fingers" }, BY_HAND); // who has no keys does not see their list
+    const byHand = el("p", { class: "quiet for-fingers" }, BY_HAND); // the list of keys is hidden without a keyboard
     this.places.About.replaceChildren(byHand, ...sides.map((side) => about(side, sides.length > 1)));
   }
 
@@ -84,7 +84,7 @@ export class Panel {
     this.contacts.set(words);
   }
 
-  /** What is changed. */
+  /** Shows the changes. */
   showChange() {
     this.tabs.show("Change");
   }

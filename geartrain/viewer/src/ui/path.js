@@ -1,4 +1,4 @@
-// The way from the input to an output: its pairs in order, in words.
+// The path from the input to an output: its pairs in order, as text.
 import { el } from "./element.js";
 
 /** Pairs and couplings of a pointer in order, each with its wheels and its circuit. */
@@ -26,7 +26,7 @@ export class Path {
     this.node = el("section", { class: "path", hidden: true, "aria-label": "path" });
   }
 
-  /** found: [{side, pointer}], one for each train shown that has the output */
+  /** found: [{side, pointer}] for each displayed train with this output */
   show(output, found) {
     const close = el("button", { type: "button", class: "small", onclick: () => this.onClose() }, "Clear path");
     const head = el("div", { class: "row" }, el("h3", {}, `${title(found[0])} to ${output}`), close);

@@ -3,16 +3,16 @@ import { PAUSE, PLAY } from "./crank.js";
 import { el, field, icon } from "./element.js";
 import { Strip } from "./strip.js";
 
-const SEEN = 10; // blows a second that a reader can follow
+const SEEN = 10; // impacts per second that the eye can follow
 const [SLOWEST, FASTEST] = [-3, 1]; // powers of ten of real time
 
-/** `1.250 s`, with as many places as the run is long. */
+/** A time such as `1.250 s`, with decimals according to the duration of the run. */
 export function seconds(time, duration) {
   const places = Math.min(6, Math.max(0, 4 - Math.ceil(Math.log10(Math.max(duration, 1e-3)))));
   return `${time.toFixed(places)} s`;
 }
 
-/** Seconds of the run a second in which its busiest contact can be followed by eye; not faster than it is. */
+/** Playback speed (simulated seconds per second) at which the eye can follow the busiest contact; at most real time. */
 export function paceOf(run) {
   const most = Math.max(0, ...run.contacts.map(({ impact_rate }) => impact_rate));
   return Math.min(1, Math.max(0.02, SEEN / Math.max(most, 1e-9)));
@@ -76,7 +76,7 @@ export class Playhead {
     return field("Speed", el("span", { class: "with" }, slider, pace), { class: "field speed" });
   }
 
-  /** Puts the reader's hands on the time. */
+  /** Focuses the field for the time. */
   find() {
     this.slider.focus();
   }
@@ -95,7 +95,7 @@ export class Playhead {
   }
 }
 
-/** A speed (rad/s) in words: `1 turn/s`, of what is slow `1.5 turns/h`. */
+/** Text of a speed (rad/s): `1 turn/s`, or `1.5 turns/h` if slow. */
 export function speedInWords(rate) {
   const second = Math.abs(rate) / (2 * Math.PI);
   const [size, unit] = second < 0.001 ? [3600, "h"] : [1, "s"];

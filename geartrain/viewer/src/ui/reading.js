@@ -1,4 +1,4 @@
-// What a pointer reads: its angle from the zero mark, the way its scale is counted, on one turn or several.
+// Reading of a pointer: its angle from the zero mark in the counting direction of its scale, on one or several turns.
 
 import { orderOf } from "../faces.js";
 
@@ -13,13 +13,13 @@ export class Reading {
     this.dial = this.pointer.dial === null ? null : scene.dials[this.pointer.dial];
     this.scale = this.dial?.scale ?? { turns: 1, divisions: 0, way: 1, names: [] };
     this.turns = this.scale.turns;
-    this.sense = this.pointer.sense * this.scale.way; // 1 where the scale is counted as the output grows
-    // turns from the start of the scale at which it starts
+    this.sense = this.pointer.sense * this.scale.way; // 1 if the scale is counted in the positive sense of the output
+    // initial position, in turns from the start of the scale
     this.start = (this.sense * (scene.bodies[this.pointer.body].start - scene.bodies[this.pointer.base].start)) / (2 * Math.PI);
     this.known = this.pointer.speed !== null && Boolean(machine);
   }
 
-  /** Where it stands now, {turns, degrees, cell, scale}: turns from the start of the scale (0 to its number of turns), the way it is counted; null where nothing turns. */
+  /** Current reading {turns, degrees, cell, scale}: turns from the start of the scale (0 to its number of turns) in its counting direction; null without motion. */
   get now() {
     if (!this.known) return null;
     const turns = within(this.sense * this.machine.pointer(this.index).along, this.turns);
@@ -39,10 +39,10 @@ export function degrees(value, places = 2) {
   return `${Number(text) === 360 ? (0).toFixed(places) : text}\u00b0`;
 }
 
-/** Number of the cell, from 1; a hand on a line stands in the cell after it, whatever floats make of the line. */
+/** Number of the cell; a hand on a line is in the cell after it, despite rounding errors. */
 const cellOf = ({ cell, scale }) => Math.floor(cell + 1e-9) % scale.divisions;
 
-/** The turn of a spiral, the name of the division, the cell, what is engraved in it, as `told` of geartrain/scene/dial_scale.py has them. */
+/** The turn of a spiral, the name of the division, the cell and its glyph, as `reading_text` in geartrain/scene/dial_scale.py. */
 function shownAt(reading) {
   const { scale, turns } = reading;
   const done = cellOf(reading);
@@ -55,7 +55,7 @@ function shownAt(reading) {
   return parts.join(", ");
 }
 
-/** As `number` there has it, after some cells. */
+/** Number of the cell after `done` cells, as `number` there. */
 const numberOf = ({ counted, radial }, done) => (!counted ? done + 1 : radial ? within(done - 1, counted) + 1 : done % counted);
 
 const ratio = (text) => {
@@ -63,7 +63,7 @@ const ratio = (text) => {
   return above / below;
 };
 
-/** The reading in words. */
+/** Text of the reading. */
 export function told(reading) {
   if (!reading) return "not determined";
   if (reading.cell === null) return degrees(reading.degrees);

@@ -2,12 +2,12 @@
 import { el, icon } from "./element.js";
 import { fileName, saveAs } from "./saving.js";
 
-const RATE = 30; // pictures a second at most
+const RATE = 30; // maximum number of pictures per second
 const START = "M12 5a7 7 0 1 0 0 14a7 7 0 0 0 0-14z";
 const STOP = "M6 6h12v12H6z";
 const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 
-/** The kind of film this browser records, null where it records none. */
+/** The film format that this browser records; null if it records none. */
 function filmType() {
   if (!HTMLCanvasElement.prototype.captureStream || !globalThis.MediaRecorder) return null;
   return TYPES.find((type) => MediaRecorder.isTypeSupported(type)) ?? null;
@@ -22,7 +22,7 @@ export class Recording {
     this.use([]);
   }
 
-  /** The sides now shown; what was recorded of others ends. */
+  /** Sets the displayed sides, and ends recordings of others. */
   use(sides) {
     this.stop();
     this.sides = sides.filter(({ stage }) => stage?.renderer);
@@ -49,7 +49,7 @@ export class Recording {
       saveAs(new Blob(parts, { type: "video/webm" }), fileName([scene.name, scene.state], "webm"));
     });
     recorder.start();
-    stage.request(); // a canvas at rest gives no picture
+    stage.request(); // a canvas that is not redrawn gives no picture
     return recorder;
   }
 

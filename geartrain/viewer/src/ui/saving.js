@@ -1,7 +1,7 @@
 // Saves the present picture to a file.
 import { drawingOf, pictureOf } from "../still.js";
 
-/** Saves what the sides show as one PNG, called after their trains; where there are plans only, as one SVG. */
+/** Saves the pictures of the sides as one PNG, named after their trains; if they are plans, as one SVG. */
 export async function savePicture(sides) {
   const drawn = sides.filter(({ stage }) => stage);
   const seen = drawn.filter(({ stage }) => stage.renderer);
@@ -12,13 +12,13 @@ export async function savePicture(sides) {
   saveAs(seen.length ? await pictureOf(stages) : drawingOf(stages), fileName(names, seen.length ? "png" : "svg"));
 }
 
-/** The name of a file that shows what has these names. */
+/** A file name from the names of trains. */
 export function fileName(names, suffix) {
   const words = [...new Set(names.filter(Boolean))].join("-");
   return `${words.replace(/[^\w.+-]+/g, "-")}.${suffix}`;
 }
 
-/** Gives a file to the reader. */
+/** Saves a file in the browser. */
 export function saveAs(blob, name) {
   const address = URL.createObjectURL(blob);
   const link = document.createElement("a");

@@ -13,12 +13,12 @@ import { Theme } from "./theme.js";
 const LOOKS = ["free", "front", "side", "back"];
 const EYE = "M2 12c3-5 6.5-7 10-7s7 2 10 7c-3 5-6.5 7-10 7s-7-2-10-7zM12 9.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z";
 const LAYERS = "M12 3l9 4.5-9 4.5-9-4.5zM3 12l9 4.5 9-4.5M3 16.5l9 4.5 9-4.5";
-const IDLE = 45; // s without a hand until a kiosk goes on by itself
+const IDLE = 45; // seconds without input after which a kiosk continues by itself
 const MOST = 6; // maximum number of outputs that a kiosk lists
 const ROUND = 90; // [s] period of the camera of an idle kiosk
 
 export class Showcase {
-  /** What an address and the page ask for: null, or {kiosk, idle}. `#embed`, `#kiosk`, `#kiosk=20` (seconds of idleness) */
+  /** Options from the address: null, or {kiosk, idle}. `#embed`, `#kiosk`, `#kiosk=20` (seconds without input) */
   static asked(hash, shown) {
     const [, name, idle] = /^#(embed|kiosk)(?:=(\d{1,5}))?$/.exec(hash) ?? [null, shown];
     if (name !== "embed" && name !== "kiosk") return null;
@@ -78,7 +78,7 @@ export class Showcase {
     return [this.date, el("dl", { class: "read" }, this.read.map(({ hand, value }) => el("div", {}, el("dt", {}, hand.pointer.output), value)))];
   }
 
-  /** Its picture; called once the words are seen. */
+  /** Opens the picture; called after the text is visible. */
   openStages() {
     this.stage = this.app.open(this.index);
     const { canvas } = this.stage;
@@ -92,7 +92,7 @@ export class Showcase {
     else this.#beginWhenSeen();
   }
 
-  /** A frame far down a page costs nothing; where motion is not wanted nothing begins by itself. */
+  /** Starts when the frame is visible, and not by itself for users who prefer reduced motion. */
   #beginWhenSeen() {
     if (this.drive.calm.matches) return;
     new IntersectionObserver((seen) => {
@@ -137,7 +137,7 @@ export class Showcase {
     this.playing.querySelector("svg").replaceWith(icon(drive.playing ? PAUSE : PLAY));
   }
 
-  /** A kiosk listens for hands: the first fills the screen, and when there are none for long it goes on by itself. */
+  /** Listens for input: the first makes a kiosk full-screen, and after a time without input the kiosk continues by itself. */
   #attend() {
     document.addEventListener("contextmenu", (event) => event.preventDefault());
     document.addEventListener("click", () => {
@@ -154,7 +154,7 @@ export class Showcase {
     this.waiting = setTimeout(() => this.#leave(), this.idle);
   }
 
-  /** Whole, seen from where it is seen best, turning, with a camera that goes round it slowly. */
+  /** Resets the picture to the best view and plays it, with a camera that slowly moves around it. */
   #leave() {
     this.alone = true;
     this.look = 0;

@@ -1,4 +1,4 @@
-// A side: a train, or a state of it, that can be shown, and its picture while it is.
+// A side: a train in one state that can be displayed, and its picture while it is displayed.
 import { CountFormulas } from "../formulas.js";
 import { Fraction } from "../fraction.js";
 import { Machine } from "../motion.js";
@@ -13,7 +13,7 @@ export class Side {
     this.index = index;
     this.scene = app.scenes[index];
     this.machine = app.machines[index];
-    this.declared = this.scene; // as it came, whatever is changed here
+    this.declared = this.scene; // the unchanged scene
     this.declaredMachine = this.machine;
     this.formulas = this.scene.formulas ? new CountFormulas(this.scene) : null;
     this.counts = this.formulas?.declared ?? [];
@@ -27,7 +27,7 @@ export class Side {
     this.figure = el("figure", { class: "view", hidden: true }, this.place, caption);
   }
 
-  /** Makes its picture; true where there was none. */
+  /** Opens the picture; true if there was none. */
   open() {
     if (this.stage) return false;
     this.stage = this.app.open(this.index);
@@ -51,7 +51,7 @@ export class Side {
     this.place.replaceChildren();
   }
 
-  /** Other counts, in the order of the formulas: all numbers at once, the picture by `redraw`. */
+  /** Changes the counts, in the order of the formulas; the numbers change immediately, the picture with `redraw`. */
   change(counts) {
     this.counts = counts;
     const { turns } = this.machine;
@@ -63,7 +63,7 @@ export class Side {
     this.app.machines[this.index] = this.machine;
   }
 
-  /** The picture of what is now there, soon: many steps in a row are drawn once. */
+  /** Redraws the picture after a short time, once for several successive changes. */
   redraw(dress) {
     clearTimeout(this.drawing);
     this.drawing = setTimeout(() => {
@@ -84,7 +84,7 @@ export class Side {
     });
   }
 
-  /** How the meshes stand on their axes with the counts there are. */
+  /** Misfits of the meshes with their axes for the current counts. */
   get meshes() {
     return this.formulas.meshes(this.counts);
   }
@@ -93,7 +93,7 @@ export class Side {
     return this.scene.movement.kind !== "still" && this.scene.driving_link !== null;
   }
 
-  /** Units of time of the input in one turn of its lead, and what they are: days, or a unit by name; null: no time. */
+  /** Duration of one turn of the driving link, and its unit: days, or a named unit; null without a time unit. */
   get #unit() {
     const { step, unit, unit_days: days, run } = this.scene;
     if (run) return { name: "seconds of a run", size: Fraction.of(run.period) };
@@ -102,7 +102,7 @@ export class Side {
     return days ? { name: "days", size: Fraction.of(days).over(turns) } : { name: unit, size: Fraction.of(1).over(turns) };
   }
 
-  /** Turns of its lead for one turn of another's: in equal times where both have a unit, else as many. */
+  /** Turns of the driving link for one turn of another side's: in equal times if both have a unit, else equal. */
   gearing(other) {
     const [own, its] = [this.#unit, other.#unit];
     return own && its && own.name === its.name ? its.size.over(own.size) : Fraction.of(1);
@@ -112,7 +112,7 @@ export class Side {
     return this.scene.driving_link === null ? "the input" : this.scene.bodies[this.scene.driving_link].id;
   }
 
-  /** What one turn of another side's lead is here, in words; nothing where that goes without saying. */
+  /** Text of what one turn of another side's driving link is here; empty if they are equal. */
   beside(other) {
     const turns = this.gearing(other);
     if (turns.equals(1) && this.lead === other.lead) return "";

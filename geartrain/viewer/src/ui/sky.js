@@ -8,7 +8,7 @@ import { Reading, degrees, within } from "./reading.js";
 
 const CENTURY = 36525; // days
 
-/** True where a scene has something to be held against. */
+/** True if a pointer of a scene has a target. */
 export const hasTargets = (scene) => scene.pointers.some(({ targets }) => targets.length);
 
 /** What a pointer should read, turns from the start of its scale, had it turned at a target's speed since the start. */
@@ -20,7 +20,7 @@ export function skyOf(reading, target, turns) {
 /** Turns by which a pointer is ahead of a target in mean motion, exactly; both in their declared sense. */
 export const aheadOf = (pointer, target, turns) => Fraction.of(pointer.speed).minus(target.speed).times(turns);
 
-/** Degrees with a sign, of turns. */
+/** Text of turns in degrees with a sign. */
 export function signed(turns) {
   const value = Number(turns) * 360;
   if (!value) return "0\u00b0";
@@ -99,7 +99,7 @@ export class Sky {
   }
 }
 
-/** A name that may be broken behind its underscores. */
+/** A name with possible line breaks after its underscores. */
 const breakable = (name) => name.split(/(?<=_)/).flatMap((part) => [part, el("wbr")]);
 
 /** Epoch of the pointers, with its source and calendar. */

@@ -1,12 +1,12 @@
 // A strip that scrolls under a mark: intervals without contact or on the coast flank, and impacts, for each contact.
 import { el } from "./element.js";
 
-const WINDOW = 6; // s as the reader sees them
-const AHEAD = 1 / 3; // of the strip lies before the mark
-const NAMED = 12; // px: lanes as high are named
+const WINDOW = 6; // width of the strip [s of real time]
+const AHEAD = 1 / 3; // fraction of the strip before the mark
+const NAMED = 12; // px: minimum height of lanes with names
 const NAMES = 84; // px
-const SLIP = 4; // px a finger may slip in a tap
-const FINE = 0.5; // px: what lies nearer than that to what is drawn is not drawn
+const SLIP = 4; // maximum movement of a finger in a tap [px]
+const FINE = 0.5; // px: marks closer to a drawn mark are omitted
 
 export class Strip {
   constructor(run) {
@@ -47,10 +47,10 @@ export class Strip {
     return Math.min(Math.max(0, this.time - (1 - AHEAD) * this.#span), this.run.duration - this.#span);
   }
 
-  /** A tap goes to a moment; dragged, the strip runs under its mark as paper would. */
+  /** A tap selects a time; a drag moves the strip under its mark. */
   #grab(event) {
     const [from, began] = [event.clientX, this.time];
-    const scale = this.#span / (this.width - this.#left); // s a pixel
+    const scale = this.#span / (this.width - this.#left); // seconds per pixel
     let moved = false;
     const move = (each) => {
       moved ||= Math.abs(each.clientX - from) > SLIP;
@@ -86,7 +86,7 @@ export class Strip {
     pen.fillRect(place(this.time) - 0.75, 0, 1.5, this.height);
   }
 
-  /** What the page paints with, read anew when its theme has changed. */
+  /** Colours of the page, read again after a change of theme. */
   #colours() {
     const { theme } = document.documentElement.dataset;
     if (!this.colours || this.theme !== theme) {

@@ -71,7 +71,7 @@ export class Tools {
     this.#asRoomIs(() => (this.small.matches ? this.row : place).append(...seldom));
   }
 
-  /** The sides now shown; the picture is brought to what the controls say. */
+  /** Sets the displayed sides, and applies the controls to their pictures. */
   use(sides) {
     this.sides = sides;
     this.recording.use(sides);
@@ -89,7 +89,7 @@ export class Tools {
     this.paint(this.mode);
   }
 
-  /** A picture that was made anew, as the controls say; from where it is looked at stays. */
+  /** Applies the controls to a new picture; the viewing direction is kept. */
   dress(side, stage) {
     stage.hideFront(this.front.checked);
     stage.showTeeth(this.teeth.checked);
@@ -98,7 +98,7 @@ export class Tools {
     side.legend.replaceChildren(legend(side.scene, this.mode));
   }
 
-  /** Shows which button says from where one looks; none does once a hand has turned the picture. */
+  /** Marks the button of the viewing direction; none after the user has turned the picture. */
   #press(look) {
     for (const each of this.looks) each.setAttribute("aria-pressed", String(each.dataset.look === look));
   }
@@ -131,7 +131,7 @@ export class Tools {
     this.#each((stage) => stage.paint(mode));
   }
 
-  /** The next colours in turn. */
+  /** Selects the next colours. */
   next() {
     const modes = Object.keys(MODES);
     this.paint(modes[(modes.indexOf(this.mode) + 1) % modes.length]);

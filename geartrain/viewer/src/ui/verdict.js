@@ -1,7 +1,7 @@
 // The verdict on a train; a loop that locks it is shown in red after a click.
 import { el } from "./element.js";
 
-/** Pairs of a loop by name and its wheels by index; where it has no pairs, its bodies. */
+/** Names of the pairs of a loop and indices of its wheels; without pairs, its bodies. */
 export function loopParts(scene, loop) {
   const pairs = scene.pairs.filter((pair) => (loop.pairs ?? []).includes(pair.id));
   return {
@@ -13,7 +13,7 @@ export function loopParts(scene, loop) {
   };
 }
 
-/** Brakes and clutches: what each holds or joins, the closed ones filled; a click shows it. */
+/** Brakes and clutches with the bodies that they hold or connect, engaged ones filled; a click highlights the bodies. */
 function elements({ scene }, onElement) {
   if (!scene.elements?.length) return null;
   return el(

@@ -7,7 +7,7 @@ import { shown } from "./number.js";
 const STATUS = { surviving: "surviving", reconstructed: "reconstructed", hypothetical: "hypothetical" };
 const percent = (part) => `${(part * 100).toPrecision(3)} % of the input power`;
 
-/** Rows of what is known: [term, words or an element]. */
+/** Rows of the data of a wheel: [term, text or an element]. */
 export function facts(scene, wheel, say, teeth = null) {
   const body = scene.bodies[wheel.body];
   const source = scene.sources[wheel.source];

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel
     from geartrain.workshop.export.proof.turned_pair import TurnedPair
 
-_POSES = (Fraction(0), Fraction(1, 7), Fraction(17, 31), Fraction(41, 13))  # turns of the driving link
+# turns of the driving link, with prime denominators, so that teeth are seldom in the same phase in two poses
+_POSES = (Fraction(0), Fraction(1, 7), Fraction(17, 31), Fraction(41, 13))
 _TOUCH = 2e-3  # of a pitch: tolerated overlap of wheels in contact, due to chords and rounded coordinates
 _PARALLEL = 1e-9  # deviation of a cosine from 1 that counts as rounding
 
@@ -41,30 +42,23 @@ class LinkFreedom(Result):
     link: str
     """Name of the link."""
     backlash: float | None
-    """Total range of the angle [rad], due to the backlash of all meshes up to the link; None if the teeth do not limit
-    it.
-    """
+    """Range of the angle [rad], due to the backlash of all meshes up to the link; None if teeth do not limit it."""
 
 
-@dataclass(frozen=True, slots=True)
-class FreedomProof:
-    """Freedom of all links except the frame and the inputs, and findings where it contradicts the result of `solve`."""
-
-    links: tuple[LinkFreedom, ...]
-    findings: tuple[BuildFinding, ...] = ()
+FreedomProof = tuple[tuple[LinkFreedom, ...], tuple[BuildFinding, ...]]
 
 
 def prove_freedom(
     work: SolidModel, pairs: Mapping[str, TurnedPair], names: Mapping[str, tuple[str, str]]
 ) -> FreedomProof:
-    """Return the freedom of all links, computed from the teeth.
+    """Return the freedom of links other than frame and inputs, and findings where it contradicts the result of `solve`.
 
     pairs   meshes that were proved to turn individually; `names`, wheels 1 and 2 of each
     """
     try:
         return _Motion(work, pairs, names).prove()
     except GearTrainError as error:  # pairs that depend on each other and do not converge
-        return FreedomProof((), tuple(BuildFinding("F1", "note", problem) for problem in error.problems))
+        return (), tuple(BuildFinding("F1", "note", problem) for problem in error.problems)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,14 +93,12 @@ class _Motion:
             if not at:
                 links = tuple(self._links(rows))
                 findings |= {found.problem.what: found for found in self._contradictions(links, rows, turns)}
-        return FreedomProof(links, tuple(findings.values()))
+        return links, tuple(findings.values())
 
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes at a pose, and by pair the distance by which a wheel is outside its
-        backlash [mm].
-        """
+        """Return the constraints of all meshes at a pose, and the excess beyond the backlash by pair [mm]."""
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
         for circuit in self.work.sized.circuits:
@@ -122,9 +114,7 @@ class _Motion:
         return rows, off
 
     def _ratio_constraint(self, circuit: Circuit) -> Floats:
-        """Return the constraint of a circuit without turned outlines, such as a pin and slot or a bevel pair, from its
-        ratio.
-        """
+        """Return the constraint from the ratio of a circuit that has no turned outlines, such as a bevel pair."""
         weights = np.zeros(len(self.scene.bodies))
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
@@ -133,9 +123,7 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the directions (1 or -1) of both wheels and their carrier about the first axis; None if not
-        parallel.
-        """
+        """Return the senses (1 or -1) of both wheels and their carrier about the first axis; None if not parallel."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -174,9 +162,7 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle of a wheel's first tooth in the zero pose, from the point of contact about the first axis
-        [rad].
-        """
+        """Return the angle of a wheel's first tooth in the zero pose, from the contact about the first axis [rad]."""
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
         x = between - (between @ n) * n
@@ -202,27 +188,19 @@ class _Motion:
             rows.append(row)
         return np.array(rows)
 
-    def _input_equations(self) -> Floats:
-        """Return the rows of coefficients of equations that fix each input."""
-        count = len(self.scene.bodies)
-        return np.array([np.eye(count)[self.bodies[link]] for link in self.case.inputs]).reshape(-1, count)
-
     def _links(self, rows: Sequence[_Constraint]) -> Iterator[LinkFreedom]:
         """Yield the freedom of each link while the inputs are fixed."""
-        fixed = np.concatenate([self._fixed_equations, self._input_equations()])
-        still = {self.work.sized.declaration.frame}
+        held = np.eye(len(self.scene.bodies))[[self.bodies[link] for link in self.case.inputs]]
+        fixed = np.concatenate([self._fixed_equations, held])
+        still = {self.work.sized.declaration.frame, *self.case.inputs}
         for body in self.scene.bodies:
             if body.id in still or body.bookkeeping:
-                continue
-            if body.id in self.case.inputs:
                 continue
             ends = [self._maximum_angle(rows, fixed, self.bodies[body.id], way) for way in (-1, 1)]
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite if it is not
-        limited.
-        """
+        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite without limit."""
         from scipy.optimize import linprog
 
         cost = np.zeros(len(self.scene.bodies))
@@ -261,7 +239,8 @@ class _Motion:
                 yield _finding("error", what, why, "declare a tooth form for its meshes, or give taller teeth")
             elif link.backlash is not None and speeds[link.link] is None:
                 what = f"link '{link.link}' is fixed by its teeth, but `solve` does not determine its speed"
-                yield _finding("note", what, "the proof and the solution contradict each other", "")
+                fix = "check the pairs of this link, or declare another input"
+                yield _finding("note", what, "the proof and the solution contradict each other", fix)
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:
             return

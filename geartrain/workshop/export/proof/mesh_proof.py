@@ -1,6 +1,4 @@
-"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each checked against a
-rule.
-"""
+"""Proof of every mesh of a train on its written outlines: rules on overlap, backlash, clearance and tips."""
 
 from __future__ import annotations
 
@@ -35,9 +33,7 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""Maximum difference by which the measured backlash may be below the declared one [mm]: the accuracy of the
-outlines.
-"""
+"""Amount by which the measured backlash may be below the declared one [mm]: the accuracy of the outlines."""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
 _AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
 _BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
@@ -56,7 +52,7 @@ class MeshProof(Result):
     pair: str
     """Name of the pair."""
     declared: float
-    """Declared backlash along the pitch circle of the second wheel, or of the internal wheel [mm]."""
+    """Declared backlash along the pitch circles [mm]."""
     minimum: float
     """Minimum measured backlash [mm]."""
     most: float
@@ -118,15 +114,15 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return every mesh of two cut wheels by pair: its backlash, its blanks (an internal one second), its turned
-    outlines.
-    """
-    found = {}
+    """Return backlash, blanks and outlines of each pair of cut wheels; the internal or driven wheel is second."""
+    # the backlash of teeth that are not conjugate is stated for a driver that is held
+    found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:
         bent = any(work.train.declaration.wheels[name][1].flexible for name in backlash.wheels)
         if set(backlash.wheels) <= set(cut.materials) and not bent:
             one, other = (work.blanks.wheels[name] for name in backlash.wheels)
-            wheels = (other, one) if one.kind == "ring" else (one, other)
+            driven_first = other.wheel == drivers.get(backlash.pair) and other.kind != "ring"
+            wheels = (other, one) if one.kind == "ring" or driven_first else (one, other)
             names = tuple(each.wheel for each in wheels)
             first, second = (cut.materials[name] for name in names)
             counts = wheels[0].teeth, wheels[1].teeth

@@ -117,7 +117,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
         watch()
     stuck = {mesh.pair for mesh in meshes if build_errors(mesh.findings)}
     names = {pair: (wheels[0].wheel, wheels[1].wheel) for pair, (_, wheels, _) in paired.items()}
-    freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
+    links, freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
     watch()
     uncut = [*_uncut(work)]
     named = {
@@ -126,22 +126,27 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     findings = [found for found in work.sized.build_findings if found.problem.what not in named]
     findings += [*uncut, *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
-    findings += [*prove_waves(work, cut), *freedom.findings, *prove_solids(work, watch)]
+    findings += [*prove_waves(work, cut), *freedom, *prove_solids(work, watch)]
     ranked = sorted(findings, key=lambda found: not found.is_error)  # stable, with errors first
-    return TrainProof(tuple(meshes), freedom.links, tuple(ranked))
+    return TrainProof(tuple(meshes), links, tuple(ranked))
 
 
 def proof_is_installed() -> bool:
     """Return True if shapely and manifold3d are installed, False otherwise."""
+    return are_installed("shapely", "manifold3d")
+
+
+def are_installed(*libraries: str) -> bool:
+    """Return True if all of the given libraries are installed, False otherwise."""
     try:
-        return all(find_spec(name) is not None for name in ("shapely", "manifold3d"))
+        return all(find_spec(name) is not None for name in libraries)
     except (ImportError, ValueError):
         return False
 
 
 def proof_steps(work: SolidModel) -> int:
     """Return the number of times that `prove_train` calls `watch`."""
-    return len(work.blanks.backlashes) + 1 + pose_count(work)
+    return len(work.blanks.backlashes) + 1 + len(_poses(work))
 
 
 def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
@@ -175,7 +180,7 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
     """
     solids = _Solids(work)
     found: dict[tuple[int, int], float] = {}
-    for turns in _POSES if work.scene.driving_link is not None else _POSES[:1]:
+    for turns in _poses(work):
         pose = scene_pose(work.scene, turns)
         for one, other in solids.near(pose):
             if (one, other) not in found and (common := solids.common(one, other, pose)):
@@ -185,9 +190,8 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
     return tuple(_finding(work.parts[one], work.parts[other], volume) for (one, other), volume in ranked)
 
 
-def pose_count(work: SolidModel) -> int:
-    """Return the number of calls of `watch` by `prove_solids`."""
-    return len(_POSES) if work.scene.driving_link is not None else 1
+def _poses(work: SolidModel) -> tuple[Fraction, ...]:
+    return _POSES if work.scene.driving_link is not None else _POSES[:1]
 
 
 class _Solids:
@@ -219,7 +223,9 @@ class _Solids:
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
         """Return the common volume of two parts in a pose [mm3]; 0 for a sliver."""
-        solids = [self._made(at).transform(_matrix(pose, self.parts[at].body)) for at in (one, other)]
+        bodies = [(at, self.parts[at].body) for at in (one, other)]
+        moves = (np.column_stack([pose.turned[body], pose.moved[body]]) for _, body in bodies)
+        solids = [self._made(at).transform(move) for (at, _), move in zip(bodies, moves, strict=True)]
         volume = float((solids[0] ^ solids[1]).volume())
         minimum = max(SLIVER, _SHARE * min(each.volume() for each in solids))
         return volume if volume > minimum else 0.0
@@ -231,10 +237,6 @@ class _Solids:
             mesh = self.library.Mesh64(np.ascontiguousarray(self.placed[at], dtype=float), faces)
             self.made[at] = self.library.Manifold(mesh)
         return self.made[at]
-
-
-def _matrix(pose: ScenePose, body: int) -> Floats:
-    return np.column_stack([pose.turned[body], pose.moved[body]])
 
 
 def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
@@ -274,9 +276,7 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the common areas of a bent flexible wheel and its internal wheel, at several positions of the wave
-    [mm2].
-    """
+    """Yield the common area of a bent flexible wheel and its internal wheel at each position of the wave [mm2]."""
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring

@@ -1,5 +1,4 @@
-"""Two written outlines turned against each other: their overlap, and the range of angles in which the second one is
-free.
+"""Two written outlines turned against each other: their overlap, and the angles at which the second one is free.
 
 Wheel 1 is at the origin. Wheel 2 is at the distance between the axes on the positive x axis, or on the negative one if
 it is internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
@@ -12,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import acos, atan2, ceil, cos, hypot, lcm, pi, sin, sqrt
 from typing import TYPE_CHECKING, Any
@@ -50,8 +49,6 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 class FreeTurn:
     """Range of angles in which wheel 2 is free while wheel 1 turns; arrays with one item for each position."""
 
-    turned: Floats
-    """Angles of wheel 1 from the position with a tooth on the line of centres [rad]."""
     low: Floats
     """Minimum lag at which wheel 2 is free [rad]; NaN at positions without a free lag."""
     high: Floats
@@ -74,6 +71,8 @@ class TurnedPair:
     ring: bool = False
     same: float = SAME
     """Maximum difference between teeth that are treated as equal [mm]."""
+    _cropped: dict[tuple[int, int], Any] = field(default_factory=dict, repr=False, compare=False)
+    """Regions of contact that were already cropped, by wheel and kind of tooth."""
 
     @cached_property
     def pitches(self) -> tuple[float, float]:
@@ -88,18 +87,14 @@ class TurnedPair:
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free range of wheel 2 through a pitch of wheel 1; if teeth differ, for all tooth pairs that
-        meet.
-        """
+        """Return the free range of wheel 2 through a pitch of wheel 1, or for all different tooth pairs that meet."""
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet; one entry for each different
-        combination.
-        """
+        """Tooth of wheel 1 and space of wheel 2 that meet, by index; one entry for each different combination."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -127,12 +122,10 @@ class TurnedPair:
         ends = [self._last_free_lag(first, t, lag, way, tooth_pair) for way in (-1, 1)]
         blocked = areas > NOTHING
         low, high = (np.where(blocked, np.nan, end) for end in ends)
-        return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
+        return FreeTurn(low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Return the free range of one tooth pair through a pitch, and at further positions where its middle is not
-        free.
-        """
+        """Return the free range of a tooth pair through a pitch, and at further positions that are not free."""
         t = self._positions(_STEPS)
         found = self.free(t, np.zeros(_STEPS), tooth_pair)
         held = np.isfinite(found.low) & np.isfinite(found.high)
@@ -153,9 +146,7 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the nearest lag within half a pitch at which wheel 2 is free, or else the lag with the minimum
-        overlap.
-        """
+        """Return the nearest free lag of wheel 2 within half a pitch, or else the lag of minimum overlap."""
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
         open_ = np.flatnonzero(areas <= NOTHING)
@@ -168,9 +159,7 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lag in one direction by bisection [rad]; infinite if no tooth stops the wheel within a
-        pitch.
-        """
+        """Return the last free lag in one direction by bisection [rad]; infinite without a stop within a pitch."""
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
@@ -217,30 +206,20 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the part of a wheel that can touch the other while a tooth (wheel 2: a space) passes the line of
-        centres.
-        """
+        """Return the part of a wheel that can touch while a tooth (wheel 2: a space) passes the line of centres."""
         kind = which, self._alike[which][tooth]
-        if kind not in self._cropped:
-            self._cropped[kind] = self._crop(which, tooth)
-        return self._cropped[kind]
-
-    @cached_property
-    def _cropped(self) -> dict[tuple[int, int], Any]:
-        """Regions of contact that were already cropped, by wheel and kind of tooth."""
-        return {}
-
-    def _crop(self, which: int, tooth: int) -> Any:
-        """Return a wheel rotated to a tooth (wheel 2: a space) at the contact, and cropped to the region that can
-        touch.
-        """
+        if kind in self._cropped:
+            return self._cropped[kind]
         shapely = plane_geometry()
         pitch = self.pitches[which]
         facing = 0.0 if which == 0 or self.ring else pi
         turn = facing - tooth * pitch + (0.0 if which == 0 else pitch / 2)
         whole = _moved(self.materials[which], np.array([turn]), 0.0)[0]
         half = self._extents[which] + 1.1 * pitch  # the wheel turns by up to a pitch, plus a margin
-        return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
+        if half < pi / 2:
+            whole = shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
+        self._cropped[kind] = whole
+        return whole
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -261,10 +240,10 @@ class TurnedPair:
 
 
 def _joined(found: Sequence[FreeTurn], place: tuple[float, float] | None) -> FreeTurn:
-    turned, low, high, overlap = (
-        np.concatenate([getattr(each, name) for each in found]) for name in ("turned", "low", "high", "overlap")
+    low, high, overlap = (
+        np.concatenate([getattr(each, name) for each in found]) for name in ("low", "high", "overlap")
     )
-    return FreeTurn(turned, low, high, overlap, place)
+    return FreeTurn(low, high, overlap, place)
 
 
 def _part(radius: float, tip: float, root: float) -> str:
@@ -289,9 +268,7 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return for each tooth the index of the first equal tooth: all 0 if a rotation by a pitch does not change the
-    wheel, otherwise the index of the tooth itself.
-    """
+    """Return the kind of each tooth: all 0 if the wheel coincides with itself after a pitch, else its own index."""
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)

@@ -4,7 +4,7 @@ Bit masks represent shared arbors and wheels. After each choice only paths of th
 with all chosen ones, and the dial with the fewest paths is next.
 
 The distance between two dials is the number of added wheels on exactly one of their paths. A table of quotients gives a
-lower bound of it, and thus of the number of added wheels on both paths.
+lower bound of it, and thus of the number of added wheels on two paths, and on three by the shortest tour of their ends.
 """
 
 from __future__ import annotations
@@ -156,7 +156,13 @@ class PathChoice:
             rows = rows[self._columns[other].fit(rows, self._columns[dial], row)]
             for path in chosen.items():
                 rows = rows[self._fork(path, (dial, row), other, rows)]
-            kept[other] = rows = rows[self._is_near(dial, row, other, rows)]
+            far = self._distances(dial, row, other, rows)
+            near = self.lists[dial].wheels[row] + self.lists[other].wheels[rows] + far <= 2 * self._added
+            rows, far = rows[near], far[near]
+            for path in chosen.items():
+                near = self._close(path, (dial, row), other, rows, far)
+                rows, far = rows[near], far[near]
+            kept[other] = rows
             if not len(rows):
                 return None
         return kept
@@ -181,22 +187,28 @@ class PathChoice:
         same = (minimum[rows] <= high[row] * (1 + ROUNDING)) & (maximum[rows] >= low[row] * (1 - ROUNDING))
         return np.asarray(same | (room > 0))
 
-    def _is_near(self, end: str, row: int, dial: str, rows: Rows) -> Bools:
-        """Return whether a train may have each path and a chosen path, by a lower bound of their number of added
-        wheels.
-        """
+    def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
+        """Return a lower bound of the distance of each path from a chosen path."""
         first, second = self.lists[end], self.lists[dial]
-        whole = first.wheels[row] + second.wheels[rows]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
             fewest = self.tables.fewest((minimum[rows] / high[row], maximum[rows] / low[row]))
         # shared wheels are on both paths, so the distance has the parity of the sum
-        far = fewest + (whole - fewest) % 2
+        far = fewest + (first.wheels[row] + second.wheels[rows] - fewest) % 2
         if self._idlers:  # the count of an added idler at which paths separate affects only one of them
             passed = self._columns[dial].passes_added[rows] | self._columns[end].passes_added[row]
             far = np.where(passed, np.maximum(fewest - 1, 0), far)
-        # shared wheels count twice in `whole`, wheels of one path once in `whole` and once in `far`
-        return np.asarray(whole + far <= 2 * self._added)
+        return np.asarray(far, dtype=np.int64)
+
+    def _close(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows, far: Rows) -> Bools:
+        """Return whether a tour from the input past the ends of two chosen paths and of each path and back is short
+        enough, where `far` is the distance from the second path. A tour around a tree passes each added wheel twice.
+        """
+        (near,) = self._distances(*one, other[0], np.array([other[1]]))
+        apart, own = self._distances(*one, dial, rows), self.lists[dial].wheels[rows]
+        first, second = (self.lists[end].wheels[row] for end, row in (one, other))
+        tours = (first + near + far + own, first + apart + far + second, second + near + apart + own)
+        return np.asarray(np.minimum.reduce(tours) <= 2 * self._added)
 
 
 class _RoundRobin:
